@@ -1,0 +1,99 @@
+// The frame of every program: options, MPI, log, exit codes.
+//
+//     int main(int argc, char* argv[]) {
+//         Application app("dmpFlow", "Red blood cells in flow.", argc, argv, {.options = solverOptions()});
+//         return app.run([&] {
+//             Problems problems;
+//             const Node control = app.dictionary("system/control.yaml", problems);
+//             ...
+//             return ExitCode::done;
+//         });
+//     }
+//
+// A wrong command line, -help and -version are dealt with in run(), which then does not enter the body. Whatever the
+// body throws is printed once and becomes the exit code; when one rank fails while others wait for it, all are ended
+// with that code.
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/communicator.hpp"
+#include "core/dictionary.hpp"
+#include "core/log.hpp"
+
+namespace corpuscle {
+
+struct Option {
+    std::string name;      // "steps", written -steps
+    std::string argument;  // "N"; empty: a switch
+    std::string text;      // one sentence
+};
+
+// -dry-run, -steps N, -restart TIME.
+std::vector<Option> solverOptions();
+
+struct Usage {
+    std::vector<Option> options = {};       // beside -case -set -quiet -json -help -version
+    std::vector<Option> arguments = {};     // words without dash, in order; name "FROM"; all are required ...
+    std::size_t optionalArguments = 0;      // ... but the last so many
+    std::vector<std::string> samples = {};  // sample runs, "dmpFlow -case rbcShear/Ca0.02 -steps 10"
+};
+
+class Application {
+  public:
+    Application(std::string name, std::string text, int argc, char** argv, Usage usage = {});
+    ~Application();
+    Application(const Application&) = delete;
+    Application& operator=(const Application&) = delete;
+
+    const std::string& name() const { return name_; }
+    const Communicator& communicator() const { return *communicator_; }
+    Log& log() { return *log_; }
+    bool json() const { return has("json"); }  // stdout is for one JSON value, which the application prints
+
+    std::filesystem::path caseDirectory() const;
+    std::filesystem::path path(const std::string& inCase) const { return caseDirectory() / inCase; }
+
+    bool has(const std::string& option) const { return given_.contains(option); }
+    std::optional<std::string> value(const std::string& option) const;
+    // Failure(usage) when the text is no whole number of at least `low`.
+    std::optional<long> integer(const std::string& option, long low = 0) const;
+    const std::vector<std::string>& arguments() const { return arguments_; }
+    std::string commandLine() const { return commandLine_; }
+    const std::vector<Override>& overrides() const { return overrides_; }
+
+    // Collective. A file of the case, read by the root, with the -set changes laid over it.
+    Node dictionary(const std::string& inCase, Problems& problems) const;
+    // Whether the case has this file. Collective.
+    bool hasDictionary(const std::string& inCase) const;
+
+    // Starts log.<application> in the case directory.
+    void openLog();
+
+    int run(const std::function<ExitCode()>& body);
+
+  private:
+    void parse(int argc, char** argv);
+    std::vector<Option> allOptions() const;
+    std::string helpText() const;
+    void checkOverrides() const;
+    void printFailure(const std::exception& error, bool named) const;
+    int endTogether(ExitCode code, const std::exception* error);
+
+    std::string name_, text_, commandLine_;
+    Usage usage_;
+    std::map<std::string, std::string> given_;
+    std::vector<std::string> arguments_;
+    std::vector<Override> overrides_;
+    std::optional<Failure> usageFailure_;
+    bool ownsMpi_ = false;
+    MPI_Comm meeting_ = MPI_COMM_NULL;  // only for the end, so that nothing else can be mistaken for it
+    std::optional<Communicator> communicator_;
+    std::optional<Log> log_;
+};
+
+}  // namespace corpuscle

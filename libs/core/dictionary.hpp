@@ -1,0 +1,68 @@
+// One YAML file of a case, read strictly.
+//
+// The subset: no anchors, aliases, tags, merges or tabs; duplicate keys are errors; every scalar is kept as text, so
+// that "012" and "no" mean what they say. A Node knows its place (file:line:column) and its full key. Overrides (-set)
+// are laid over the file before anything is read and have the place "-set".
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace corpuscle {
+
+class Node {
+  public:
+    enum class Kind { scalar, list, table };
+
+    Kind kind = Kind::table;
+    Mark mark;           // of the value
+    Mark keyMark;        // of the key that holds it
+    std::string path;    // "cells[0].shape.d"; empty for the whole file
+    std::string scalar;  // kind scalar: the text as written (quotes removed)
+    bool quoted = false;
+    std::vector<Node> items;                            // kind list
+    std::string unit;                                   // kind list: the unit after it, "um" in "[20, 16, 16] um"
+    std::vector<std::pair<std::string, Node>> entries;  // kind table, in the order of the file
+
+    const Node* find(std::string_view key) const;
+    Node* find(std::string_view key);
+    bool isNothing() const { return kind == Kind::scalar && !quoted && scalar.empty(); }  // "key:" without a value
+    std::string kindText() const;  // "a table", "a list of 3", "the word 'tait'", "the number 3" for messages
+    // Of the key, or of the value without one.
+    const Mark& place() const { return keyMark.file.empty() ? mark : keyMark; }
+    void setPath(const std::string& newPath);  // of this node and all below it
+
+    static Node word(std::string text);
+    static Node list(const std::vector<std::string>& words, std::string unit = {});
+};
+
+bool isName(const std::string& text);  // [A-Za-z][A-Za-z0-9_-]*
+
+// Reads and checks the form of one file. Faults of form go to `problems`; the returned node then holds what could be
+// read. A file that does not exist is a problem too (what would have to be there, and which application writes or needs
+// it).
+Node readDictionary(const std::filesystem::path& file, const std::string& shownAs, Problems& problems);
+
+// Parses from memory: a whole file, whose root is a table, or one value of any kind.
+Node parseDictionary(const std::string& text, const std::string& shownAs, Problems& problems);
+Node parseValue(const std::string& text, const std::string& shownAs, Problems& problems);
+
+// One -set FILE:/path/to/key=value. The value is YAML ("16 um", "[1, 2, 3]", "{type: lucy}"); list items by number
+// ("cells/0/edge"). A key that the file lacks is added (the reader then says whether it is known).
+struct Override {
+    std::string file;  // "system/control.yaml"
+    std::string path;  // "/write/strain"
+    std::string value;
+};
+Override parseOverride(const std::string& text);  // throws Failure(usage)
+void applyOverride(Node& root, const Override& change, Problems& problems);
+
+// YAML text of a node; parsing it gives the same node.
+std::string emit(const Node& node);
+
+}  // namespace corpuscle

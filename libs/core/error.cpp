@@ -1,0 +1,92 @@
+#include "core/error.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace corpuscle {
+
+std::string Mark::text() const {
+    if (line <= 0) return file;
+    return file + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+std::string Problem::text() const {
+    std::string text = mark.text();
+    if (!key.empty()) text += (text.empty() ? "" : ": ") + key;
+    return text.empty() ? message : text + ": " + message;
+}
+
+namespace {
+std::string joined(const std::vector<Problem>& problems) {
+    std::string text;
+    for (const Problem& p : problems) text += (text.empty() ? "" : "\n") + p.text();
+    return text;
+}
+}  // namespace
+
+CaseError::CaseError(std::vector<Problem> problems)
+    : Failure(ExitCode::invalidCase, joined(problems)), problems_(std::move(problems)) {}
+
+void Problems::add(Mark mark, std::string key, std::string message) {
+    list_.push_back({std::move(mark), std::move(key), std::move(message)});
+}
+
+void Problems::throwIfAny() const {
+    if (list_.empty()) return;
+    std::vector<Problem> sorted = list_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+        return std::tie(a.mark.file, a.mark.line) < std::tie(b.mark.file, b.mark.line);
+    });
+    throw CaseError(std::move(sorted));
+}
+
+namespace {
+// Damerau-Levenshtein distance with adjacent transpositions (optimal string alignment).
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + change});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
+std::string lowered(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+}  // namespace
+
+std::string nearestWord(const std::string& word, const std::vector<std::string>& allowed) {
+    std::string best;
+    std::size_t bestDistance = 2 + word.size() / 3;
+    for (const std::string& candidate : allowed) {
+        // A word that differs only in capitals is always near.
+        const std::size_t distance = lowered(candidate) == lowered(word) ? 0 : editDistance(word, candidate);
+        // A distance of the whole word would call any two short words alike.
+        if (distance < bestDistance && distance < std::max(word.size(), candidate.size())) {
+            bestDistance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& allowed) {
+    const std::string nearest = nearestWord(word, allowed);
+    return nearest.empty() ? "" : " Did you mean '" + nearest + "'?";
+}
+
+std::string joinWords(const std::vector<std::string>& words, const std::string& separator) {
+    std::string text;
+    for (const std::string& w : words) text += (&w == &words.front() ? "" : separator) + w;
+    return text;
+}
+
+}  // namespace corpuscle

@@ -1,0 +1,90 @@
+#include "core/log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace corpuscle {
+
+void Log::open(const std::filesystem::path& file) {
+    if (!isRoot_) return;
+    file_.open(file);
+    if (!file_) {
+        warningLine(fmt::format("cannot write {}; the log goes to the terminal only", file.string()));
+        return;
+    }
+    file_ << beforeFile_ << std::flush;
+    beforeFile_.clear();
+}
+
+void Log::keep(const std::string& line) {
+    if (file_.is_open())
+        file_ << line << std::endl;
+    else
+        beforeFile_ += line + '\n';
+}
+
+void Log::infoLine(const std::string& line) {
+    if (!quiet_) {
+        std::fputs((line + '\n').c_str(), stdout);
+        std::fflush(stdout);
+    }
+    keep(line);
+}
+
+void Log::warningLine(const std::string& line) {
+    warnings_.push_back(line);
+    std::fputs(("warning: " + line + '\n').c_str(), stderr);
+    keep("warning: " + line);
+}
+
+void Log::errorLine(const std::string& line) {
+    std::fputs(("error: " + line + '\n').c_str(), stderr);
+    keep("error: " + line);
+}
+
+void Log::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+    if (!isRoot_) return;
+    for (const std::string& line : alignedTable(header, rows)) infoLine(line);
+}
+
+namespace {
+
+// Characters, not bytes, of UTF-8.
+std::size_t width(const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+bool startsAsNumber(const std::string& text) {
+    return !text.empty() && (text[0] == '-' || text[0] == '+' || (text[0] >= '0' && text[0] <= '9'));
+}
+
+}  // namespace
+
+std::vector<std::string> alignedTable(const std::vector<std::string>& header,
+                                      const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(header.size());
+    std::vector<bool> right(header.size(), !rows.empty());
+    for (std::size_t c = 0; c < header.size(); ++c) {
+        widths[c] = width(header[c]);
+        for (const auto& row : rows) {
+            widths[c] = std::max(widths[c], width(row.at(c)));
+            if (!row[c].empty() && !startsAsNumber(row[c])) right[c] = false;
+        }
+    }
+    const auto line = [&](const std::vector<std::string>& cells) {
+        std::string text;
+        for (std::size_t c = 0; c < cells.size(); ++c) {
+            const std::string padding(widths[c] - width(cells[c]), ' ');
+            text += (c ? "  " : "") + (right[c] ? padding + cells[c] : cells[c] + padding);
+        }
+        return text.substr(0, text.find_last_not_of(' ') + 1);
+    };
+    std::vector<std::string> lines{line(header)};
+    for (const auto& row : rows) lines.push_back(line(row));
+    return lines;
+}
+
+}  // namespace corpuscle

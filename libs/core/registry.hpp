@@ -1,0 +1,67 @@
+// Models chosen by name. A family is an abstract class; a model is a struct with a schema(), a name and one line of
+// text.
+//
+//     CORPUSCLE_REGISTER(BondLaw, HarmonicBond, "harmonic", "linear spring between two nodes");
+//
+// In a case: `type: harmonic` with its coefficients beside it, or the bare word when it needs none. Adding a model is
+// adding one file; `listModels` prints every family with its models.
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/settings.hpp"
+
+namespace corpuscle {
+
+struct ModelInfo {
+    std::string name, text;
+    SchemaInfo settings;
+};
+
+// Type-erased catalogue of all families, for listModels and the generated reference.
+struct FamilyInfo {
+    std::string name;  // "bond law"
+    std::function<std::vector<ModelInfo>()> models;
+};
+std::map<std::string, FamilyInfo>& families();
+
+template <class Family>
+class Registry {
+  public:
+    struct Entry {
+        std::string text;
+        std::function<SchemaInfo()> settings;
+        std::function<std::shared_ptr<const Family>(const Node& node, Problems& problems)> make;
+        std::function<Node(const Family&)> write;
+    };
+    static Registry& instance();
+    void add(const std::string& name, Entry entry);
+    std::vector<std::string> names() const;
+    const Entry* find(const std::string& name) const;
+
+  private:
+    Registry();
+    std::map<std::string, Entry> entries_;
+};
+
+// A model chosen in a case. Family must declare `static constexpr const char* familyName` ("bond law").
+template <class Family>
+struct Choice {
+    std::string name;                     // "harmonic"; empty: none chosen
+    std::shared_ptr<const Family> model;  // its coefficients and functions
+    explicit operator bool() const { return static_cast<bool>(model); }
+    const Family* operator->() const { return model.get(); }
+    const Family& operator*() const { return *model; }
+};
+
+}  // namespace corpuscle
+
+#include "core/registry-inl.hpp"
+
+// At namespace scope of the model's .cpp or header-only translation unit. Model derives from Family and has `static
+// const Schema<Model>& schema()`.
+#define CORPUSCLE_REGISTER(Family, Model, name, text) \
+    static const ::corpuscle::Registration<Family, Model> corpuscleRegistration##Model(name, text)

@@ -1,0 +1,260 @@
+#include "core/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace corpuscle {
+
+bool Range::contains(double v) const { return (lowOpen ? v > low : v >= low) && (highOpen ? v < high : v <= high); }
+
+std::string Range::text(Dimension dimension) const {
+    const auto shown = [&](double v) { return v == 0 ? std::string("0") : formatQuantity(v, dimension, 17); };
+    const bool hasLow = std::isfinite(low), hasHigh = std::isfinite(high);
+    if (hasLow && hasHigh && !lowOpen && !highOpen) return shown(low) + " to " + shown(high);
+    std::string text;
+    if (hasLow) text = (lowOpen ? "greater than " : "at least ") + shown(low);
+    if (hasHigh) text += (hasLow ? " and " : "") + std::string(highOpen ? "less than " : "at most ") + shown(high);
+    return text;
+}
+
+std::string FieldInfo::example() const {
+    if (!fallback.empty()) return fallback;
+    if (type == "quantity" || type == "length") {
+        static const std::vector<std::pair<Dimension, std::string>> examples{{unit::none, "1"},
+                                                                             {unit::metre, "8 um"},
+                                                                             {unit::second, "1e-6 s"},
+                                                                             {unit::perSecond, "100 1/s"},
+                                                                             {unit::metrePerSecond, "1 mm/s"},
+                                                                             {unit::metrePerSecond2, "9.81 m/s^2"},
+                                                                             {unit::kilogramPerMetre3, "1000 kg/m^3"},
+                                                                             {unit::pascal, "1000 Pa"},
+                                                                             {unit::pascalSecond, "1.2e-3 Pa s"},
+                                                                             {unit::newton, "50 pN"},
+                                                                             {unit::newtonPerMetre, "5e-6 N/m"},
+                                                                             {unit::joule, "2e-19 J"},
+                                                                             {unit::newtonSecondPerMetre, "5e-7 N s/m"},
+                                                                             {unit::metre2PerSecond, "1e-6 m^2/s"}};
+        for (const auto& [d, text] : examples)
+            if (d == dimension) return text;
+        return "1 " + dimension.si();
+    }
+    const std::string si = dimension.si();
+    if (type == "vector")
+        return si.empty() ? "[0, 0, 1]" : fmt::format("[1, 2, 3] {}", dimension == unit::metre ? "um" : si);
+    if (type == "quantities") return si.empty() ? "[1, 2]" : fmt::format("[1, 2] {}", si);
+    if (type == "integer") return "1";
+    if (type == "boolean") return "true";
+    if (type == "booleans") return "[true, true, false]";
+    if (type == "integers") return "[1, 2, 3]";
+    if (type == "interval") return "0.1 strain";
+    if (type == "word" && !words.empty()) return words.front();
+    if (type == "words") return fmt::format("[{}]", joinWords(words));
+    return "";
+}
+
+std::string FieldInfo::description() const {
+    const std::string si = dimension.si();
+    const std::string limits = range.text(dimension).empty() ? "" : ", " + range.text(dimension);
+    std::string what;
+    if (type == "quantity")
+        what = si.empty() ? "a number without unit" : "a quantity in " + si;
+    else if (type == "quantities")
+        what = si.empty() ? "a list of numbers" : "a list of quantities in " + si;
+    else if (type == "integer")
+        what = "a whole number";
+    else if (type == "boolean")
+        what = "true or false";
+    else if (type == "word")
+        what = fmt::format("one of {}", joinWords(words));
+    else if (type == "words")
+        what = words.empty() ? "a list of names" : fmt::format("a list of {}", joinWords(words));
+    else if (type == "name")
+        what = "a name";
+    else if (type == "text")
+        what = "a text";
+    else if (type == "vector")
+        what = si.empty() ? "three numbers [x, y, z]" : "a vector [x, y, z] in " + si;
+    else if (type == "integers")
+        what = "three whole numbers";
+    else if (type == "booleans")
+        what = "three of true or false";
+    else if (type == "length")
+        what = "a length in m or in particle spacings (dx)";
+    else if (type == "interval")
+        what = "an interval in strain, time or steps, or never";
+    else if (type == "table")
+        what = "a table";
+    else if (type == "list")
+        what = "a list of tables";
+    else if (type == "map")
+        what = "a table of named tables";
+    else if (type == "model")
+        what = "a " + family;
+    else
+        what = "a table of named models, each a " + family;
+    return what + limits + (alternative.empty() ? "" : ", or " + alternative);
+}
+
+SchemaBase::SchemaBase(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
+
+SchemaInfo SchemaBase::info() const {
+    SchemaInfo info{name_, text_, {}, exactlyOne_, atMostOne_};
+    for (const Field& f : fields_) info.fields.push_back(f.info);
+    return info;
+}
+
+FieldInfo SchemaBase::describe(std::string type, std::string key, std::string text, const FieldOptions& options,
+                               Dimension dimension) {
+    FieldInfo info;
+    info.type = std::move(type);
+    info.key = std::move(key);
+    info.text = std::move(text);
+    info.fallback = options.fallback;
+    info.required = options.fallback.empty();
+    info.range = options.range;
+    info.dimension = dimension;
+    if (info.key == "*") info.required = false;
+    return info;
+}
+
+std::optional<Node> SchemaBase::writeOptional(std::optional<Node> node, const std::string& alternative) {
+    if (!node && !alternative.empty()) return Node::word(alternative);
+    return node;
+}
+
+bool SchemaBase::isWord(const Node& node, const std::string& word) {
+    return !word.empty() && node.kind == Node::Kind::scalar && node.scalar == word;
+}
+
+void SchemaBase::eachEntry(const Node& node, Problems& problems,
+                           const std::function<void(const std::string&, const Node&)>& entry) {
+    if (node.kind != Node::Kind::table) {
+        problems.add(node.place(), node.path, fmt::format("found {}; a table of names is expected", node.kindText()));
+        return;
+    }
+    for (const auto& [key, value] : node.entries)
+        if (isName(key))
+            entry(key, value);
+        else
+            problems.add(value.place(), value.path,
+                         fmt::format("'{}' is no name: a letter, then letters, digits, '-' and '_'", key));
+}
+
+void SchemaBase::eachItem(const Node& node, Problems& problems, const std::function<void(const Node&)>& item) {
+    if (node.kind != Node::Kind::list || !node.unit.empty()) {
+        problems.add(
+            node.place(), node.path,
+            fmt::format("found {}; a list is expected: [{{...}}, {{...}}] or one '- ' for each item", node.kindText()));
+        return;
+    }
+    for (const Node& i : node.items) item(i);
+}
+
+namespace {
+
+bool has(const Node& node, const std::string& key) { return node.find(key) != nullptr; }
+
+std::string quotedList(const std::vector<std::string>& keys) { return fmt::format("'{}'", joinWords(keys, "', '")); }
+
+// The keys present, in the order of the file.
+std::vector<const Node*> present(const Node& node, const std::vector<std::string>& keys) {
+    std::vector<const Node*> found;
+    for (const auto& [key, value] : node.entries)
+        if (std::find(keys.begin(), keys.end(), key) != keys.end()) found.push_back(&value);
+    return found;
+}
+
+}  // namespace
+
+void SchemaBase::readInto(void* object, const Node& node, Problems& problems, const std::string& ignored) const {
+    if (node.kind != Node::Kind::table) {
+        problems.add(node.place(), node.path,
+                     fmt::format("found {}; a table is expected ({})", node.kindText(), text_));
+        return;
+    }
+    const std::size_t before = problems.count();
+    std::vector<std::string> known;
+    const Field* rest = nullptr;
+    for (const Field& f : fields_)
+        if (f.info.key == "*")
+            rest = &f;
+        else
+            known.push_back(f.info.key);
+
+    Node others = node;
+    others.entries.clear();
+    std::vector<std::string> misspelt;  // known keys that an unknown one is near to: not reported as missing as well
+    for (const auto& [key, value] : node.entries) {
+        if (key == ignored || std::find(known.begin(), known.end(), key) != known.end()) continue;
+        if (rest) {
+            others.entries.emplace_back(key, value);
+            continue;
+        }
+        std::vector<std::string> absent;
+        for (const std::string& k : known)
+            if (!has(node, k)) absent.push_back(k);
+        std::string nearest = nearestWord(key, absent);
+        if (nearest.empty()) nearest = nearestWord(key, known);
+        misspelt.push_back(nearest);
+        problems.add(
+            value.place(), value.path,
+            fmt::format("unknown key '{}'.{} {}", key,
+                        nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest),
+                        known.empty() ? "No key is allowed here" : fmt::format("Allowed: {}", joinWords(known))));
+    }
+
+    for (const Field& f : fields_) {
+        if (&f == rest) {
+            f.read(object, others, problems);
+        } else if (const Node* value = node.find(f.info.key)) {
+            f.read(object, *value, problems);
+        } else if (!f.info.fallback.empty()) {
+            Node fallback = parseValue(f.info.fallback, node.mark.file, problems);
+            fallback.keyMark = node.place();
+            fallback.mark = node.place();
+            fallback.setPath(node.path.empty() ? f.info.key : node.path + "." + f.info.key);
+            f.read(object, fallback, problems);
+        } else if (f.info.required && std::find(misspelt.begin(), misspelt.end(), f.info.key) == misspelt.end()) {
+            const std::string example = f.info.example();
+            problems.add(
+                node.place(), node.path.empty() ? f.info.key : node.path + "." + f.info.key,
+                fmt::format("missing: {}. Expected {}{}", f.info.text, f.info.description(),
+                            example.empty() ? "" : fmt::format(", for example '{}: {}'", f.info.key, example)));
+        }
+    }
+
+    const auto misspeltOneOf = [&](const std::vector<std::string>& keys) {
+        return std::any_of(keys.begin(), keys.end(), [&](const auto& k) {
+            return std::find(misspelt.begin(), misspelt.end(), k) != misspelt.end();
+        });
+    };
+    for (const auto& keys : exactlyOne_) {
+        const auto found = present(node, keys);
+        if (found.empty() && !misspeltOneOf(keys))
+            problems.add(node.place(), node.path,
+                         fmt::format("one of {} is missing; give exactly one", quotedList(keys)));
+        if (found.size() > 1)
+            problems.add(found[1]->place(), found[1]->path, fmt::format("give exactly one of {}", quotedList(keys)));
+    }
+    for (const auto& keys : atMostOne_)
+        if (const auto found = present(node, keys); found.size() > 1)
+            problems.add(found[1]->place(), found[1]->path, fmt::format("give at most one of {}", quotedList(keys)));
+    if (problems.count() == before)
+        for (const Check& check : checks_) check(object, node, problems);
+}
+
+Node SchemaBase::writeFrom(const void* object) const {
+    Node table;
+    for (const Field& f : fields_) {
+        std::optional<Node> value = f.write(object);
+        if (!value) continue;
+        if (f.info.key == "*")
+            for (auto& entry : value->entries) table.entries.push_back(std::move(entry));
+        else
+            table.entries.emplace_back(f.info.key, std::move(*value));
+    }
+    return table;
+}
+
+}  // namespace corpuscle

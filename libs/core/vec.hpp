@@ -1,0 +1,13 @@
+// Vectors of space. Every length is in metres, every velocity in metres per second: SI inside, units only at the
+// border.
+#pragma once
+#include <Eigen/Core>
+#include <array>
+
+namespace corpuscle {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Index3 = std::array<int, 3>;
+
+}  // namespace corpuscle

@@ -1,0 +1,24 @@
+// A cell of the scene: its membrane, and what belongs to the pair of membrane and fluid.
+//
+// Every rank knows every cell's network; the ranks whose bricks a cell touches hold it: they have its node positions of now and
+// compute its forces. The others' copy of the state is old and must not be read.
+#pragma once
+#include <string>
+
+#include "membrane/membrane.hpp"
+
+namespace corpuscle::coupling {
+
+struct Cell {
+    membrane::Membrane membrane;  // membrane.cell: its number, 1 and up
+    std::string type;             // entry of constant/membranes.yaml
+    double radius = 0;            // a [m]
+    double viscosityRatio = 1;    // mu_in/mu_out
+    int firstNode = 0;            // global number of its node 0: field `node` of the store
+    double initialArea = 0, initialVolume = 0;  // at t = 0 [m^2, m^3]
+    bool held = true;
+
+    int nodeCount() const { return static_cast<int>(membrane.position.size()); }
+};
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,55 @@
+// Coupling by dual identity (paper, section 2.4): a membrane's node is a particle of the fluid and a node of its network.
+//
+// As a particle it has the density of the fluid and takes part in pressure, viscosity and continuity; as a node it feels the
+// network, du/dt += f/m. No penetration, no slip and continuity of stress follow. Its volume is that of the piece of membrane
+// around it, one spacing thick:  V = A_vertex dx,  m = rho0 V. Interior overpressure can push fluid through the single layer of
+// nodes: LeakageGuard puts such particles back.
+//
+// Rupture is tested at every step, only where a cell's case names a criterion.
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "coupling/leakageGuard.hpp"
+#include "coupling/nodeExchange.hpp"
+#include "sph/velocityVerlet.hpp"
+
+namespace corpuscle::coupling {
+
+// Bonds of one cell that broke at one step.
+struct RuptureEvent {
+    int cell;  // number, 1 and up
+    std::vector<membrane::BrokenBond> bonds;
+};
+
+class DualIdentity : public sph::Load {
+  public:
+    // guardSteps: the guard looks every so many steps.
+    DualIdentity(std::vector<Cell>& cells, double spacing, long guardSteps);
+
+    void moved(particles::ParticleSystem& system, bool rebuilt) override;
+    void addAccelerations(particles::ParticleSystem& system) override;
+
+    // After each step: rupture and guard. Returns what broke. Collective.
+    std::vector<RuptureEvent> endStep(particles::ParticleSystem& system);
+
+    LeakageGuard& guard() { return guard_; }
+    const LeakageGuard& guard() const { return guard_; }
+    long steps() const { return steps_; }
+    void restore(long steps) { steps_ = steps; }
+
+    // Largest stiffness over cells, and the least mass of a node, over all ranks: for the limits of the step. Collective.
+    struct Stiffest {
+        double stiffness = 0, leastMass = 0;
+    };
+    Stiffest stiffest(const particles::ParticleSystem& system) const;
+
+  private:
+    std::vector<Cell>& cells_;
+    NodeExchange exchange_;
+    LeakageGuard guard_;
+    double margin_;
+    long guardSteps_, steps_ = 0;
+};
+
+}  // namespace corpuscle::coupling

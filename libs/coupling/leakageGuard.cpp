@@ -1,0 +1,84 @@
+#include "coupling/leakageGuard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle::coupling {
+
+using particles::Kind;
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+namespace {
+constexpr double restoredDistanceInSpacings = 0.1;
+constexpr std::size_t longestReport = 1000;
+
+// The image of a particle's position that is nearest to the cell.
+Vec3 imageNear(const particles::Box& box, const Vec3& x, const Vec3& middle) { return middle + box.minimumImage(x - middle); }
+
+Vec3 middleOf(const Cell& cell) {
+    Vec3 low = cell.membrane.position.front(), high = low;
+    for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    return 0.5 * (low + high);
+}
+}  // namespace
+
+geometry::TriangleGrid& LeakageGuard::grid(const Cell& cell, std::size_t index) {
+    const double reach = reachInSpacings * spacing_;
+    if (!grids_[index])
+        grids_[index] = std::make_unique<geometry::TriangleGrid>(
+            geometry::TriangleMesh{cell.membrane.position, cell.membrane.network().triangles()}, reach);
+    else
+        grids_[index]->update(cell.membrane.position);
+    return *grids_[index];
+}
+
+void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vector<Cell>& cells) {
+    grids_.resize(cells.size());
+    candidates_.assign(cells.size(), {});
+    const ParticleStore& s = system.store();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (!cells[c].held || cells[c].membrane.network().isOpen()) continue;
+        const geometry::TriangleGrid& surface = grid(cells[c], c);
+        const Vec3 middle = middleOf(cells[c]);
+        for (int i = 0; i < system.owned(); ++i)
+            if (s.kindOf(i) == Kind::fluid && surface.nearest(imageNear(system.box(), s.position(i), middle)))
+                candidates_[c].push_back(i);
+    }
+}
+
+void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cells) {
+    ParticleStore& s = system.store();
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const Cell& cell = cells[c];
+        if (!cell.held || cell.membrane.network().isOpen() || candidates_[c].empty()) continue;
+        const geometry::TriangleGrid& surface = grid(cell, c);
+        const Vec3 middle = middleOf(cell);
+        for (const int i : candidates_[c]) {
+            const Vec3 x = imageNear(system.box(), s.position(i), middle);
+            const geometry::SurfacePoint at = surface.nearest(x);
+            if (!at) continue;
+            const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
+            if (own * at.distance >= 0) continue;
+            const Index3& triangle = cell.membrane.network().triangles()[static_cast<std::size_t>(at.triangle)];
+            const auto node = [&](int k) { return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]); };
+            Vec3 outward = (x - at.point) / at.distance;
+            if (!(std::abs(at.distance) > 1e-6 * spacing_)) {
+                const auto& p = cell.membrane.position;
+                outward = (p[node(1)] - p[node(0)]).cross(p[node(2)] - p[node(0)]).normalized();
+            }
+            s.setPosition(static_cast<std::size_t>(i),
+                          s.position(i) + (at.point + own * restoredDistanceInSpacings * spacing_ * outward - x));
+            Vec3 membraneVelocity = Vec3::Zero();
+            for (int k = 0; k < 3; ++k) membraneVelocity += at.weights[k] * cell.membrane.velocity[node(k)];
+            const Vec3 u = s.velocity(i);
+            const double approach = own * (u - membraneVelocity).dot(outward);
+            if (approach < 0) s.setVelocity(static_cast<std::size_t>(i), u - own * approach * outward);
+            ++moves_;
+            deepest_ = std::max(deepest_, std::abs(at.distance));
+            if (report_.size() < longestReport) report_.push_back({s.id[i], cell.membrane.cell, std::abs(at.distance), x});
+        }
+    }
+}
+
+}  // namespace corpuscle::coupling

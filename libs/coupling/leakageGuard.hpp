@@ -1,0 +1,48 @@
+// Nothing leaks silently: fluid particles that have crossed a closed membrane are counted, reported and put back.
+//
+// A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as candidates;
+// every few steps each of them is held against the nearest point p of the membrane. One on the wrong side goes back to
+// 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured cell is left alone.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupling/cell.hpp"
+#include "geometry/triangleGrid.hpp"
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::coupling {
+
+struct GuardMove {
+    std::int64_t particle;  // id
+    int cell;
+    double depth;           // how far on the wrong side [m]
+    Vec3 place;
+};
+
+class LeakageGuard {
+  public:
+    static constexpr double reachInSpacings = 1.0;
+
+    explicit LeakageGuard(double spacing) : spacing_(spacing) {}
+
+    void findCandidates(const particles::ParticleSystem& system, const std::vector<Cell>& cells);
+    void putBack(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+
+    // This rank's moves since the start of the run, and the last of them since the last call.
+    long moves() const { return moves_; }
+    double deepest() const { return deepest_; }
+    std::vector<GuardMove> takeReport() { return std::exchange(report_, {}); }
+    void restore(long moves) { moves_ = moves; }
+
+  private:
+    geometry::TriangleGrid& grid(const Cell& cell, std::size_t index);
+
+    double spacing_, deepest_ = 0;
+    long moves_ = 0;
+    std::vector<std::unique_ptr<geometry::TriangleGrid>> grids_;
+    std::vector<std::vector<int>> candidates_;  // [cell]: particles
+    std::vector<GuardMove> report_;
+};
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,30 @@
+// Everything that is simulated: particles, fluid, walls, cells; what observers read and integrators advance.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupling/dualIdentity.hpp"
+#include "particles/particleSystem.hpp"
+#include "sph/flow.hpp"
+#include "sph/fluidForces.hpp"
+
+namespace corpuscle::coupling {
+
+struct Scene {
+    std::unique_ptr<particles::ParticleSystem> system;  // its box holds the walls' layers too
+    particles::Box fluidBox;                            // between the walls
+    sph::FlowState flow;
+    std::unique_ptr<sph::FluidForces> forces;           // with the fluid's model
+    std::unique_ptr<sph::Shifting> shifting;            // none unless the case names it
+    std::vector<Cell> cells;                            // empty for a fluid alone
+    std::unique_ptr<DualIdentity> coupling;             // none without cells
+    std::vector<RuptureEvent> broken;                   // at the last step
+    double spacing = 0;                                 // dx [m]
+
+    const sph::FluidModel& model() const { return forces->model(); }
+    particles::ParticleStore& store() { return system->store(); }
+    const particles::ParticleStore& store() const { return system->store(); }
+    double mass(std::size_t i) const { return store().optional().mass ? store().mass[i] : model().mass; }
+};
+
+}  // namespace corpuscle::coupling

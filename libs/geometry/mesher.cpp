@@ -1,0 +1,59 @@
+#include "geometry/mesher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "geometry/surfaceAlgorithms.hpp"
+
+namespace corpuscle::geometry {
+namespace {
+
+constexpr int baseRefinements = 4;  // of the icosahedron: 5,120 triangles
+
+TriangleMesh firstMesh(const Shape& shape, double a) {
+    if (const TriangleMesh* own = shape.triangulation()) {
+        TriangleMesh mesh = *own;
+        mesh.scale(1 / a);
+        return mesh;
+    }
+    return starSurface([&](const Vec3& x) { return shape.implicit(a * x); }, shape.box().max() / a, baseRefinements);
+}
+
+}  // namespace
+
+TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& options) {
+    const double a = shape.radius();
+    if (!(edge > 0 && edge <= 0.5 * a))
+        throw Failure(ExitCode::invalidCase,
+                      fmt::format("edge = {:.4g} um does not suit a cell of radius {:.4g} um: take more than 0 and at most half the "
+                                  "radius, {:.4g} um", edge * 1e6, a * 1e6, a * 0.5e6));
+    const double target = edge / a;
+    const Projection project = [&](const Vec3& x) -> Vec3 { return shape.project(a * x) / a; };
+
+    TriangleMesh mesh = firstMesh(shape, a);
+    for (Vec3& x : mesh.nodes) x = project(x);
+    while (meanEdge(mesh) > 1.5 * target) mesh = refineOnce(mesh, project);
+
+    double length = target, angle = 0, mean = 0;
+    for (int round = 0; round < options.rounds; ++round) {
+        mesh = remeshIsotropic(mesh, length, round == 0 ? 6 : 3, project);
+        smooth(mesh, 20, project);
+        angle = smallestAngle(mesh);
+        mean = meanEdge(mesh);
+        if (std::abs(mean / target - 1) > 0.03) {
+            length *= target / mean;
+        } else if (angle >= options.smallestAngle) {
+            mesh.scale(a);
+            for (Vec3& x : mesh.nodes) x = shape.project(x);
+            return mesh;
+        }
+    }
+    throw Failure(ExitCode::numerics,
+                  fmt::format("the mesher reached a smallest angle of {:.1f} degrees and a mean edge of {:.4g} um instead of {:.1f} "
+                              "degrees and {:.4g} um: take a smaller edge", angle, mean * a * 1e6, options.smallestAngle, edge * 1e6));
+}
+
+}  // namespace corpuscle::geometry

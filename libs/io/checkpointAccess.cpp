@@ -1,0 +1,175 @@
+#include "io/checkpointAccess.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace corpuscle::io {
+namespace {
+
+const char* typeName(bool isDouble) { return isDouble ? "floating-point numbers" : "integers"; }
+
+template <class T>
+T readAttribute(hid_t object, const std::string& name, const std::string& what) {
+    const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, what);
+    const Handle type(H5Aget_type(attribute), H5Tclose, what);
+    const H5T_class_t kind = H5Tget_class(type);
+    if constexpr (std::is_same_v<T, std::string>) {
+        if (kind != H5T_STRING) throw Failure(ExitCode::io, what);
+        std::string text(H5Tget_size(type), '\0');
+        checked(H5Aread(attribute, type, text.data()), what);
+        text.resize(std::min(text.find('\0'), text.size()));
+        return text;
+    } else {
+        if (kind != (std::is_same_v<T, double> ? H5T_FLOAT : H5T_INTEGER)) throw Failure(ExitCode::io, what);
+        T value{};
+        checked(H5Aread(attribute, memoryType<T>(), &value), what);
+        return value;
+    }
+}
+
+bool contains(const std::vector<std::string>& sorted, const std::string& name) {
+    return std::binary_search(sorted.begin(), sorted.end(), name);
+}
+
+}  // namespace
+
+CheckpointAccess::CheckpointAccess(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path_, error)) {
+        throw Failure(ExitCode::io, fmt::format("{}: there is no such checkpoint.", path_.string()));
+    }
+    const std::string what = fmt::format("{}: the file is corrupt or no checkpoint.", path_.string());
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    checked(H5Pset_file_locking(access, false, true), what);
+    file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access), H5Fclose, what);
+    ranksWritten_ = readAttribute<std::int64_t>(file_, checkpoint::ranksName, what);
+    names_ = namesBelow(checkpoint::dataGroup);
+    distributed_ = namesBelow(checkpoint::rowsGroup);
+}
+
+Failure CheckpointAccess::corrupt(const std::string& dataset) const {
+    return {ExitCode::io, fmt::format("{}: dataset '{}' is corrupt.", path_.string(), dataset)};
+}
+
+std::vector<std::string> CheckpointAccess::namesBelow(const char* group) const {
+    const std::string what = fmt::format("{}: the list of datasets is corrupt.", path_.string());
+    std::vector<std::string> names;
+    if (checked(H5Lexists(file_, group, H5P_DEFAULT), what) == 0) return names;
+    const Handle id(H5Gopen2(file_, group, H5P_DEFAULT), H5Gclose, what);
+    auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
+        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    checked(H5Ovisit2(id, H5_INDEX_NAME, H5_ITER_INC, visit, &names, H5O_INFO_BASIC), what);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+CheckpointAccess::Dataset CheckpointAccess::open(const std::string& name) const {
+    if (!contains(names_, name)) {
+        throw Failure(ExitCode::io, fmt::format("{}: dataset '{}' is missing; there are: {}.{}", path_.string(), name,
+                                                joinWords(names_), didYouMean(name, names_)));
+    }
+    return openFull(fmt::format("{}/{}", checkpoint::dataGroup, name), name);
+}
+
+CheckpointAccess::Dataset CheckpointAccess::openFull(const std::string& fullName, const std::string& name) const {
+    const std::string what = corrupt(name).what();
+    Dataset dataset;
+    dataset.name = name;
+    dataset.id = Handle(H5Dopen2(file_, fullName.c_str(), H5P_DEFAULT), H5Dclose, what);
+    const Handle type(H5Dget_type(dataset.id), H5Tclose, what);
+    const Handle space(H5Dget_space(dataset.id), H5Sclose, what);
+    hsize_t shape[2] = {0, 0};
+    if (H5Sget_simple_extent_ndims(space) != 2) throw corrupt(name);
+    checked(H5Sget_simple_extent_dims(space, shape, nullptr), what);
+    dataset.isDouble = H5Tget_class(type) == H5T_FLOAT;
+    dataset.rows = shape[0];
+    dataset.components = shape[1];
+    dataset.sum = readAttribute<std::uint64_t>(dataset.id, checkpoint::checksumName, what);
+    return dataset;
+}
+
+template <class T>
+void CheckpointAccess::require(const Dataset& dataset, int components) const {
+    if (dataset.isDouble == std::is_same_v<T, double> && dataset.components == static_cast<hsize_t>(components)) return;
+    throw Failure(ExitCode::io, fmt::format("{}: dataset '{}' holds {} in rows of {}; {} in rows of {} are needed.",
+                                            path_.string(), dataset.name, typeName(dataset.isDouble),
+                                            dataset.components, typeName(std::is_same_v<T, double>), components));
+}
+
+template <class T>
+std::vector<T> CheckpointAccess::slab(const Dataset& dataset, hsize_t first, hsize_t count, std::uint64_t& sum) const {
+    std::vector<T> values(count * dataset.components);
+    if (!values.empty()) {
+        const std::string what = corrupt(dataset.name).what();
+        const hsize_t start[2] = {first, 0}, extent[2] = {count, dataset.components};
+        const Handle fileSpace(H5Dget_space(dataset.id), H5Sclose, what);
+        const Handle memorySpace(H5Screate_simple(2, extent, nullptr), H5Sclose, what);
+        checked(H5Sselect_hyperslab(fileSpace, H5S_SELECT_SET, start, nullptr, extent, nullptr), what);
+        checked(H5Dread(dataset.id, memoryType<T>(), memorySpace, fileSpace, H5P_DEFAULT, values.data()), what);
+    }
+    sum = checksum(std::span<const T>(values), first * dataset.components);
+    return values;
+}
+
+template <class T>
+std::vector<T> CheckpointAccess::whole(const Dataset& dataset) const {
+    std::uint64_t sum = 0;
+    auto values = slab<T>(dataset, 0, dataset.rows, sum);
+    if (sum != dataset.sum) throw corrupt(dataset.name);
+    return values;
+}
+
+std::pair<hsize_t, hsize_t> CheckpointAccess::share(const Dataset& dataset, int rank, int ranks) const {
+    const auto part = [&](int r) { return dataset.rows * static_cast<hsize_t>(r) / static_cast<hsize_t>(ranks); };
+    if (ranksWritten_ != ranks || !contains(distributed_, dataset.name))
+        return {part(rank), part(rank + 1) - part(rank)};
+    const auto rows =
+        whole<std::int64_t>(openFull(fmt::format("{}/{}", checkpoint::rowsGroup, dataset.name), dataset.name));
+    if (rows.size() != static_cast<std::size_t>(ranks)) throw corrupt(dataset.name);
+    const auto first = std::accumulate(rows.begin(), rows.begin() + rank, std::int64_t{0});
+    return {static_cast<hsize_t>(first), static_cast<hsize_t>(rows[static_cast<std::size_t>(rank)])};
+}
+
+template <class T>
+T CheckpointAccess::attribute(const std::string& name) const {
+    const std::string what = fmt::format("{}: attribute '{}' is missing or of another type.", path_.string(), name);
+    const Handle group(H5Gopen2(file_, checkpoint::attributeGroup, H5P_DEFAULT), H5Gclose, what);
+    return readAttribute<T>(group, name, what);
+}
+
+void CheckpointAccess::verify() const {
+    constexpr hsize_t block = 1 << 18;
+    for (const auto& name : names_) {
+        const Dataset dataset = open(name);
+        std::uint64_t sum = 0;
+        for (hsize_t first = 0; first < dataset.rows; first += block) {
+            const hsize_t count = std::min(block, dataset.rows - first);
+            std::uint64_t part = 0;
+            if (dataset.isDouble) {
+                slab<double>(dataset, first, count, part);
+            } else {
+                slab<std::int64_t>(dataset, first, count, part);
+            }
+            sum += part;
+        }
+        if (sum != dataset.sum) throw corrupt(name);
+    }
+    for (const auto& name : distributed_)
+        whole<std::int64_t>(openFull(fmt::format("{}/{}", checkpoint::rowsGroup, name), name));
+}
+
+template void CheckpointAccess::require<double>(const Dataset&, int) const;
+template void CheckpointAccess::require<std::int64_t>(const Dataset&, int) const;
+template std::vector<double> CheckpointAccess::slab(const Dataset&, hsize_t, hsize_t, std::uint64_t&) const;
+template std::vector<std::int64_t> CheckpointAccess::slab(const Dataset&, hsize_t, hsize_t, std::uint64_t&) const;
+template std::vector<double> CheckpointAccess::whole(const Dataset&) const;
+template std::vector<std::int64_t> CheckpointAccess::whole(const Dataset&) const;
+template double CheckpointAccess::attribute(const std::string&) const;
+template std::int64_t CheckpointAccess::attribute(const std::string&) const;
+template std::string CheckpointAccess::attribute(const std::string&) const;
+
+}  // namespace corpuscle::io

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/communicator.hpp"
+#include "io/checkpointAccess.hpp"
+#include "io/checkpointFile.hpp"
+#include "io/publish.hpp"
+#include "io/together.hpp"
+
+namespace corpuscle::io {
+namespace {
+
+std::filesystem::path folderOf(const std::filesystem::path& caseDir) { return caseDir / "checkpoints"; }
+
+// The files named <digits>.h5, by number.
+std::vector<std::pair<int, std::filesystem::path>> numberedFiles(const std::filesystem::path& caseDir) {
+    std::vector<std::pair<int, std::filesystem::path>> files;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folderOf(caseDir), ignored)) {
+        const std::string stem = entry.path().stem().string();
+        const bool digits =
+            !stem.empty() && std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
+        if (digits && entry.path().extension() == ".h5") files.emplace_back(std::atoi(stem.c_str()), entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::filesystem::path> leftovers(const std::filesystem::path& caseDir) {
+    std::vector<std::filesystem::path> files;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folderOf(caseDir), ignored)) {
+        if (isTemporaryName(entry.path())) files.push_back(entry.path());
+    }
+    return files;
+}
+
+}  // namespace
+
+std::filesystem::path nextCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir) {
+    int next = 0;
+    onRoot(comm, [&] {
+        makeFolder(folderOf(caseDir));
+        const auto files = numberedFiles(caseDir);
+        next = files.empty() ? 0 : files.back().first + 1;
+    });
+    MPI_Bcast(&next, 1, MPI_INT, 0, comm);
+    return folderOf(caseDir) / fmt::format("{:06d}.h5", next);
+}
+
+std::string checkCheckpoint(const std::filesystem::path& path) {
+    try {
+        CheckpointAccess(path).verify();
+        return {};
+    } catch (const Failure& failure) {
+        return failure.what();
+    }
+}
+
+std::vector<CheckpointInfo> listCheckpoints(const std::filesystem::path& caseDir) {
+    std::vector<CheckpointInfo> list;
+    for (const auto& [number, path] : numberedFiles(caseDir)) {
+        try {
+            list.push_back({path, number, CheckpointAccess(path).attribute<double>("time")});
+        } catch (const Failure&) {
+            continue;  // latestCheckpoint names those that cannot be read
+        }
+    }
+    return list;
+}
+
+CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir) {
+    CheckpointSearch search;
+    onRoot(comm, [&] {
+        for (const auto& path : leftovers(caseDir)) {
+            search.warnings.push_back(
+                fmt::format("{} is an incomplete checkpoint of a killed run and is passed over.", path.string()));
+        }
+        auto files = numberedFiles(caseDir);
+        for (auto file = files.rbegin(); file != files.rend() && search.path.empty(); ++file) {
+            const std::string problem = checkCheckpoint(file->second);
+            if (problem.empty())
+                search.path = file->second;
+            else
+                search.warnings.push_back(problem + " It is passed over.");
+        }
+    });
+    search.path = Communicator(comm).broadcast(search.path.string());
+    int count = static_cast<int>(search.warnings.size());
+    MPI_Bcast(&count, 1, MPI_INT, 0, comm);
+    search.warnings.resize(static_cast<std::size_t>(count));
+    for (auto& warning : search.warnings) warning = Communicator(comm).broadcast(warning);
+    return search;
+}
+
+std::filesystem::path findCheckpoint(const std::filesystem::path& caseDir, double time) {
+    const auto all = listCheckpoints(caseDir);
+    const auto found = std::find_if(all.rbegin(), all.rend(), [&](const CheckpointInfo& info) {
+        return std::abs(info.time - time) <= 1e-6 * std::max(std::abs(time), std::abs(info.time));
+    });
+    if (found != all.rend()) return found->path;
+    std::vector<std::string> times;
+    for (const auto& info : all) times.push_back(fmt::format("{:.9g}", info.time));
+    throw Failure(ExitCode::io,
+                  fmt::format("{}: there is no checkpoint at time {:.9g} s; there {}.", folderOf(caseDir).string(),
+                              time, times.empty() ? "are none" : fmt::format("are: {} s", joinWords(times))));
+}
+
+void keepCheckpoints(MPI_Comm comm, const std::filesystem::path& caseDir, int keep) {
+    onRoot(comm, [&] {
+        std::error_code ignored;
+        for (const auto& path : leftovers(caseDir)) std::filesystem::remove(path, ignored);
+        const auto files = numberedFiles(caseDir);
+        const int surplus = keep > 0 ? static_cast<int>(files.size()) - keep : 0;
+        for (int i = 0; i < surplus; ++i) std::filesystem::remove(files[static_cast<std::size_t>(i)].second, ignored);
+    });
+}
+
+}  // namespace corpuscle::io

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "core/communicator.hpp"
+#include "io/checkpointFile.hpp"
+#include "io/checksum.hpp"
+#include "io/hdf5Handle.hpp"
+#include "io/publish.hpp"
+#include "io/together.hpp"
+
+namespace corpuscle::io {
+namespace {
+
+template <class T>
+void writeAttribute(hid_t object, const std::string& name, T value) {
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "scalar space");
+    const Handle attribute(H5Acreate2(object, name.c_str(), fileType<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                           fmt::format("attribute '{}'", name));
+    checked(H5Awrite(attribute, memoryType<T>(), &value), fmt::format("attribute '{}'", name));
+}
+
+}  // namespace
+
+struct CheckpointWriter::File {
+    MPI_Comm comm;
+    int rank = 0, size = 1;
+    std::filesystem::path path, temporary;
+    QuietHdf5 quiet;
+    Handle file, attributes;
+
+    File(MPI_Comm c, const std::filesystem::path& p) : comm(c), path(p), temporary(temporaryName(p)) {
+        MPI_Comm_rank(comm, &rank);
+        MPI_Comm_size(comm, &size);
+        onRoot(comm, [&] {
+            if (path.has_parent_path()) makeFolder(path.parent_path());
+        });
+        together(comm, [&] {
+            const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
+            checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "parallel file access");
+            // The file format of 1.10 has checksums in all its own structures.
+            checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file format");
+            file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
+                          fmt::format("cannot write {}; check permissions and free space", path.string()));
+            attributes = Handle(H5Gcreate2(file, checkpoint::attributeGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                H5Gclose, "attribute group");
+            writeAttribute(file, checkpoint::ranksName, static_cast<std::int64_t>(size));
+        });
+    }
+
+    ~File() {
+        file.close();
+        std::error_code ignored;
+        if (rank == 0) std::filesystem::remove(temporary, ignored);
+    }
+
+    // Rows [first, first + rows.size()/components) of `total` from this rank.
+    template <class T>
+    void write(const std::string& name, std::span<const T> values, int components, hsize_t first, hsize_t total) {
+        const std::string what = fmt::format("{}: cannot write dataset '{}'", path.string(), name);
+        const std::uint64_t mine = checksum(values, first * static_cast<hsize_t>(components));
+        std::uint64_t sum = 0;
+        MPI_Allreduce(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, comm);
+
+        Handle dataset, fileSpace, memorySpace, transfer;
+        const hsize_t count[2] = {values.size() / static_cast<std::size_t>(components),
+                                  static_cast<hsize_t>(components)};
+        together(comm, [&] {
+            const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
+            checked(H5Pset_create_intermediate_group(links, 1), what);
+            const hsize_t shape[2] = {total, static_cast<hsize_t>(components)};
+            fileSpace = Handle(H5Screate_simple(2, shape, nullptr), H5Sclose, what);
+            memorySpace = Handle(H5Screate_simple(2, count, nullptr), H5Sclose, what);
+            dataset = Handle(H5Dcreate2(file, name.c_str(), fileType<T>(), fileSpace, links, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Dclose, what);
+            writeAttribute(dataset, checkpoint::checksumName, sum);
+            transfer = Handle(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
+            checked(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), what);
+            const hsize_t start[2] = {first, 0};
+            if (count[0] > 0) {
+                checked(H5Sselect_hyperslab(fileSpace, H5S_SELECT_SET, start, nullptr, count, nullptr), what);
+            } else {
+                checked(H5Sselect_none(fileSpace), what);
+                checked(H5Sselect_none(memorySpace), what);
+            }
+        });
+        if (total == 0) return;
+        together(comm, [&] {
+            checked(H5Dwrite(dataset, memoryType<T>(), memorySpace, fileSpace, transfer, values.data()), what);
+        });
+    }
+
+    template <class T>
+    void replicated(const std::string& name, std::span<const T> values) {
+        std::uint64_t total = values.size();
+        MPI_Bcast(&total, 1, MPI_UINT64_T, 0, comm);
+        write(name, rank == 0 ? values : std::span<const T>(), 1, 0, total);
+    }
+
+    template <class T>
+    void distributed(const std::string& name, std::span<const T> values, int components) {
+        together(comm, [&] {
+            if (components < 1 || values.size() % static_cast<std::size_t>(components) != 0) {
+                throw std::invalid_argument(
+                    fmt::format("checkpoint dataset '{}': {} values in rows of {}", name, values.size(), components));
+            }
+        });
+        const auto mine = static_cast<std::int64_t>(values.size() / static_cast<std::size_t>(components));
+        std::vector<std::int64_t> rows(static_cast<std::size_t>(size));
+        MPI_Allgather(&mine, 1, MPI_INT64_T, rows.data(), 1, MPI_INT64_T, comm);
+        const auto first = std::accumulate(rows.begin(), rows.begin() + rank, std::int64_t{0});
+        const auto total = std::accumulate(rows.begin(), rows.end(), std::int64_t{0});
+        write(fmt::format("{}/{}", checkpoint::dataGroup, name), values, components, static_cast<hsize_t>(first),
+              static_cast<hsize_t>(total));
+        replicated(fmt::format("{}/{}", checkpoint::rowsGroup, name), std::span<const std::int64_t>(rows));
+    }
+};
+
+CheckpointWriter::CheckpointWriter(MPI_Comm comm, const std::filesystem::path& path)
+    : file_(std::make_unique<File>(comm, path)) {}
+CheckpointWriter::~CheckpointWriter() = default;
+
+void CheckpointWriter::writeDistributed(const std::string& name, std::span<const double> values, int components) {
+    file_->distributed(name, values, components);
+}
+void CheckpointWriter::writeDistributed(const std::string& name, std::span<const std::int64_t> values, int components) {
+    file_->distributed(name, values, components);
+}
+void CheckpointWriter::writeReplicated(const std::string& name, std::span<const double> values) {
+    file_->replicated(fmt::format("{}/{}", checkpoint::dataGroup, name), values);
+}
+void CheckpointWriter::writeReplicated(const std::string& name, std::span<const std::int64_t> values) {
+    file_->replicated(fmt::format("{}/{}", checkpoint::dataGroup, name), values);
+}
+
+void CheckpointWriter::attribute(const std::string& name, double value) {
+    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, file_->comm);
+    together(file_->comm, [&] { writeAttribute(file_->attributes, name, value); });
+}
+void CheckpointWriter::attribute(const std::string& name, std::int64_t value) {
+    MPI_Bcast(&value, 1, MPI_INT64_T, 0, file_->comm);
+    together(file_->comm, [&] { writeAttribute(file_->attributes, name, value); });
+}
+void CheckpointWriter::attribute(const std::string& name, const std::string& value) {
+    const std::string text = Communicator(file_->comm).broadcast(value);
+    const std::string what = fmt::format("attribute '{}'", name);
+    together(file_->comm, [&] {
+        const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);
+        checked(H5Tset_size(type, text.size() + 1), what);
+        const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
+        const Handle attribute(H5Acreate2(file_->attributes, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                               H5Aclose, what);
+        checked(H5Awrite(attribute, type, text.c_str()), what);
+    });
+}
+
+void CheckpointWriter::finish() {
+    const std::string what = fmt::format("{}: cannot bring the file to disk; check free space", file_->path.string());
+    together(file_->comm, [&] {
+        checked(H5Fflush(file_->file, H5F_SCOPE_GLOBAL), what);
+        file_->attributes.close();
+        checked(file_->file.close(), what);
+    });
+    onRoot(file_->comm, [&] { publish(file_->temporary, file_->path, Sync::disk); });
+}
+
+}  // namespace corpuscle::io

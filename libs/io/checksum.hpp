@@ -1,0 +1,32 @@
+// Checksum of a distributed array, the same for every way of cutting it into slabs:
+//
+//     S = sum_i  mix(bits(v_i) + (i + 1) phi)   mod 2^64
+//
+// i counts the numbers of the whole array, phi = 2^64/golden ratio, mix is the bijective finaliser of splitmix64
+// (Steele, Lea, Flood, OOPSLA 2014). Ranks add up their parts. One changed number always changes S; swapped ones do
+// with odds of 1 - 2^-64.
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace corpuscle::io {
+
+inline std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+}
+
+// The part of `values`, the first of which is number `first` of the whole array.
+template <class T>
+std::uint64_t checksum(std::span<const T> values, std::uint64_t first) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum += mix(std::bit_cast<std::uint64_t>(values[i]) + (first + i + 1) * 0x9e3779b97f4a7c15ull);
+    }
+    return sum;
+}
+
+}  // namespace corpuscle::io

@@ -1,0 +1,52 @@
+#include "io/publish.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace corpuscle::io {
+namespace {
+
+void syncToDisk(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY);
+    const bool done = file >= 0 && ::fsync(file) == 0;
+    const int reason = errno;
+    if (file >= 0) ::close(file);
+    if (!done)
+        throw Failure(ExitCode::io, fmt::format("cannot write {} to disk: {}", path.string(), std::strerror(reason)));
+}
+
+}  // namespace
+
+std::filesystem::path temporaryName(const std::filesystem::path& path) {
+    return path.parent_path() / ("." + path.filename().string() + ".part");
+}
+
+bool isTemporaryName(const std::filesystem::path& path) {
+    return path.filename().string().starts_with(".") && path.extension() == ".part";
+}
+
+void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync) {
+    if (sync == Sync::disk) syncToDisk(temporary);
+    std::error_code error;
+    std::filesystem::rename(temporary, path, error);
+    if (error) {
+        throw Failure(ExitCode::io,
+                      fmt::format("cannot rename {} to {}: {}", temporary.string(), path.string(), error.message()));
+    }
+    if (sync == Sync::disk) syncToDisk(path.has_parent_path() ? path.parent_path() : ".");
+}
+
+void makeFolder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw Failure(ExitCode::io, fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
+}  // namespace corpuscle::io

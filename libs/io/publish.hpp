@@ -1,0 +1,23 @@
+// Files that are there complete or not at all: written under a hidden temporary name beside their place, then renamed.
+// Text files: core/atomicFile.hpp.
+#pragma once
+#include <filesystem>
+
+namespace corpuscle::io {
+
+// "dir/name" -> "dir/.name.part"
+std::filesystem::path temporaryName(const std::filesystem::path& path);
+bool isTemporaryName(const std::filesystem::path& path);
+
+enum class Sync {
+    none,  // survives a killed program
+    disk   // survives a loss of power as well: fsync of the file and of its directory
+};
+
+// Renames `temporary` to `path`, replacing what was there. Throws Failure(ExitCode::io).
+void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync);
+
+// Makes the folder with its parents. Throws Failure(ExitCode::io).
+void makeFolder(const std::filesystem::path& folder);
+
+}  // namespace corpuscle::io

@@ -1,0 +1,23 @@
+#include "io/together.hpp"
+
+#include "core/error.hpp"
+
+namespace corpuscle::io {
+
+void throwTogether(MPI_Comm comm, bool failed, const std::string& text) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    const int mine = failed ? rank : size;
+    int first = size;
+    MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm);
+    if (first == size) return;
+    std::string message = text;
+    int length = static_cast<int>(message.size());
+    MPI_Bcast(&length, 1, MPI_INT, first, comm);
+    message.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(message.data(), length, MPI_CHAR, first, comm);
+    throw Failure(ExitCode::io, message);
+}
+
+}  // namespace corpuscle::io

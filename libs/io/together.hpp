@@ -1,0 +1,37 @@
+// Failing together: file work that goes wrong on one rank must end on all of them, or the others wait for ever.
+#pragma once
+#include <mpi.h>
+
+#include <string>
+#include <utility>
+
+namespace corpuscle::io {
+
+// Collective. If `failed` anywhere, every rank throws Failure(ExitCode::io) with the lowest failing rank's text.
+void throwTogether(MPI_Comm comm, bool failed, const std::string& text);
+
+// Collective. Runs work() on every rank; if it throws anywhere, every rank throws.
+template <class Work>
+void together(MPI_Comm comm, Work&& work) {
+    bool failed = false;
+    std::string text;
+    try {
+        std::forward<Work>(work)();
+    } catch (const std::exception& error) {
+        failed = true;
+        text = error.what();
+    }
+    throwTogether(comm, failed, text);
+}
+
+// Collective. Runs work() on rank 0; if it throws there, every rank throws.
+template <class Work>
+void onRoot(MPI_Comm comm, Work&& work) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    together(comm, [&] {
+        if (rank == 0) work();
+    });
+}
+
+}  // namespace corpuscle::io

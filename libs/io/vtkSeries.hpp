@@ -1,0 +1,55 @@
+// A stream of results in time, as ParaView reads it:
+//
+//     results/<stream>.pvd                                    times and files, rewritten whole and atomically with
+//     every entry results/<stream>/<stream>_NNNNNN.pvtp                   one time
+//     results/<stream>/<stream>_NNNNNN/<stream>_NNNNNN_R.vtp  the piece of rank R
+//
+// Field data of every piece: TimeValue [s], strain. A file that a .pvd names is always complete. Nothing in the folder
+// changes before the first write; then entries at or after the start time, left by a run that went further, are
+// removed.
+#pragma once
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/polyData.hpp"
+
+namespace corpuscle::io {
+
+struct SeriesEntry {
+    double time;                 // s
+    std::filesystem::path file;  // the .pvtp (or .vtp), reachable from the current directory
+};
+
+// The entries of a .pvd in their order. Throws Failure(ExitCode::io) when it is missing or no .pvd.
+std::vector<SeriesEntry> readPvd(const std::filesystem::path& path);
+
+class VtkSeries {
+  public:
+    // keep: the number of times that stay, 0 for all. startTime: of this run [s]; a fresh run gives its first time.
+    VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime);
+
+    // Collective: every rank gives its piece, with the same array names. Throws Failure(ExitCode::io) on all ranks.
+    void write(double time, double strain, const PolyData& piece);
+
+  private:
+    void start();
+    Cells agreeOnCells(const PolyData& piece) const;
+    void writeIndex() const;
+    void removeFiles(const SeriesEntry& entry) const;
+    std::string stepName(int number) const;
+
+    MPI_Comm comm_;
+    int rank_ = 0, size_ = 1;
+    std::filesystem::path results_;
+    std::string stream_;
+    int keep_;
+    double startTime_;
+    bool started_ = false;
+    int number_ = 0;                    // of the next entry
+    std::vector<SeriesEntry> entries_;  // on rank 0
+};
+
+}  // namespace corpuscle::io

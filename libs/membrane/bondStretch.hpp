@@ -1,0 +1,28 @@
+// Rupture by bond stretch (paper, section 2: bonds are removed past 1.05 of their rest length): a bond breaks for
+// good when
+//     l/l0 > limit.
+// symbol | meaning                  | unit
+// limit  | greatest stretch of bond | -
+#pragma once
+#include "core/settings.hpp"
+#include "membrane/ruptureLaw.hpp"
+
+namespace corpuscle::membrane {
+
+struct BondStretch : RuptureLaw {
+    double limit = 0;
+
+    std::vector<BrokenBond> select(const Network& network, std::span<const Vec3> x) const override {
+        std::vector<BrokenBond> broken;
+        for (const Bond& bond : network.bonds()) {
+            const Vec3 &a = x[bond.node[0]], &b = x[bond.node[1]];
+            if (const double stretch = (b - a).norm() / bond.rest; stretch > limit) {
+                broken.push_back({bond.number, stretch, 0.5 * (a + b)});
+            }
+        }
+        return broken;
+    }
+    static const Schema<BondStretch>& schema();
+};
+
+}  // namespace corpuscle::membrane

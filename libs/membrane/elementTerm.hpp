@@ -1,0 +1,81 @@
+// The loop over elements, written once for every law of one internal coordinate q with rest value q0:
+//
+//     E = sum over elements of E(q, q0),   F_n = -E'(q, q0) dq/dx_n
+//
+// Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
+// The stiffness of an element without its geometric part is E'' (dq/dx)(dq/dx)^T, with the one eigenvalue E''
+// |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of a node.
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "membrane/coordinates.hpp"
+#include "membrane/network.hpp"
+#include "membrane/term.hpp"
+
+namespace corpuscle::membrane {
+
+inline const std::vector<Bond>& elementsOf(const Network& network, BondLength) { return network.bonds(); }
+inline const std::vector<Corner>& elementsOf(const Network& network, CornerAngle) { return network.corners(); }
+inline const std::vector<Hinge>& elementsOf(const Network& network, DihedralAngle) { return network.hinges(); }
+
+template <class Coordinate, class Law>
+class ElementTerm final : public Term {
+  public:
+    ElementTerm(const Network& network, Law law) : network_(network), law_(law) {}
+
+    void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
+        for (const auto& element : elementsOf(network_, Coordinate{})) {
+            const auto q = at(element, x);
+            const double slope = law_.derivative(q.value, element.rest);
+            for (int k = 0; k < Coordinate::nodes; ++k) {
+                f[element.node[k]] -= slope * q.gradient[k];
+            }
+        }
+    }
+
+    double energy(std::span<const Vec3> x) const override {
+        double sum = 0;
+        for (const auto& element : elementsOf(network_, Coordinate{})) {
+            sum += law_.energy(at(element, x).value, element.rest);
+        }
+        return sum;
+    }
+
+    double maxStiffness(std::span<const Vec3> x) const override {
+        std::vector<double> ofNode(x.size(), 0.0);
+        for (const auto& element : elementsOf(network_, Coordinate{})) {
+            const auto q = at(element, x);
+            double square = 0;
+            for (const Vec3& g : q.gradient) {
+                square += g.squaredNorm();
+            }
+            for (const int node : element.node) {
+                ofNode[node] += std::max(0.0, law_.secondDerivative(q.value, element.rest)) * square;
+            }
+        }
+        return ofNode.empty() ? 0.0 : *std::max_element(ofNode.begin(), ofNode.end());
+    }
+
+  private:
+    static auto at(const Element<Coordinate::nodes>& element, std::span<const Vec3> x) {
+        std::array<Vec3, Coordinate::nodes> corner;
+        for (int k = 0; k < Coordinate::nodes; ++k) {
+            corner[k] = x[element.node[k]];
+        }
+        return Coordinate::at(corner);
+    }
+
+    const Network& network_;
+    Law law_;
+};
+
+template <class Law>
+using BondTerm = ElementTerm<BondLength, Law>;
+template <class Law>
+using CornerTerm = ElementTerm<CornerAngle, Law>;
+template <class Law>
+using HingeTerm = ElementTerm<DihedralAngle, Law>;
+
+}  // namespace corpuscle::membrane

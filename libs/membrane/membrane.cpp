@@ -1,0 +1,102 @@
+#include "membrane/membrane.hpp"
+
+#include <algorithm>
+
+#include "membrane/surface.hpp"
+
+namespace corpuscle::membrane {
+
+Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> stressFree, std::vector<Index3> triangles,
+                   const MembraneSettings& settings, double radius)
+    : name(std::move(nameOfCell)),
+      cell(cellNumber),
+      position(stressFree),
+      velocity(stressFree.size(), Vec3::Zero()),
+      force(stressFree.size(), Vec3::Zero()),
+      network_(std::make_unique<Network>(std::move(stressFree), std::move(triangles))),
+      bondLaw_(settings.bonds.model),
+      rupture_(settings.rupture.model) {
+    scale_ = {bondLaw_->hexagonalModuli(network_->meanBondLength()).shear, radius};
+    terms_.push_back(bondLaw_->makeTerm(*network_));
+    if (settings.angles) {
+        terms_.push_back(settings.angles->makeTerm(*network_));
+    }
+    if (settings.bending) {
+        terms_.push_back(settings.bending->makeTerm(*network_, scale_));
+    }
+}
+
+void Membrane::computeForces() {
+    std::fill(force.begin(), force.end(), Vec3::Zero());
+    for (const auto& term : terms_) {
+        term->addForces(position, force);
+    }
+}
+
+double Membrane::energy() const {
+    double sum = 0;
+    for (const auto& term : terms_) {
+        sum += term->energy(position);
+    }
+    return sum;
+}
+
+double Membrane::maxStiffness() const {
+    double sum = 0;
+    for (const auto& term : terms_) {
+        sum += term->maxStiffness(position);
+    }
+    return sum;
+}
+
+std::vector<BrokenBond> Membrane::applyRupture() {
+    if (!canRupture()) {
+        return {};
+    }
+    std::vector<BrokenBond> broken = rupture_->select(*network_, position);
+    if (!broken.empty()) {
+        std::vector<int> numbers;
+        for (const BrokenBond& bond : broken) {
+            numbers.push_back(bond.bond);
+        }
+        network_->breakBonds(numbers);
+    }
+    return broken;
+}
+
+double Membrane::area() const {
+    double sum = 0;
+    for (const int t : network_->wholeTriangles()) {
+        sum += areaVector(position, network_->triangles()[t]).norm();
+    }
+    return sum;
+}
+
+double Membrane::volume() const {
+    const Vec3 origin = position.front();
+    double sum = 0;
+    for (const int t : network_->wholeTriangles()) {
+        const Index3& corner = network_->triangles()[t];
+        sum += tetrahedron(position[corner[0]], position[corner[1]], position[corner[2]], origin);
+    }
+    if (network_->brokenTriangles() > 0) {
+        for (const auto& rim : network_->rims()) {
+            sum += fanVolume(position, rim, origin);
+        }
+    }
+    return sum;
+}
+
+std::vector<double> Membrane::vertexAreas() const {
+    std::vector<double> areas(position.size(), 0.0);
+    for (const int t : network_->wholeTriangles()) {
+        const Index3& corner = network_->triangles()[t];
+        const double third = areaVector(position, corner).norm() / 3;
+        for (const int node : corner) {
+            areas[node] += third;
+        }
+    }
+    return areas;
+}
+
+}  // namespace corpuscle::membrane

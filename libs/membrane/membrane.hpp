@@ -1,0 +1,52 @@
+// One membrane: the network of a cell with the laws that its case names, and the state of its nodes.
+//
+// Positions are unwrapped (contiguous across periodic faces). Each rank that the cell touches holds it whole,
+// computes the same forces in the same order (same bits, so rupture needs no messages) and keeps those of its own
+// nodes.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "membrane/membraneSettings.hpp"
+#include "membrane/network.hpp"
+#include "membrane/term.hpp"
+
+namespace corpuscle::membrane {
+
+class Membrane {
+  public:
+    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest at their stress-free places.
+    Membrane(std::string name, int cell, std::vector<Vec3> stressFree, std::vector<Index3> triangles,
+             const MembraneSettings& settings, double radius);
+
+    std::string name;
+    int cell;  // number of the cell, 1 and up; `side` of the fluid particles inside it
+    std::vector<Vec3> position, velocity, force;  // m, m/s, N
+
+    const Network& network() const { return *network_; }
+    const BondLaw& bondLaw() const { return *bondLaw_; }
+    const MembraneScale& scale() const { return scale_; }
+
+    void computeForces();         // force = -d energy/d position, all terms
+    double energy() const;        // J
+    double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
+
+    bool canRupture() const { return rupture_ != nullptr; }
+    std::vector<BrokenBond> applyRupture();  // breaks what the criterion names at the present positions; what broke now
+    void restore(std::vector<char> aliveBonds) { network_->restore(std::move(aliveBonds)); }
+
+    double area() const;  // of the whole triangles, m^2
+    // Enclosed, m^3. A hole counts as closed by a fan over its rim. No meaning for a mesh that was made with a border.
+    double volume() const;
+    std::vector<double> vertexAreas() const;  // a third of each whole triangle of a node, m^2
+
+  private:
+    std::unique_ptr<Network> network_;  // terms refer to it: its address stays when the membrane is moved
+    MembraneScale scale_;
+    std::shared_ptr<const BondLaw> bondLaw_;
+    std::shared_ptr<const RuptureLaw> rupture_;
+    std::vector<std::unique_ptr<Term>> terms_;
+};
+
+}  // namespace corpuscle::membrane

@@ -1,0 +1,47 @@
+// Area and volume of triangles and fans. A volume is the signed sum of tetrahedra over a reference point: for a
+// closed surface with outward normals it does not depend on that point; take one near the surface to keep the digits.
+#pragma once
+#include <Eigen/Geometry>
+#include <span>
+
+#include "core/vec.hpp"
+
+namespace corpuscle::membrane {
+
+// Area times unit normal, m^2.
+inline Vec3 areaVector(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a); }
+inline Vec3 areaVector(std::span<const Vec3> x, const Index3& t) { return areaVector(x[t[0]], x[t[1]], x[t[2]]); }
+
+inline double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& origin) {
+    return (a - origin).dot((b - origin).cross(c - origin)) / 6;
+}
+
+inline Vec3 meanPoint(std::span<const Vec3> x, std::span<const int> loop) {
+    Vec3 mean = Vec3::Zero();
+    for (const int node : loop) {
+        mean += x[node];
+    }
+    return mean / static_cast<double>(loop.size());
+}
+
+// Surface of triangles from the mean point of a loop to its edges.
+inline double fanArea(std::span<const Vec3> x, std::span<const int> loop) {
+    const Vec3 mean = meanPoint(x, loop);
+    double area = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        area += areaVector(mean, x[loop[k]], x[loop[(k + 1) % loop.size()]]).norm();
+    }
+    return area;
+}
+
+// What that fan adds to the volume, when the loop runs in the sense of the surface that it closes.
+inline double fanVolume(std::span<const Vec3> x, std::span<const int> loop, const Vec3& origin) {
+    const Vec3 mean = meanPoint(x, loop);
+    double volume = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        volume += tetrahedron(mean, x[loop[(k + 1) % loop.size()]], x[loop[k]], origin);
+    }
+    return volume;
+}
+
+}  // namespace corpuscle::membrane

@@ -1,0 +1,22 @@
+// One contribution to a membrane's energy, chosen once at set-up; the virtual call is made once per membrane and step.
+//
+// A term sees node positions (unwrapped, contiguous) and a Network; it knows nothing of ranks, images or the fluid.
+// It may keep a reference to the Network, whose lists shrink at rupture; it keeps no other state.
+#pragma once
+#include <span>
+
+#include "core/vec.hpp"
+
+namespace corpuscle::membrane {
+
+class Term {
+  public:
+    virtual ~Term() = default;
+    virtual void addForces(std::span<const Vec3> x, std::span<Vec3> f) const = 0;  // N
+    virtual double energy(std::span<const Vec3> x) const = 0;                      // J
+    // Bound of the largest eigenvalue of the stiffness matrix [N/m], its geometric part left out: for limits of the
+    // time step.
+    virtual double maxStiffness(std::span<const Vec3> x) const = 0;
+};
+
+}  // namespace corpuscle::membrane

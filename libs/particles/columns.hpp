@@ -1,0 +1,50 @@
+// Order of particles in space: columns of square cross-section along z, visited in a snake (neighbouring columns are
+// neighbours in memory), the particles of every second column sorted downwards, so that any few consecutive particles are
+// close together and none need be padded.
+#pragma once
+#include <vector>
+
+#include "particles/particleStore.hpp"
+
+namespace corpuscle::particles {
+
+class Columns {
+  public:
+    Columns() = default;
+    // Columns of about `width` over the rectangle [xLow, xHigh] x [yLow, yHigh].
+    Columns(double xLow, double xHigh, double yLow, double yHigh, double width);
+
+    int columnCount() const { return nx_ * ny_; }
+
+    // The order that sorts the particles: order[k] is the particle that comes k-th. Equal particles keep their order.
+    std::vector<int> sort(const double* x, const double* y, const double* z, int n);
+    // After the particles have been put into that order:
+    int begin(int column) const { return start_[static_cast<std::size_t>(column)]; }
+    int end(int column) const { return start_[static_cast<std::size_t>(column) + 1]; }
+
+    // Storage number of the column at grid position (cx, cy).
+    int column(int cx, int cy) const { return cx * ny_ + (cx % 2 ? ny_ - 1 - cy : cy); }
+    static bool downwards(int column) { return column % 2 == 1; }
+    int cellX(double x) const { return clampCell((x - xLow_) * inverseX_, nx_); }
+    int cellY(double y) const { return clampCell((y - yLow_) * inverseY_, ny_); }
+    // Distance from the interval [a, b] to the column strip at cx or cy (0 if they overlap).
+    double gapX(int cx, double a, double b) const;
+    double gapY(int cy, double a, double b) const;
+
+    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array.
+    struct Span {
+        int begin, end;
+    };
+    Span between(int column, const double* z, double zLow, double zHigh) const;
+
+  private:
+    static int clampCell(double c, int n) {
+        if (!(c > 0)) return 0;
+        return c >= n ? n - 1 : static_cast<int>(c);
+    }
+    double xLow_ = 0, yLow_ = 0, widthX_ = 1, widthY_ = 1, inverseX_ = 1, inverseY_ = 1;
+    int nx_ = 1, ny_ = 1;
+    std::vector<int> start_{0, 0};
+};
+
+}  // namespace corpuscle::particles

@@ -1,0 +1,125 @@
+#include "particles/halo.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace corpuscle::particles {
+
+namespace {
+
+struct Bounds {
+    Vec3 low = Vec3::Constant(INFINITY), high = Vec3::Constant(-INFINITY);
+    void include(const Vec3& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+};
+
+double gapSquared(const Vec3& lowA, const Vec3& highA, const Vec3& lowB, const Vec3& highB) {
+    return (lowA - highB).cwiseMax(lowB - highA).cwiseMax(0.0).squaredNorm();
+}
+
+}  // namespace
+
+void Halo::plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition, const Box& box,
+                double reach) {
+    comm_ = decomposition.comm();
+    const int size = decomposition.size(), self = decomposition.rank();
+    const auto position = [&](int i) { return Vec3(x[i], y[i], z[i]); };
+    constexpr int group = 64;  // consecutive particles are close together: tested first by their bounds
+    std::vector<Bounds> bounds(static_cast<std::size_t>((n + group - 1) / group));
+    Bounds all;
+    for (int i = 0; i < n; ++i) bounds[static_cast<std::size_t>(i / group)].include(position(i));
+    for (const Bounds& b : bounds)
+        if (b.low[0] <= b.high[0]) all.include(b.low), all.include(b.high);
+
+    int images[3];
+    for (int k = 0; k < 3; ++k)
+        images[k] = box.periodic[k] ? static_cast<int>(std::ceil(reach / box.size()[k])) : 0;
+
+    sendIndex_.clear(), sendShift_.clear(), sends_.clear(), receives_.clear();
+    std::vector<int> sendCounts(static_cast<std::size_t>(size), 0), receiveCounts(static_cast<std::size_t>(size), 0);
+    const double reach2 = reach * reach;
+    for (int r = 0; r < size; ++r) {
+        const int begin = static_cast<int>(sendIndex_.size());
+        const Brick& brick = decomposition.brick(r);
+        for (int a = -images[0]; a <= images[0]; ++a)
+            for (int b = -images[1]; b <= images[1]; ++b)
+                for (int c = -images[2]; c <= images[2]; ++c) {
+                    if (r == self && a == 0 && b == 0 && c == 0) continue;
+                    const Vec3 shift = Vec3(a, b, c).cwiseProduct(box.size());
+                    const Vec3 low = brick.low - shift, high = brick.high - shift;
+                    if (n == 0 || gapSquared(all.low, all.high, low, high) >= reach2) continue;
+                    for (std::size_t g = 0; g < bounds.size(); ++g) {
+                        if (gapSquared(bounds[g].low, bounds[g].high, low, high) >= reach2) continue;
+                        const int last = std::min(n, static_cast<int>(g + 1) * group);
+                        for (int i = static_cast<int>(g) * group; i < last; ++i)
+                            if (distanceSquared(position(i), low, high) < reach2) {
+                                sendIndex_.push_back(i);
+                                sendShift_.push_back(shift);
+                            }
+                    }
+                }
+        const int end = static_cast<int>(sendIndex_.size());
+        sendCounts[static_cast<std::size_t>(r)] = end - begin;
+        if (r == self)
+            selfSend_ = {r, begin, end};
+        else if (end > begin)
+            sends_.push_back({r, begin, end});
+    }
+    MPI_Alltoall(sendCounts.data(), 1, MPI_INT, receiveCounts.data(), 1, MPI_INT, comm_);
+    ghosts_ = 0;
+    for (int r = 0; r < size; ++r) {
+        const int count = receiveCounts[static_cast<std::size_t>(r)];
+        if (r == self)
+            selfReceive_ = {r, ghosts_, ghosts_ + count};
+        else if (count > 0)
+            receives_.push_back({r, ghosts_, ghosts_ + count});
+        ghosts_ += count;
+    }
+    selfCount_ = static_cast<std::size_t>(selfSend_.end - selfSend_.begin);
+    slot_.resize(static_cast<std::size_t>(ghosts_));
+    std::iota(slot_.begin(), slot_.end(), 0);
+}
+
+void Halo::begin(double* records, int owned, int fields) {
+    const auto width = static_cast<std::size_t>(fields);
+    sendBuffer_.resize(sendIndex_.size() * width);
+    receiveBuffer_.resize(static_cast<std::size_t>(ghosts_) * width);
+    requests_.clear();
+    for (const Message& m : receives_) {
+        requests_.emplace_back();
+        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, MPI_DOUBLE, m.rank, 0,
+                  comm_, &requests_.back());
+    }
+    const auto pack = [&](int k, double* to) {
+        const double* from = records + static_cast<std::size_t>(sendIndex_[k]) * width;
+        for (std::size_t f = 0; f < width; ++f) to[f] = from[f];
+        for (std::size_t f = 0; f < 3; ++f) to[f] += sendShift_[k][static_cast<int>(f)];
+    };
+    for (const Message& m : sends_) {
+        for (int k = m.begin; k < m.end; ++k) pack(k, sendBuffer_.data() + static_cast<std::size_t>(k) * width);
+        requests_.emplace_back();
+        MPI_Isend(sendBuffer_.data() + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, MPI_DOUBLE, m.rank, 0, comm_,
+                  &requests_.back());
+    }
+    for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k)
+        pack(selfSend_.begin + k, records + static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]) * width);
+}
+
+void Halo::finish(double* records, int owned, int fields) {
+    const auto width = static_cast<std::size_t>(fields);
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+    for (const Message& m : receives_)
+        for (int k = m.begin; k < m.end; ++k) {
+            const double* from = receiveBuffer_.data() + static_cast<std::size_t>(k) * width;
+            std::copy(from, from + width, records + static_cast<std::size_t>(owned + slot_[k]) * width);
+        }
+    requests_.clear();
+}
+
+void Halo::reorder(const std::vector<int>& order) {
+    std::vector<int> place(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+    for (int& s : slot_) s = place[static_cast<std::size_t>(s)];
+}
+
+}  // namespace corpuscle::particles

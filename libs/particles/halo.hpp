@@ -1,0 +1,52 @@
+// Ghosts: copies of other ranks' particles, and of own ones across periodic faces, that lie within reach of this rank's brick.
+//
+// One mechanism serves both: for every rank and every periodic image, the particles whose shifted position lies within reach of
+// that rank's brick are sent to it. The plan is made when lists are built and used at every step; ghosts are kept sorted in
+// columns. A message carries records (pairLoop.hpp): fields 0..2 are the position, which gets the image's shift.
+#pragma once
+#include <mpi.h>
+
+#include <vector>
+
+#include "particles/decomposition.hpp"
+
+namespace corpuscle::particles {
+
+class Halo {
+  public:
+    // Who needs which of the n own particles at x, y, z. Collective.
+    void plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition, const Box& box,
+              double reach);
+
+    int ghostCount() const { return ghosts_; }
+
+    // Fills records[owned .. owned + ghostCount) from records[0 .. owned), `fields` doubles each, in two halves so that
+    // work on interior particles can go on between them.
+    void begin(double* records, int owned, int fields);
+    void finish(double* records, int owned, int fields);
+    void exchange(double* records, int owned, int fields) { begin(records, owned, fields), finish(records, owned, fields); }
+
+    // Puts ghosts into a new order: the ghost that was number order[k] becomes number k.
+    void reorder(const std::vector<int>& order);
+
+    // Bytes sent to other ranks at each exchange of `fields` doubles.
+    std::size_t bytesSent(int fields) const { return (sendIndex_.size() - selfCount_) * static_cast<std::size_t>(fields) * 8; }
+
+  private:
+    struct Message {
+        int rank;
+        int begin, end;  // of the send list, or of the received ghosts
+    };
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    int ghosts_ = 0;
+    std::size_t selfCount_ = 0;
+    std::vector<int> sendIndex_;      // own particle of each entry
+    std::vector<Vec3> sendShift_;     // image shift of each entry
+    std::vector<Message> sends_, receives_;
+    Message selfSend_{}, selfReceive_{};
+    std::vector<int> slot_;           // ghost number of the k-th received ghost
+    std::vector<double> sendBuffer_, receiveBuffer_;
+    std::vector<MPI_Request> requests_;
+};
+
+}  // namespace corpuscle::particles

@@ -1,0 +1,20 @@
+// Which build of the hot loops runs on this processor.
+//
+// A file of hot loops is compiled three times (cmake: corpuscle_isa_sources) with CORPUSCLE_ISA_NAMESPACE and CORPUSCLE_ISA_TAG
+// set; it hides its functions in that namespace and hands out a table of pointers. Such a file includes nothing but simd.hpp,
+// laws and plain data: a standard-library template instantiated with AVX-512 must not replace its baseline twin at link time.
+#pragma once
+#include <string>
+
+namespace corpuscle::particles {
+
+enum class InstructionSet { baseline, avx2, avx512 };
+
+// The best of what the processor offers; the environment variable CORPUSCLE_ISA (baseline, avx2, avx512) lowers it.
+InstructionSet instructionSet();
+std::string instructionSetName();
+
+// Particles i per block of the neighbour list: the lanes of the loops above.
+inline int blockLanes() { return instructionSet() == InstructionSet::avx512 ? 8 : 4; }
+
+}  // namespace corpuscle::particles

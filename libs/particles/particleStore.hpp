@@ -1,0 +1,97 @@
+// The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (pairList.hpp).
+//
+// What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there are
+// cells, node only where there are membranes. Whoever reorders, sends or saves particles goes through forEachField, so a new
+// field needs one line here.
+#pragma once
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <string_view>
+#include <vector>
+
+#include "core/vec.hpp"
+
+namespace corpuscle::particles {
+
+// 64-byte aligned storage for vector loads.
+template <class T>
+struct AlignedAllocator {
+    using value_type = T;
+    AlignedAllocator() = default;
+    template <class U>
+    AlignedAllocator(const AlignedAllocator<U>&) {}
+    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
+    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    bool operator==(const AlignedAllocator&) const { return true; }
+};
+template <class T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+using RealArray = AlignedVector<double>;
+using IntegerArray = AlignedVector<std::int64_t>;
+
+enum class Kind : std::int64_t { fluid = 0, membrane = 1, wall = 2 };
+
+class ParticleStore {
+  public:
+    struct Optional {
+        bool mass = false, viscosity = false, side = false, node = false;
+        bool operator==(const Optional&) const = default;
+    };
+
+    RealArray x, y, z;           // position [m]
+    RealArray u, v, w;           // velocity [m/s]
+    RealArray density;           // [kg/m^3]
+    RealArray fx, fy, fz;        // acceleration from the last force evaluation [m/s^2]
+    RealArray densityRate;       // [kg/(m^3 s)]
+    RealArray xBuilt, yBuilt, zBuilt;  // position at the last list build [m]
+    RealArray mass;              // [kg], where it varies
+    RealArray viscosity;         // dynamic viscosity [Pa s], where it varies
+    IntegerArray id;             // unique, stable
+    IntegerArray kind;           // Kind
+    IntegerArray side;           // 0 outside, n inside cell n
+    IntegerArray node;           // global number of the membrane node that the particle is, -1 for others
+
+    ParticleStore() = default;
+    explicit ParticleStore(Optional fields) : optional_(fields) {}
+
+    std::size_t size() const { return x.size(); }
+    const Optional& optional() const { return optional_; }
+    void resize(std::size_t n) {
+        forEachField([n](std::string_view, auto& array) { array.resize(n); });
+    }
+    Vec3 position(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    Vec3 velocity(std::size_t i) const { return {u[i], v[i], w[i]}; }
+    void setPosition(std::size_t i, const Vec3& p) { x[i] = p[0], y[i] = p[1], z[i] = p[2]; }
+    void setVelocity(std::size_t i, const Vec3& p) { u[i] = p[0], v[i] = p[1], w[i] = p[2]; }
+    Kind kindOf(std::size_t i) const { return static_cast<Kind>(kind[i]); }
+
+    // f(name, array&) for every array that exists: first the reals, then the integers.
+    template <class F>
+    void forEachField(F&& f) { visit(*this, f); }
+    template <class F>
+    void forEachField(F&& f) const { visit(*this, f); }
+
+    // New order: particle i becomes the old particle order[i]; order may be shorter than size().
+    void reorder(const std::vector<int>& order);
+
+    std::size_t bytesPerParticle() const;
+
+  private:
+    template <class Self, class F>
+    static void visit(Self& s, F&& f) {
+        f("x", s.x), f("y", s.y), f("z", s.z);
+        f("u", s.u), f("v", s.v), f("w", s.w);
+        f("density", s.density);
+        f("fx", s.fx), f("fy", s.fy), f("fz", s.fz), f("densityRate", s.densityRate);
+        f("xBuilt", s.xBuilt), f("yBuilt", s.yBuilt), f("zBuilt", s.zBuilt);
+        if (s.optional_.mass) f("mass", s.mass);
+        if (s.optional_.viscosity) f("viscosity", s.viscosity);
+        f("id", s.id), f("kind", s.kind);
+        if (s.optional_.side) f("side", s.side);
+        if (s.optional_.node) f("node", s.node);
+    }
+    Optional optional_;
+};
+
+}  // namespace corpuscle::particles

@@ -1,0 +1,80 @@
+// Particles of one rank with their ghosts and neighbour list: what every pair law runs on.
+//
+//     while (time.running()) {
+//         ... move particles ...
+//         if (system.mustRebuild()) system.rebuild();
+//         ... pack records of the owned ...
+//         system.forEachPair(records, fields, [&](auto& blocks, bool atWall) { kernel(...); });
+//     }
+#pragma once
+#include <mpi.h>
+
+#include <memory>
+
+#include "particles/box.hpp"
+#include "particles/columns.hpp"
+#include "particles/decomposition.hpp"
+#include "particles/halo.hpp"
+#include "particles/pairList.hpp"
+#include "particles/particleStore.hpp"
+
+namespace corpuscle::particles {
+
+class ParticleSystem {
+  public:
+    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns).
+    ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin, double spacing);
+
+    ParticleStore& store() { return store_; }
+    const ParticleStore& store() const { return store_; }
+    const Box& box() const { return box_; }
+    const Decomposition& decomposition() const { return decomposition_; }
+    const PairList& list() const { return list_; }
+    const Halo& halo() const { return halo_; }
+    MPI_Comm comm() const { return decomposition_.comm(); }
+    int owned() const { return static_cast<int>(store_.size()); }
+    int ghosts() const { return halo_.ghostCount(); }
+    double support() const { return support_; }
+    double skin() const { return skin_; }
+    double spacing() const { return spacing_; }
+    long rebuilds() const { return rebuilds_; }
+    std::size_t bytes() const;
+
+    // Fills the store for the first time: cuts bricks, sends every particle to its owner, builds lists. Collective.
+    void start();
+    // Takes up a checkpoint on the same number of ranks: the store holds this rank's particles in their saved order.
+    // Lists are built from xBuilt, yBuilt, zBuilt, so that the run goes on bit for bit.
+    // rebuilds: how many there had been (it times the rebalancing).
+    void resume(const std::vector<double>& bricks, long rebuilds);
+
+    // Whether some particle of any rank has moved more than skin/2 since the last build. Collective.
+    bool mustRebuild() const;
+    // The same from a square of displacement that the caller has at hand.
+    bool mustRebuild(double largestDisplacement2) const;
+    double largestDisplacement2() const;
+    // Wraps, migrates, sorts, plans the halo, builds the list; rebalances bricks when they are uneven. Collective.
+    void rebuild();
+
+    // Runs work(group) on the four groups of blocks: those without ghosts while the halo is under way. `records` holds
+    // `fields` doubles per particle, owned ones filled, room for ghosts behind them. Collective.
+    template <class Work>
+    void forEachPair(double* records, int fields, Work&& work) {
+        halo_.begin(records, owned(), fields);
+        work(PairList::interior), work(PairList::interiorAtWall);
+        halo_.finish(records, owned(), fields);
+        work(PairList::boundary), work(PairList::boundaryAtWall);
+    }
+
+  private:
+    void buildFrom(const RealArray& x, const RealArray& y, const RealArray& z);
+    Box box_;
+    double support_, skin_, spacing_;
+    ParticleStore store_;
+    Decomposition decomposition_;
+    Halo halo_;
+    PairList list_;
+    Columns columns_, ghostColumns_;
+    long rebuilds_ = 0;
+};
+
+}  // namespace corpuscle::particles

@@ -1,0 +1,62 @@
+// Family of flows: what drives the fluid, from constant/flow.yaml.
+//
+// A case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the membrane's bond law,
+//     Ca = mu gammadot a/Gs.
+// inertia: physical keeps the density as given; {Re: 0.1} sets it, rho = Re mu/(gammadot a^2), and is reported as such.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "core/registry.hpp"
+#include "particles/box.hpp"
+#include "sph/walls.hpp"
+
+namespace corpuscle::sph {
+
+// What a flow may refer to.
+struct FlowContext {
+    particles::Box box;         // of the fluid, walls' layers not included
+    double viscosity = 0;       // mu, outer [Pa s]
+    double density = 0;         // as given in fluid.yaml [kg/m^3]
+    double cellRadius = 0;      // a [m]; 0: no cells
+    double shearModulus = 0;    // Gs [N/m]; 0: no cells
+};
+
+// What follows from it, SI.
+struct FlowState {
+    double density = 0;     // [kg/m^3]
+    bool densityFromRe = false;
+    double shearRate = 0;   // gammadot; 0: none [1/s]
+    double speed = 0;       // largest speed that walls or body force give [m/s]
+    double length = 0;      // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
+    double rate = 0;        // shearRate, or speed/length [1/s]
+    Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
+    Walls walls;
+    std::function<Vec3(const Vec3&)> velocity;    // at t = 0
+    std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
+};
+
+class Flow {
+  public:
+    static constexpr const char* familyName = "flow";
+    virtual ~Flow() = default;
+    // Axis normal to the walls, -1 for none: known before anything else, since filling needs it.
+    virtual int wallAxis() const = 0;
+    // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
+    virtual FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const = 0;
+};
+
+// walls: {normal: z}
+struct WallSettings {
+    std::string normal = "z";
+    static const Schema<WallSettings>& schema();
+    int axis() const { return normal[0] - 'x'; }
+};
+
+// inertia: {Re: 0.1}
+struct InertiaSettings {
+    double Re = 0;
+    static const Schema<InertiaSettings>& schema();
+};
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,62 @@
+// Accelerations and rates of density of all particles of one rank (fluidPair.hpp), with body force and wall reaction.
+//
+// Pressure and viscosity act between all particles; a membrane's node counts as fluid here (dual identity). The velocity that
+// enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a with e = dt/2 and a the last
+// acceleration.
+#pragma once
+#include <memory>
+
+#include "particles/particleSystem.hpp"
+#include "sph/equationOfState.hpp"
+#include "sph/kernel.hpp"
+#include "sph/walls.hpp"
+
+namespace corpuscle::sph {
+
+struct FluidModel {
+    std::shared_ptr<const Kernel> kernel;
+    std::shared_ptr<const EquationOfState> equationOfState;
+    double density = 0;    // rho0 [kg/m^3]
+    double viscosity = 0;  // mu of the outer fluid [Pa s]
+    double soundSpeed = 0; // c0 [m/s]
+    double mass = 0;       // of one fluid particle, rho0 dx^3 [kg]
+    Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
+    Walls walls;
+};
+
+class FluidForces {
+  public:
+    FluidForces(const FluidModel& model, const particles::ParticleSystem& system);
+
+    const FluidModel& model() const { return model_; }
+
+    // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles are summed up and set to zero.
+    void evaluate(particles::ParticleSystem& system, double extrapolation);
+
+    // Particles that are walls, found anew after each list build.
+    void findWalls(const particles::ParticleSystem& system);
+
+    // Force of the fluid on the lower and the upper wall at the last evaluation, this rank's part [N].
+    const Vec3& wallForce(int upper) const { return wallForce_[upper]; }
+
+    // Largest eigenvalue of the viscous operator per mass, 1/m_i (L u)_i, by power iterations with a start that depends on
+    // particle numbers only [1/s]. Collective. Leaves the state as it was.
+    double viscousRate(particles::ParticleSystem& system, int iterations);
+
+    std::size_t bytes() const { return records_.capacity() * sizeof(double); }
+
+  private:
+    template <class Velocity, class Pressure>
+    void pack(const particles::ParticleStore& store, Velocity&& velocity, Pressure&& pressure);
+    void run(particles::ParticleSystem& system, double* const results[4]);
+
+    FluidModel model_;
+    FluidVariant variant_;
+    FluidConstants constants_;
+    PairKernels::Fluid kernel_[2];  // away from walls, at walls
+    particles::RealArray records_, pressure_;
+    std::vector<int> wallParticles_;
+    Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
+};
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,71 @@
+#include "sph/kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/lucy.hpp"
+#include "sph/quintic.hpp"
+#include "sph/wendlandC2.hpp"
+
+namespace corpuscle::sph {
+
+namespace {
+
+// A plain number with the operations that kernel formulas use.
+struct Scalar {
+    double v;
+    Scalar(double value) : v(value) {}
+    friend Scalar operator+(Scalar a, Scalar b) { return a.v + b.v; }
+    friend Scalar operator-(Scalar a, Scalar b) { return a.v - b.v; }
+    friend Scalar operator*(Scalar a, Scalar b) { return a.v * b.v; }
+    friend Scalar operator/(Scalar a, Scalar b) { return a.v / b.v; }
+    friend Scalar max(Scalar a, Scalar b) { return std::max(a.v, b.v); }
+};
+
+template <class Formula, KernelKind kernelKind>
+struct KernelOf : Kernel {
+    static const Schema<KernelOf>& schema() {
+        static const Schema<KernelOf> s =
+            Schema<KernelOf>(Formula::name, "smoothing kernel")
+                .length("support", static_cast<Length KernelOf::*>(&Kernel::support), "support radius H_s",
+                        {.fallback = std::to_string(Formula::defaultSupport).substr(0, 3) + " dx", .range = positive});
+        return s;
+    }
+    KernelKind kind() const override { return kernelKind; }
+    double normalisation(double H) const override { return Formula::normalisation(H); }
+    double gradientNormalisation(double H) const override { return Formula::gradientNormalisation(H); }
+    double value(double q) const override { return Formula::template value<Scalar>(q).v; }
+    double slope(double q) const override { return Formula::template slope<Scalar>(q).v; }
+};
+
+template <class F>
+void forLattice(double support, F&& f) {
+    const int n = static_cast<int>(std::ceil(support));
+    for (int i = -n; i <= n; ++i)
+        for (int j = -n; j <= n; ++j)
+            for (int k = -n; k <= n; ++k)
+                if (const double r2 = i * i + j * j + k * k; r2 < support * support) f(i, std::sqrt(r2));
+}
+
+}  // namespace
+
+double Kernel::secondMoment(double supportOverSpacing) const {
+    double sum = 0;
+    forLattice(supportOverSpacing, [&](int i, double r) { sum += i * i * slope(r / supportOverSpacing); });
+    return sum * gradientNormalisation(supportOverSpacing);
+}
+
+int Kernel::latticeNeighbours(double supportOverSpacing) const {
+    int count = 0;
+    forLattice(supportOverSpacing, [&](int, double) { ++count; });
+    return count;
+}
+
+using LucyKernel = KernelOf<Lucy, KernelKind::lucy>;
+using WendlandC2Kernel = KernelOf<WendlandC2, KernelKind::wendlandC2>;
+using QuinticKernel = KernelOf<Quintic, KernelKind::quintic>;
+CORPUSCLE_REGISTER(Kernel, LucyKernel, "lucy", "Lucy's kernel, the paper's choice");
+CORPUSCLE_REGISTER(Kernel, WendlandC2Kernel, "wendlandC2", "Wendland's C2 kernel, the default");
+CORPUSCLE_REGISTER(Kernel, QuinticKernel, "quintic", "quintic spline");
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,28 @@
+// Family of smoothing kernels, as a case chooses them. The formulas, one header each, are lucy.hpp, wendlandC2.hpp, quintic.hpp;
+// here is what set-up and analysis need. H_s is the support radius, h = H_s/2 the smoothing length, for every kernel.
+#pragma once
+#include "core/registry.hpp"
+#include "sph/pairKernels.hpp"
+
+namespace corpuscle::sph {
+
+class Kernel {
+  public:
+    static constexpr const char* familyName = "kernel";
+    virtual ~Kernel() = default;
+    Length support;  // H_s
+
+    virtual KernelKind kind() const = 0;
+    virtual double normalisation(double H) const = 0;          // W = normalisation * value(r/H)
+    virtual double gradientNormalisation(double H) const = 0;  // -W'(r)/r = gradientNormalisation * slope(r/H)
+    virtual double value(double q) const = 0;
+    virtual double slope(double q) const = 0;
+
+    // S2 = sum_j dx^3 (x_ij^2/r)(-dW/dr) on a cubic lattice. S2 - 1 is the relative error of the viscosity that a flow on
+    // lattice particles feels.
+    double secondMoment(double supportOverSpacing) const;
+    // Neighbours within the support on a cubic lattice, the particle itself included.
+    int latticeNeighbours(double supportOverSpacing) const;
+};
+
+}  // namespace corpuscle::sph

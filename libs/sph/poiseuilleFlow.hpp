@@ -1,0 +1,18 @@
+// Flow between two walls at rest, driven by a body force F per unit mass along x:
+//     u(s) = F/(2 nu) (s - low)(high - s) in the end; from rest
+//     u nu/(F L^2) = y(1 - y)/2 - sum_n 4/((2n+1)^3 pi^3) sin((2n+1) pi y) exp(-(2n+1)^2 pi^2 nu t/L^2),  y = (s - low)/L
+#pragma once
+#include "sph/flow.hpp"
+
+namespace corpuscle::sph {
+
+struct PoiseuilleFlow : Flow {
+    double bodyForce = 0;
+    WallSettings walls;
+    std::string start = "rest";
+    static const Schema<PoiseuilleFlow>& schema();
+    int wallAxis() const override { return walls.axis(); }
+    FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
+};
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,59 @@
+#include "sph/shifting.hpp"
+
+#include <algorithm>
+
+namespace corpuscle::sph {
+
+namespace {
+constexpr double largestInSpacings = 0.05;
+}
+
+const Schema<ShiftingSettings>& ShiftingSettings::schema() {
+    static const Schema<ShiftingSettings> s =
+        Schema<ShiftingSettings>("shifting", "particle shifting")
+            .quantity("coefficient", &ShiftingSettings::coefficient, unit::none, "C, strength per unit of strain",
+                      {.fallback = "1", .range = positive})
+            .integer("steps", &ShiftingSettings::steps, "time steps between two shifts", {.fallback = "10", .range = atLeast(1)});
+    return s;
+}
+
+Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate, double particleMass)
+    : settings_(settings),
+      constants_{1 / support, kernel.normalisation(support), kernel.gradientNormalisation(support)},
+      kernel_(pairKernels().disorder(kernel.kind())),
+      support_(support),
+      rate_(rate),
+      mass_(particleMass) {}
+
+void Shifting::apply(particles::ParticleSystem& system, double dt) {
+    using particles::Kind;
+    particles::ParticleStore& s = system.store();
+    // The list must hold for the positions of now: they have moved since the last test by one step, within the skin's reserve.
+    const auto n = static_cast<std::size_t>(system.owned());
+    records_.resize((n + static_cast<std::size_t>(system.ghosts())) * 4);
+    for (auto& d : disorder_) d.resize(n);
+    const bool varyingMass = s.optional().mass;
+    for (std::size_t i = 0; i < n; ++i) {
+        double* r = records_.data() + 4 * i;
+        r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
+        r[3] = (varyingMass ? s.mass[i] : mass_) / s.density[i];
+    }
+    double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
+    system.forEachPair(records_.data(), 4, [&](particles::PairList::Group group) {
+        const auto& blocks = system.list().blocks(group);
+        kernel_(constants_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records_.data(), results);
+    });
+    const double factor = settings_.coefficient * support_ * support_ * rate_ * dt * static_cast<double>(settings_.steps);
+    const double bound = largestInSpacings * system.spacing();
+    largest_ = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (s.kindOf(i) != Kind::fluid) continue;
+        Vec3 shift = factor * Vec3(disorder_[0][i], disorder_[1][i], disorder_[2][i]);
+        const double length = shift.norm();
+        if (length > bound) shift *= bound / length;
+        largest_ = std::max(largest_, std::min(length, bound));
+        s.x[i] += shift[0], s.y[i] += shift[1], s.z[i] += shift[2];
+    }
+}
+
+}  // namespace corpuscle::sph

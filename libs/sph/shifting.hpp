@@ -1,0 +1,41 @@
+// Particle shifting: moves fluid particles from where they are dense to where they are sparse, so that disorder does not grow.
+//     x_i <- x_i + C H_s^2 (rate tau) sum_j V_j F x_ij        at most 0.05 dx
+// C: coefficient; rate: shear rate of the flow, or speed/length where it has none [1/s]; tau: time since the last shift.
+// Every `steps` time steps. Only fluid particles move; velocity and density stay with the particle.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "particles/particleSystem.hpp"
+#include "sph/kernel.hpp"
+
+namespace corpuscle::sph {
+
+struct ShiftingSettings {
+    double coefficient = 1;
+    long steps = 10;
+    static const Schema<ShiftingSettings>& schema();
+};
+
+class Shifting {
+  public:
+    Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate, double particleMass);
+
+    // Counts one step and says whether it is a step that shifts.
+    bool due() { return ++count_ % settings_.steps == 0; }
+    void apply(particles::ParticleSystem& system, double dt);
+
+    long count() const { return count_; }
+    void restore(long count) { count_ = count; }
+    double largest() const { return largest_; }  // of the last shift, this rank [m]
+
+  private:
+    ShiftingSettings settings_;
+    DisorderConstants constants_;
+    PairKernels::Disorder kernel_;
+    double support_, rate_, mass_, largest_ = 0;
+    long count_ = 0;
+    particles::RealArray records_, disorder_[4];
+};
+
+}  // namespace corpuscle::sph

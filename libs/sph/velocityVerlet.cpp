@@ -1,0 +1,65 @@
+#include "sph/velocityVerlet.hpp"
+
+#include <algorithm>
+
+namespace corpuscle::sph {
+
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+VelocityVerlet::VelocityVerlet(ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads)
+    : system_(system), forces_(forces), shifting_(shifting), loads_(std::move(loads)) {}
+
+void VelocityVerlet::start() {
+    ParticleStore& s = system_.store();
+    for (auto* a : {&s.fx, &s.fy, &s.fz, &s.densityRate}) std::fill(a->begin(), a->end(), 0.0);
+    evaluate(0, true);
+}
+
+void VelocityVerlet::resume() {
+    forces_.findWalls(system_);
+    for (Load* load : loads_) load->moved(system_, true);
+}
+
+void VelocityVerlet::advance(double dt) {
+    ParticleStore& s = system_.store();
+    const double half = 0.5 * dt;
+    double displacement2 = 0;
+    const int n = system_.owned();
+    for (int i = 0; i < n; ++i) {
+        s.u[i] += half * s.fx[i];  // Eq 12
+        s.v[i] += half * s.fy[i];
+        s.w[i] += half * s.fz[i];
+        s.density[i] += half * s.densityRate[i];  // Eq 13
+        s.x[i] += dt * s.u[i];                    // Eq 15
+        s.y[i] += dt * s.v[i];
+        s.z[i] += dt * s.w[i];
+        const double dx = s.x[i] - s.xBuilt[i], dy = s.y[i] - s.yBuilt[i], dz = s.z[i] - s.zBuilt[i];
+        displacement2 = std::max(displacement2, dx * dx + dy * dy + dz * dz);
+    }
+    if (shifting_ && shifting_->due()) {
+        shifting_->apply(system_, dt);
+        displacement2 = system_.largestDisplacement2();
+    }
+    const bool rebuilt = system_.mustRebuild(displacement2);
+    if (rebuilt) system_.rebuild();
+    evaluate(half, rebuilt);  // Eqs 5, 6, 14
+
+    ParticleStore& t = system_.store();
+    const int m = system_.owned();
+    for (int i = 0; i < m; ++i) {
+        t.u[i] += half * t.fx[i];  // Eq 16
+        t.v[i] += half * t.fy[i];
+        t.w[i] += half * t.fz[i];
+        t.density[i] += half * t.densityRate[i];  // Eq 17
+    }
+}
+
+void VelocityVerlet::evaluate(double extrapolation, bool rebuilt) {
+    if (rebuilt) forces_.findWalls(system_);
+    for (Load* load : loads_) load->moved(system_, rebuilt);
+    forces_.evaluate(system_, extrapolation);
+    for (Load* load : loads_) load->addAccelerations(system_);
+}
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,47 @@
+// Velocity Verlet with density (paper, Eqs 12 to 17), on every particle of a rank:
+//
+//     u* = u + dt/2 a,  rho* = rho + dt/2 rhodot,  ubar = u + dt a             (12, 13, 14)
+//     x <- x + dt u*                                                           (15)
+//     a, rhodot from x, ubar, rho*                                             (5, 6)
+//     u <- u* + dt/2 a,  rho <- rho* + dt/2 rhodot                             (16, 17)
+//
+// ubar is u* + dt/2 a with the acceleration of the step's beginning, so that nothing is kept for it.
+// What else acts on particles joins as a Load; a scene without one pays nothing.
+#pragma once
+#include <vector>
+
+#include "sph/fluidForces.hpp"
+#include "sph/shifting.hpp"
+
+namespace corpuscle::sph {
+
+class Load {
+  public:
+    virtual ~Load() = default;
+    // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). Collective.
+    virtual void moved(particles::ParticleSystem& system, bool rebuilt) = 0;
+    // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
+    virtual void addAccelerations(particles::ParticleSystem& system) = 0;
+};
+
+class VelocityVerlet {
+  public:
+    VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads);
+
+    // Forces at the initial state (ubar = u). Not after a restart: forces are part of the state.
+    void start();
+    // After a restart: everything that follows from lists, nothing that changes the state.
+    void resume();
+    void advance(double dt);
+
+    long rebuilds() const { return system_.rebuilds(); }
+
+  private:
+    void evaluate(double extrapolation, bool rebuilt);
+    particles::ParticleSystem& system_;
+    FluidForces& forces_;
+    Shifting* shifting_;
+    std::vector<Load*> loads_;
+};
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,147 @@
+#include "geometry/latticeFill.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/error.hpp"
+#include "geometry/kuchelFackerell.hpp"
+#include "geometry/mesher.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::geometry;
+
+namespace {
+
+constexpr double um = 1e-6;
+LatticeBox periodicBox() {
+    LatticeBox box;
+    box.size = Vec3(12, 10, 6) * um;
+    box.spacing = 0.5 * um;
+    return box;
+}
+
+TEST(LatticeFill, cellCentredAndComplete) {
+    const Lattice lattice = fillLattice(periodicBox());
+    EXPECT_EQ(lattice.count, (Index3{24, 20, 12}));
+    ASSERT_EQ(lattice.points.size(), 24u * 20 * 12);
+    EXPECT_LT((lattice.points.front() - Vec3(-5.75, -4.75, -2.75) * um).norm(), 1e-18);
+    EXPECT_LT((lattice.points.back() - Vec3(5.75, 4.75, 2.75) * um).norm(), 1e-18);
+    EXPECT_NEAR(lattice.points[1].x() - lattice.points[0].x(), 0.5 * um, 1e-18);
+}
+
+TEST(LatticeFill, adjustsTheSpacingWithinATenthOfAPercent) {
+    LatticeBox box = periodicBox();
+    box.size.x() = 12.008 * um;
+    EXPECT_NEAR(fillLattice(box).spacing.x(), 12.008 * um / 24, 1e-18);
+    box.size.x() = 12.2 * um;
+    try {
+        fillLattice(box);
+        FAIL();
+    } catch (const Failure& failure) {
+        const std::string text = failure.what();
+        EXPECT_EQ(failure.code(), ExitCode::invalidCase);
+        EXPECT_NE(text.find("along x"), std::string::npos) << text;
+        EXPECT_NE(text.find("12 um (24 spacings)"), std::string::npos) << text;
+        EXPECT_NE(text.find("12.5 um (25 spacings)"), std::string::npos) << text;
+    }
+}
+
+TEST(LatticeFill, wallLayersBeyondTheWalls) {
+    LatticeBox box = periodicBox();
+    box.wallNormal = 2;
+    box.wallLayers = 3;
+    const Lattice lattice = fillLattice(box);
+    int lower = 0, upper = 0;
+    for (std::size_t n = 0; n < lattice.points.size(); ++n) {
+        const double z = lattice.points[n].z();
+        if (lattice.kinds[n] == PointKind::lowerWall) {
+            ++lower;
+            EXPECT_LT(z, -3 * um);
+        }
+        if (lattice.kinds[n] == PointKind::upperWall) {
+            ++upper;
+            EXPECT_GT(z, 3 * um);
+        }
+        if (lattice.kinds[n] == PointKind::fluid) {
+            EXPECT_LT(std::abs(z), 3 * um);
+        }
+    }
+    EXPECT_EQ(lower, 24 * 20 * 3);
+    EXPECT_EQ(upper, 24 * 20 * 3);
+    EXPECT_NEAR(lattice.points.front().z(), -4.25 * um, 1e-18);
+}
+
+TEST(LatticeFill, jitterMovesTheFluidOnlyAndFollowsTheSeed) {
+    LatticeBox box = periodicBox();
+    box.wallNormal = 1;
+    box.wallLayers = 2;
+    const Lattice still = fillLattice(box);
+    box.jitter = 0.2;
+    const Lattice moved = fillLattice(box), again = fillLattice(box);
+    box.seed = 2;
+    const Lattice other = fillLattice(box);
+    double largest = 0;
+    for (std::size_t n = 0; n < still.points.size(); ++n) {
+        const double shift = (moved.points[n] - still.points[n]).cwiseAbs().maxCoeff();
+        if (still.kinds[n] != PointKind::fluid) {
+            EXPECT_EQ(shift, 0);
+        }
+        largest = std::max(largest, shift);
+    }
+    EXPECT_LE(largest, 0.1 * um);
+    EXPECT_GT(largest, 0.09 * um);
+    EXPECT_EQ(moved.points, again.points);
+    EXPECT_NE(moved.points, other.points);
+}
+
+TEST(Carve, takesTheNearestPoints) {
+    const Lattice lattice = fillLattice(periodicBox());
+    const std::vector<Vec3> nodes{{5.9 * um, 0, 0}, {0.1 * um, 0.2 * um, 0.3 * um}, {-2 * um, 1 * um, 2.9 * um}};
+    const Period period(12 * um, 10 * um, 0);
+    for (const std::size_t count : {std::size_t{1}, std::size_t{25}, std::size_t{700}, lattice.points.size()}) {
+        const std::vector<int> removed = carve(lattice.points, nodes, count, period);
+        ASSERT_EQ(removed.size(), count);
+        EXPECT_TRUE(std::is_sorted(removed.begin(), removed.end()));
+        const std::set<int> taken(removed.begin(), removed.end());
+        double farthestTaken = 0, nearestLeft = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < static_cast<int>(lattice.points.size()); ++i) {
+            double d = std::numeric_limits<double>::infinity();
+            for (const Vec3& node : nodes) {
+                Vec3 r = lattice.points[i] - node;
+                for (int axis = 0; axis < 2; ++axis) r[axis] -= period[axis] * std::round(r[axis] / period[axis]);
+                d = std::min(d, r.norm());
+            }
+            if (taken.contains(i)) farthestTaken = std::max(farthestTaken, d);
+            else nearestLeft = std::min(nearestLeft, d);
+        }
+        EXPECT_LE(farthestTaken, nearestLeft + 1e-15);
+    }
+    EXPECT_TRUE(carve(lattice.points, nodes, 0).empty());
+    EXPECT_THROW(carve(lattice.points, nodes, lattice.points.size() + 1), Failure);
+}
+
+TEST(TagSides, cellsAcrossAPeriodicFace) {
+    LatticeBox box = periodicBox();
+    box.size = Vec3(20, 10, 6) * um;
+    const Lattice lattice = fillLattice(box);
+    const Period period(20 * um, 10 * um, 0);
+    const KuchelFackerell shape(8 * um, 2.12 * um, 1 * um);
+    std::vector<TriangleMesh> cells(2, meshSurface(shape, 0.5 * um));
+    cells[1].translate({9 * um, 1 * um, 0});  // sticks out of the box at x = 10 um
+    const std::vector<int> side = tagSides(lattice.points, cells, period);
+    for (int n = 1; n <= 2; ++n)
+        EXPECT_NEAR(static_cast<double>(std::count(side.begin(), side.end(), n)) * 0.125, cells[n - 1].volume() * 1e18, 6);
+    for (std::size_t i = 0; i < side.size(); ++i)
+        if (side[i] == 2) {
+            EXPECT_GT(std::abs(lattice.points[i].x()), 5 * um - 1e-12);
+        }
+
+    cells[1] = cells[0];
+    EXPECT_THROW(tagSides(lattice.points, cells, period), Failure);
+}
+
+}  // namespace

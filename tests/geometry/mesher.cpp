@@ -1,0 +1,126 @@
+#include "geometry/mesher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "geometry/evansFung.hpp"
+#include "geometry/fileShape.hpp"
+#include "geometry/kuchelFackerell.hpp"
+#include "geometry/spheroid.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::geometry;
+
+namespace {
+
+const KuchelFackerell redCell(8e-6, 2.12e-6, 1e-6);
+constexpr double micro = 1e-6;
+
+// Kuchel-Fackerell cell of 8, 2.12, 1 um: area 128.0304 um^2, volume 85.9883 fL (30-digit quadrature; grade: analytic).
+TEST(Mesher, redCellAtFourEdgeLengths) {
+    std::printf("edge um   nodes  area um^2   error     order  volume fL  error     order  angle  residual/d^4\n");
+    double lastEdge = 0, lastArea = 0, lastVolume = 0;
+    for (const double edge : {1.0, 0.5, 0.25, 0.1}) {
+        const TriangleMesh mesh = meshSurface(redCell, edge * micro);
+        const MeshQuality q = meshQuality(mesh, &redCell);
+        double residual = 0;
+        for (const Vec3& x : mesh.nodes) residual = std::max(residual, std::abs(redCell.implicit(x)) / std::pow(redCell.d, 4));
+        const double area = std::abs(q.area * 1e12 / 128.030428 - 1), volume = std::abs(q.volume * 1e18 / 85.988326 - 1);
+        const double ratio = std::log(lastEdge / q.edgeMean);
+        const double areaOrder = std::log(lastArea / area) / ratio, volumeOrder = std::log(lastVolume / volume) / ratio;
+        std::printf("%-8g %6d  %-10.4f  %.2e  %-5.2f  %-9.4f  %.2e  %-5.2f  %-5.1f  %.1e\n", edge, q.nodes, q.area * 1e12, area,
+                    areaOrder, q.volume * 1e18, volume, volumeOrder, q.angleMin, residual);
+        EXPECT_TRUE(q.closed);
+        EXPECT_EQ(q.euler, 2);
+        EXPECT_GT(q.angleMin, 30);
+        EXPECT_NEAR(q.edgeMean / (edge * micro), 1, 0.1);
+        EXPECT_LT(q.edgeMax, 1.75 * edge * micro);
+        EXPECT_LT(residual, 1e-10);
+        if (lastEdge > 0) {
+            EXPECT_NEAR(areaOrder, 2, 0.3);
+            EXPECT_NEAR(volumeOrder, 2, 0.3);
+        }
+        lastEdge = q.edgeMean;
+        lastArea = area;
+        lastVolume = volume;
+    }
+    EXPECT_LT(lastArea, 5e-4);
+    EXPECT_LT(lastVolume, 1e-3);
+}
+
+TEST(Mesher, theTwoDimplesStayApart) {
+    const TriangleMesh mesh = meshSurface(redCell, 1 * micro);
+    for (const MeshEdge& e : mesh.edges()) {
+        const Vec3 middle = (mesh.nodes[e.a] + mesh.nodes[e.b]) / 2;
+        if (std::hypot(middle.x(), middle.y()) > 3 * micro) continue;
+        EXPECT_GT(mesh.nodes[e.a].z() * mesh.nodes[e.b].z(), 0);
+    }
+}
+
+TEST(Mesher, otherShapes) {
+    const EvansFung fung;
+    const Sphere sphere(3 * micro);
+    const Spheroid oblate(4 * micro, 1.06 * micro), prolate(2 * micro, 5 * micro);
+    for (const Shape* shape : {static_cast<const Shape*>(&fung), static_cast<const Shape*>(&sphere),
+                               static_cast<const Shape*>(&oblate), static_cast<const Shape*>(&prolate)}) {
+        const MeshQuality q = meshQuality(meshSurface(*shape, 0.4 * micro), shape);
+        EXPECT_TRUE(q.closed);
+        EXPECT_GT(q.angleMin, 30);
+        EXPECT_NEAR(q.edgeMean / (0.4 * micro), 1, 0.1);
+        EXPECT_LT(std::abs(q.areaError), 0.02);
+        EXPECT_LT(std::abs(q.volumeError), 0.02);
+        EXPECT_LT(q.residual, 1e-14);
+    }
+}
+
+TEST(Mesher, sameInputSameMesh) {
+    const TriangleMesh first = meshSurface(redCell, 0.4 * micro);
+    const std::vector<std::vector<char>> otherAddresses(1000, std::vector<char>(333));
+    const TriangleMesh second = meshSurface(redCell, 0.4 * micro);
+    ASSERT_EQ(first.nodes.size(), second.nodes.size());
+    EXPECT_EQ(first.triangles, second.triangles);
+    for (std::size_t n = 0; n < first.nodes.size(); ++n) EXPECT_EQ(first.nodes[n], second.nodes[n]);
+}
+
+TEST(Mesher, eightCellsInReasonableTime) {
+    const std::clock_t start = std::clock();
+    for (int cell = 0; cell < 8; ++cell) {
+        TriangleMesh mesh = meshSurface(redCell, 0.25 * micro);
+        mesh.translate({8.5e-6 * cell, 0, 0});
+    }
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    std::printf("eight cells at 0.25 um: %.2f s of processor time\n", seconds);
+    EXPECT_LT(seconds, 20);  // 2 s on one idle core; sanitizers and shared machines take longer
+}
+
+TEST(Mesher, remeshesAFile) {
+    const TriangleMesh fine = meshSurface(redCell, 0.3 * micro);
+    const std::string path = testing::TempDir() + "corpuscleCell.off";
+    std::ofstream file(path);
+    file.precision(17);
+    file << "OFF\n" << fine.nodes.size() << ' ' << fine.triangles.size() << " 0\n";
+    for (const Vec3& x : fine.nodes) file << x.transpose() * 1e6 << '\n';
+    for (const Index3& t : fine.triangles) file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    file.close();
+    FileShape shape;
+    shape.file = path;
+    shape.prepare("/");
+    const TriangleMesh mesh = meshSurface(shape, 0.5 * micro);
+    const MeshQuality q = meshQuality(mesh, &shape);
+    EXPECT_TRUE(q.closed);
+    EXPECT_GT(q.angleMin, 30);
+    EXPECT_NEAR(q.edgeMean / (0.5 * micro), 1, 0.1);
+    EXPECT_NEAR(q.volume * 1e18, 85.99, 2.5);
+}
+
+TEST(Mesher, refusesAnEdgeThatDoesNotSuit) {
+    EXPECT_THROW(meshSurface(redCell, 3 * micro), Failure);
+    EXPECT_THROW(meshSurface(redCell, 0), Failure);
+}
+
+}  // namespace

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "geometry/insideTest.hpp"
+#include "geometry/kuchelFackerell.hpp"
+#include "geometry/mesher.hpp"
+#include "geometry/triangleGrid.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::geometry;
+
+namespace {
+
+const KuchelFackerell redCell(8e-6, 2.12e-6, 1e-6);
+
+const TriangleMesh& cell() {
+    static const TriangleMesh mesh = [] {
+        TriangleMesh m = meshSurface(redCell, 0.4e-6);
+        m.rotate(rotationFromZ({0.3, 0.2, 1}));
+        return m;
+    }();
+    return mesh;
+}
+
+std::vector<Vec3> randomPoints(int count, double half) {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(-half, half);
+    std::vector<Vec3> points;
+    for (int n = 0; n < count; ++n) points.emplace_back(uniform(random), uniform(random), uniform(random));
+    return points;
+}
+
+double seconds(const std::function<void()>& work) {
+    const std::clock_t start = std::clock();  // processor time: other work on the machine hardly counts
+    work();
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(InsideTest, agreesWithTheWindingNumber) {
+    const InsideTest test(cell());
+    int inside = 0;
+    for (const Vec3& x : randomPoints(3000, 4.5e-6)) {
+        const bool truth = windingNumber(cell(), x) > 0.5;
+        inside += truth;
+        EXPECT_EQ(test.inside(x), truth);
+    }
+    EXPECT_NEAR(inside / 3000.0, cell().volume() / std::pow(9e-6, 3), 0.03);
+}
+
+// Rays through nodes and along edges: a box with its corners on the rays, and the points above and below each node of the cell.
+TEST(InsideTest, raysThroughNodesAndEdges) {
+    const TriangleMesh& mesh = cell();
+    const InsideTest test(mesh);
+    for (std::size_t n = 0; n < mesh.nodes.size(); n += 3)
+        for (const double dz : {-3e-6, -0.3e-6, 0.3e-6, 3e-6}) {
+            const Vec3 x = mesh.nodes[n] + Vec3(0, 0, dz);
+            EXPECT_EQ(test.inside(x), windingNumber(mesh, x) > 0.5);
+        }
+    for (const MeshEdge& e : mesh.edges()) {
+        const Vec3 x = (mesh.nodes[e.a] + mesh.nodes[e.b]) / 2 - Vec3(0, 0, 0.4e-6);
+        EXPECT_EQ(test.inside(x), windingNumber(mesh, x) > 0.5);
+    }
+}
+
+TEST(WindingNumber, oneInsideZeroOutside) {
+    EXPECT_NEAR(windingNumber(cell(), {0, 0, 0}), 1, 1e-12);
+    EXPECT_NEAR(windingNumber(cell(), {0, 0, 9e-6}), 0, 1e-12);
+}
+
+TEST(TriangleGrid, agreesWithBruteForce) {
+    const TriangleMesh& mesh = cell();
+    const double reach = 0.7e-6;
+    const TriangleGrid grid(mesh, reach);
+    int within = 0;
+    for (const Vec3& x : randomPoints(4000, 4.8e-6)) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& [i, j, k] : mesh.triangles) {
+            const Vec3 w = nearestWeights(x, mesh.nodes[i], mesh.nodes[j], mesh.nodes[k]);
+            least = std::min(least, (x - w[0] * mesh.nodes[i] - w[1] * mesh.nodes[j] - w[2] * mesh.nodes[k]).norm());
+        }
+        const SurfacePoint p = grid.nearest(x);
+        ASSERT_EQ(static_cast<bool>(p), least <= reach);
+        if (!p) continue;
+        ++within;
+        EXPECT_NEAR(std::abs(p.distance), least, 1e-18);
+        EXPECT_EQ(p.distance < 0, windingNumber(mesh, x) > 0.5);
+        const Index3& t = mesh.triangles[p.triangle];
+        EXPECT_NEAR(p.weights.sum(), 1, 1e-12);
+        EXPECT_GE(p.weights.minCoeff(), 0);
+        EXPECT_LT((p.weights[0] * mesh.nodes[t[0]] + p.weights[1] * mesh.nodes[t[1]] + p.weights[2] * mesh.nodes[t[2]] - p.point).norm(),
+                  1e-18);
+    }
+    EXPECT_GT(within, 300);
+}
+
+// A spike: at its tip the nearest triangle alone would give the wrong side.
+TEST(TriangleGrid, signAtNodesAndEdges) {
+    TriangleMesh spike;
+    spike.nodes = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {3, 0, 6}};
+    spike.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    ASSERT_TRUE(checkClosedManifold(spike).empty());
+    const TriangleGrid grid(spike, 2);
+    int nodesAndEdges = 0;
+    for (const Vec3& d : randomPoints(4000, 1)) {
+        const Vec3 x = spike.nodes[3] + 0.9 * d;
+        if (const SurfacePoint p = grid.nearest(x)) {
+            EXPECT_EQ(p.distance < 0, windingNumber(spike, x) > 0.5);
+            nodesAndEdges += p.weights.minCoeff() == 0;
+        }
+    }
+    EXPECT_GT(nodesAndEdges, 500);
+}
+
+TEST(TriangleGrid, followsTheMovedMesh) {
+    TriangleMesh mesh = cell();
+    TriangleGrid grid(mesh, 0.5e-6);
+    mesh.translate({20e-6, 0, 0});
+    const Vec3 x = mesh.nodes[10] * 1.0;
+    EXPECT_FALSE(grid.nearest(x));
+    grid.update(mesh.nodes);
+    EXPECT_NEAR(grid.nearest(x).distance, 0, 1e-18);
+}
+
+// Printed for the record; the bounds are loose because tests share their machine.
+TEST(TriangleGrid, isQuick) {
+    const TriangleMesh mesh = meshSurface(redCell, 0.25e-6);
+    const double reach = 0.5e-6;
+    TriangleGrid grid(mesh, reach);
+    std::vector<Vec3> near, far;
+    for (const Vec3& x : randomPoints(100000, 6e-6)) (grid.nearest(x) ? near : far).push_back(x);
+    const double rebuild = seconds([&] { grid.update(mesh.nodes); });
+    double sum = 0;
+    const double inReach = seconds([&] {
+        for (const Vec3& x : near) sum += grid.nearest(x).distance;
+    });
+    const double outside = seconds([&] {
+        for (const Vec3& x : far) sum += grid.nearest(x).distance;
+    });
+    const InsideTest test(mesh);
+    int inside = 0;
+    const double tested = seconds([&] {
+        for (const Vec3& x : near) inside += test.inside(x);
+    });
+    std::printf("%zu triangles: rebuild %.2f ms; nearest %.0f ns within reach, %.0f ns beyond; inside %.0f ns (%d, %g)\n",
+                mesh.triangles.size(), rebuild * 1e3, inReach / static_cast<double>(near.size()) * 1e9,
+                outside / static_cast<double>(far.size()) * 1e9, tested / static_cast<double>(near.size()) * 1e9, inside, sum);
+    EXPECT_LT(inReach / static_cast<double>(near.size()), 10e-6);
+    EXPECT_LT(outside / static_cast<double>(far.size()), 2e-6);
+    EXPECT_LT(rebuild, 0.5);
+}
+
+}  // namespace

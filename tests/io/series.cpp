@@ -1,0 +1,166 @@
+// Streams in time on any number of ranks: pieces, restart, keeping the latest; CSV rows.
+#include <gtest/gtest.h>
+#include <mpi.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPPolyDataReader.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "io/csvSeries.hpp"
+#include "io/temporaryFolder.hpp"
+#include "io/vtkSeries.hpp"
+
+namespace corpuscle::io {
+namespace {
+
+int rankHere() {
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank;
+}
+int ranks() {
+    int size = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    return size;
+}
+
+// Rank r has r points: rank 0 has none.
+PolyData piece(double time) {
+    PolyData data;
+    for (int i = 0; i < rankHere(); ++i) data.points.emplace_back(rankHere(), i, time);
+    data.point.scalars["density"].assign(data.points.size(), 1000 + time);
+    data.point.integers["id"].assign(data.points.size(), rankHere());
+    return data;
+}
+
+std::vector<double> times(const std::filesystem::path& caseDir) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::vector<double> list;
+    for (const auto& entry : readPvd(caseDir / "results" / "fluid.pvd")) list.push_back(entry.time);
+    MPI_Barrier(MPI_COMM_WORLD);
+    return list;
+}
+
+TEST(VtkSeries, PiecesOfAllRanksComeBackTogether) {
+    TemporaryFolder folder;
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    series.write(0.1, 1.0 / 3.0, piece(0.1));
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto entries = readPvd(folder.path() / "results" / "fluid.pvd");
+    ASSERT_EQ(entries.size(), 1u);
+    EXPECT_EQ(entries[0].time, 0.1);
+    EXPECT_EQ(entries[0].file, folder.path() / "results" / "fluid" / "fluid_000000.pvtp");
+    const PolyData all = readPvtp(entries[0].file);
+    EXPECT_EQ(static_cast<int>(all.points.size()), ranks() * (ranks() - 1) / 2);
+    EXPECT_EQ(all.point.scalar("density").size(), all.points.size());
+    EXPECT_EQ(all.field.at("TimeValue"), 0.1);
+    EXPECT_EQ(all.field.at("strain"), 1.0 / 3.0);
+}
+
+TEST(VtkSeries, TheReaderOfParaViewAgrees) {
+    TemporaryFolder folder;
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    series.write(0.1, 0.5, piece(0.1));
+    MPI_Barrier(MPI_COMM_WORLD);
+    vtkNew<vtkXMLPPolyDataReader> reader;
+    reader->SetFileName((folder.path() / "results" / "fluid" / "fluid_000000.pvtp").c_str());
+    reader->Update();
+    vtkPolyData* read = reader->GetOutput();
+    const int expected = ranks() * (ranks() - 1) / 2;
+    EXPECT_EQ(read->GetNumberOfPoints(), expected);
+    EXPECT_EQ(read->GetNumberOfVerts(), expected);
+    ASSERT_TRUE(read->GetPointData()->HasArray("density"));
+    ASSERT_TRUE(read->GetPointData()->HasArray("id"));
+    if (expected > 0) {
+        EXPECT_EQ(read->GetPointData()->GetArray("density")->GetComponent(0, 0), 1000.1);
+    }
+}
+
+TEST(VtkSeries, RestartDropsWhatComesAfterIt) {
+    TemporaryFolder folder;
+    {
+        VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+        for (int i = 0; i < 5; ++i) series.write(0.1 * i, i, piece(i));
+    }
+    VtkSeries again(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0.1 * 3);
+    EXPECT_EQ(times(folder.path()).size(), 5u) << "nothing may change before the first write";
+    again.write(0.3, 3, piece(3));
+    again.write(0.35, 3.5, piece(3.5));
+    EXPECT_EQ(times(folder.path()), (std::vector<double>{0.0, 0.1, 0.2, 0.3, 0.35}));
+    EXPECT_EQ(readPvd(folder.path() / "results" / "fluid.pvd").back().file.filename(), "fluid_000004.pvtp");
+}
+
+TEST(VtkSeries, KeepsTheLatest) {
+    TemporaryFolder folder;
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 2, 0);
+    for (int i = 0; i < 4; ++i) series.write(i, i, piece(i));
+    EXPECT_EQ(times(folder.path()), (std::vector<double>{2, 3}));
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "results" / "fluid"))
+        files += entry.path().extension() == ".pvtp";
+    EXPECT_EQ(files, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "results" / "fluid" / "fluid_000001"));
+}
+
+TEST(VtkSeries, WhatFailsOnOneRankFailsOnAll) {
+    TemporaryFolder folder;
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    PolyData data = piece(0);
+    if (rankHere() == ranks() - 1) data.point.scalars["density"].push_back(1);
+    EXPECT_THROW(series.write(0, 0, data), Failure);
+    if (ranks() == 1) return;
+    data = piece(0);
+    if (rankHere() == ranks() - 1) data.point.scalars["pressure"].assign(data.points.size(), 0);
+    const std::string message = messageOf<Failure>([&] { series.write(0, 0, data); });
+    EXPECT_NE(message.find("other arrays"), std::string::npos) << message;
+}
+
+TEST(CsvSeries, EveryBitOfEveryRow) {
+    TemporaryFolder folder;
+    CsvSeries csv(MPI_COMM_WORLD, folder.path(), "deformation", 0, "rbc",
+                  {{"time", "s"}, {"D12_extent", ""}, {"area", "m2"}});
+    csv.row(std::vector{0.1, 1.0 / 3.0, 1.35e-10});
+    csv.row(std::vector{0.2, std::nan(""), 1e-300});
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::ifstream file(folder.path() / "postProcessing/deformation/0/rbc.csv");
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(line, "time_s,D12_extent,area_m2");
+    const CsvTable table = readCsv(csv.path());
+    ASSERT_EQ(table.rows.size(), 2u) << "rows must be in the file at once";
+    EXPECT_EQ(table.column("D12_extent")[0], 1.0 / 3.0);
+    EXPECT_TRUE(std::isnan(table.column("D12_extent")[1]));
+    EXPECT_EQ(table.column("area_m2")[1], 1e-300);
+    EXPECT_NE(messageOf<Failure>([&] { table.column("D12_extend"); }).find("Did you mean 'D12_extent'"),
+              std::string::npos);
+    if (rankHere() == 0) {
+        EXPECT_THROW(csv.row(std::vector{1.0}), std::invalid_argument);
+    }
+}
+
+TEST(CsvSeries, RestartsAreJoined) {
+    TemporaryFolder folder;
+    auto run = [&](double from, double value) {
+        CsvSeries csv(MPI_COMM_WORLD, folder.path(), "leak", from, "count", {{"time", "s"}, {"count", ""}});
+        for (int i = 0; i < 4; ++i) csv.row(std::vector{from + 0.1 * i, value});
+    };
+    run(0, 1);
+    run(0.2, 2);
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "postProcessing/leak/0.2/count.csv"));
+    EXPECT_EQ(readCsvSeries(folder.path(), "leak", "count").column("count"), (std::vector<double>{1, 1, 2, 2, 2, 2}));
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rankHere() == 0) {
+        std::ofstream(folder.path() / "postProcessing/leak/0.2/count.csv", std::ios::app) << "0.9,abc\n";
+        const std::string message = messageOf<Failure>([&] { readCsvSeries(folder.path(), "leak", "count"); });
+        EXPECT_NE(message.find("count.csv:6: 'abc'"), std::string::npos) << message;
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::io

@@ -1,0 +1,157 @@
+// Every law: force = -grad(energy), no net force, no net torque; on a regular and an irregular mesh, strongly deformed.
+#include <gtest/gtest.h>
+
+#include "membrane/dihedralBending.hpp"
+#include "membrane/harmonicAngle.hpp"
+#include "membrane/harmonicBond.hpp"
+#include "meshes.hpp"
+
+namespace corpuscle::membrane {
+namespace {
+
+using testing::Mesh;
+
+struct LawCase {
+    const char* name;
+    std::function<std::unique_ptr<Term>(Network&)> make;
+};
+
+std::vector<LawCase> laws() {
+    return {{"bonds harmonic",
+             [](Network& n) {
+                 HarmonicBond law;
+                 law.k = 0.7;
+                 return law.makeTerm(n);
+             }},
+            {"angles harmonic",
+             [](Network& n) {
+                 HarmonicAngle law;
+                 law.k = 0.7;
+                 return law.makeTerm(n);
+             }},
+            {"bending dihedral", [](Network& n) {
+                 DihedralBending law;
+                 law.k = 0.7;
+                 return law.makeTerm(n, {});
+             }}};
+}
+
+// Fourth-order central differences: error (h/height of the thinnest triangle)^4 and rounding/h, both below 1e-8 of
+// the largest force here.
+double differenceForce(const Term& term, std::vector<Vec3>& x, std::size_t node, int axis, double h) {
+    const double start = x[node][axis];
+    const auto energyAt = [&](double shift) {
+        x[node][axis] = start + shift;
+        const double e = term.energy(x);
+        x[node][axis] = start;
+        return e;
+    };
+    return -(8 * (energyAt(h) - energyAt(-h)) - (energyAt(2 * h) - energyAt(-2 * h))) / (12 * h);
+}
+
+void checkForces(const Mesh& mesh, double edge, const LawCase& law) {
+    Network network(mesh.nodes, mesh.triangles);
+    const auto term = law.make(network);
+    std::vector<Vec3> x = testing::deformed(mesh.nodes, edge);
+    std::vector<Vec3> f(x.size(), Vec3::Zero());
+    term->addForces(x, f);
+
+    double largest = 0;
+    Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        largest = std::max(largest, f[n].cwiseAbs().maxCoeff());
+        sum += f[n];
+        torque += x[n].cross(f[n]);
+    }
+    ASSERT_GT(largest, 0.01) << law.name;
+    EXPECT_LT(sum.norm(), 1e-12 * largest * static_cast<double>(x.size())) << law.name;
+    EXPECT_LT(torque.norm(), 1e-12 * largest * static_cast<double>(x.size())) << law.name;
+    double worst = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        for (int axis = 0; axis < 3; ++axis) {
+            worst = std::max(worst, std::abs(f[n][axis] - differenceForce(*term, x, n, axis, 2e-4 * edge)));
+        }
+    }
+    EXPECT_LT(worst, 1e-7 * largest) << law.name;
+    ::testing::Test::RecordProperty(std::string(law.name) + " " + std::to_string(x.size()),
+                                    std::to_string(worst / largest * 1e9) + "e-9");
+
+    // No force at rest, to the bit: rest values come from the same arithmetic.
+    std::vector<Vec3> rest(x.size(), Vec3::Zero());
+    term->addForces(mesh.nodes, rest);
+    for (const Vec3& force : rest) {
+        EXPECT_EQ(force.norm(), 0) << law.name;
+    }
+}
+
+TEST(Forces, AreMinusTheGradientOnARegularMesh) {
+    for (const LawCase& law : laws()) {
+        checkForces(testing::icosphere(1), 0.55, law);
+    }
+}
+
+TEST(Forces, AreMinusTheGradientOnAnIrregularMesh) {
+    for (const LawCase& law : laws()) {
+        checkForces(testing::irregular(2), 0.28, law);
+    }
+}
+
+// Largest eigenvalue of the sum of E'' g g^T by power iteration on differences of the force at rest (where the
+// geometric part vanishes): below maxStiffness(), and not by more than the number of nodes of an element.
+TEST(Forces, MaxStiffnessBoundsTheStiffness) {
+    const Mesh mesh = testing::irregular(1);
+    for (const LawCase& law : laws()) {
+        Network network(mesh.nodes, mesh.triangles);
+        const auto term = law.make(network);
+        std::vector<Vec3> direction(mesh.nodes.size(), Vec3::Zero());
+        testing::jitter(direction, 1, 3);
+        double eigenvalue = 0;
+        for (int pass = 0; pass < 200; ++pass) {
+            double norm = 0;
+            for (const Vec3& d : direction) {
+                norm += d.squaredNorm();
+            }
+            constexpr double h = 1e-5;
+            std::vector<Vec3> plus = mesh.nodes, minus = mesh.nodes, change(plus.size(), Vec3::Zero()), back = change;
+            for (std::size_t n = 0; n < plus.size(); ++n) {
+                direction[n] /= std::sqrt(norm);
+                plus[n] += h * direction[n];
+                minus[n] -= h * direction[n];
+            }
+            term->addForces(plus, change);
+            term->addForces(minus, back);
+            eigenvalue = 0;
+            for (std::size_t n = 0; n < plus.size(); ++n) {
+                change[n] = (back[n] - change[n]) / (2 * h);
+                eigenvalue += change[n].dot(direction[n]);
+            }
+            direction = change;
+        }
+        EXPECT_LE(eigenvalue, term->maxStiffness(mesh.nodes)) << law.name;
+        EXPECT_GE(4 * eigenvalue, term->maxStiffness(mesh.nodes)) << law.name;
+    }
+}
+
+TEST(Coordinates, CornerAngleHoldsItsAccuracyNearZeroAndPi) {
+    for (const double theta : {1e-7, 1e-3, std::numbers::pi - 1e-3, std::numbers::pi - 1e-7}) {
+        const auto q =
+            CornerAngle::at({Vec3(1, 2, 0), Vec3(4, 2, 0), Vec3(1 + 2 * std::cos(theta), 2 + 2 * std::sin(theta), 0)});
+        EXPECT_NEAR(q.value, theta, 1e-14);
+        EXPECT_NEAR(q.gradient[1].y(), -1.0 / 3, 1e-9);  // 1/|u|, turning u towards v closes the angle
+        EXPECT_NEAR(q.gradient[2].norm(), 1.0 / 2, 1e-9);
+    }
+    const auto straight = CornerAngle::at({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(-2, 0, 0)});
+    EXPECT_EQ(straight.value, std::numbers::pi);
+    EXPECT_EQ(straight.gradient[1].norm(), 0);
+}
+
+TEST(Coordinates, DihedralAngleIsPositiveWhereConvexAndReachesNearlyPi) {
+    const Vec3 a(0, 0, 0), b(0, 1, 0);
+    for (const double fold : {0.3, -0.3, 3.1, -3.1}) {
+        const Vec3 c(-1, 0.5, 0), d(std::cos(fold), 0.2, -std::sin(fold));
+        EXPECT_NEAR(DihedralAngle::at({a, b, c, d}).value, fold, 1e-14);
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::membrane

@@ -1,0 +1,333 @@
+// Broken bonds leave every law; holes, their rims and areas; restoring; the Membrane's own functions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "membrane/bondStretch.hpp"
+#include "membrane/diagnostics.hpp"
+#include "membrane/dihedralBending.hpp"
+#include "membrane/harmonicAngle.hpp"
+#include "membrane/harmonicBond.hpp"
+#include "membrane/membrane.hpp"
+#include "membrane/surface.hpp"
+#include "meshes.hpp"
+
+namespace corpuscle::membrane {
+namespace {
+
+using testing::Mesh;
+
+MembraneSettings allLaws() {
+    auto bonds = std::make_shared<HarmonicBond>();
+    bonds->k = 2;
+    auto angles = std::make_shared<HarmonicAngle>();
+    angles->k = 0.3;
+    auto bending = std::make_shared<DihedralBending>();
+    bending->Eb = 0.05;
+    auto rupture = std::make_shared<BondStretch>();
+    rupture->limit = 1.05;
+    MembraneSettings settings;
+    settings.bonds = {"harmonic", bonds};
+    settings.angles = {"harmonic", angles};
+    settings.bending = {"dihedral", bending};
+    settings.rupture = {"bondStretch", rupture};
+    return settings;
+}
+
+Membrane membraneOf(const Mesh& mesh, const MembraneSettings& settings) {
+    return Membrane("cell", 1, mesh.nodes, mesh.triangles, settings, 1.0);
+}
+
+bool hasBond(const Network& network, const std::array<int, 2>& node) {
+    return std::any_of(network.bonds().begin(), network.bonds().end(), [&](const Bond& b) { return b.node == node; });
+}
+
+TEST(Network, CountsAndOrder) {
+    const Mesh mesh = testing::icosphere(2);
+    Network network(mesh.nodes, mesh.triangles);
+    EXPECT_EQ(network.bonds().size(), 480u);  // Euler: 162 - 480 + 320 = 2
+    EXPECT_FALSE(network.isOpen());
+    EXPECT_TRUE(network.corners().empty());
+    EXPECT_TRUE(network.hinges().empty());
+    for (std::size_t b = 1; b < network.bonds().size(); ++b) {
+        EXPECT_LT(network.bonds()[b - 1].node, network.bonds()[b].node);
+        EXPECT_LT(network.bonds()[b].node[0], network.bonds()[b].node[1]);
+    }
+    network.useCorners();
+    EXPECT_EQ(network.corners().size(), 960u);
+    EXPECT_TRUE(network.hinges().empty());
+}
+
+TEST(Network, RefusesBadMeshesByName) {
+    Mesh mesh = testing::icosphere(0);
+    std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+    try {
+        Network network(mesh.nodes, mesh.triangles);
+        FAIL() << "a turned triangle was accepted";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::invalidCase);
+        EXPECT_NE(std::string(failure.what()).find("the same way along the edge"), std::string::npos);
+    }
+    mesh = testing::icosphere(0);
+    mesh.triangles[0][1] = 12;
+    EXPECT_THROW(Network(mesh.nodes, mesh.triangles), Failure);
+    mesh = testing::icosphere(0);
+    mesh.nodes[0] = mesh.nodes[11];
+    EXPECT_THROW(Network(mesh.nodes, mesh.triangles), Failure);
+}
+
+// Bonds and hinges after a break are those of the mesh without the broken triangles; of the broken triangles' corners
+// only the two that stand opposite the broken bond live on.
+TEST(Rupture, OneBondLeavesEveryLaw) {
+    const Mesh mesh = testing::irregular(2);
+    const std::vector<Vec3> x = testing::deformed(mesh.nodes, 0.28);
+    HarmonicBond bonds;
+    bonds.k = 1.3;
+    DihedralBending bending;
+    bending.k = 0.4;
+    HarmonicAngle angles;
+    angles.k = 0.9;
+
+    Network network(mesh.nodes, mesh.triangles);
+    const auto bondTerm = bonds.makeTerm(network), bendingTerm = bending.makeTerm(network, {}),
+               angleTerm = angles.makeTerm(network);
+    const int number = 100;
+    network.breakBonds(std::array{number});
+    EXPECT_TRUE(network.isOpen());
+    EXPECT_EQ(network.brokenBonds(), 1);
+    EXPECT_EQ(network.brokenTriangles(), 2);
+
+    const auto [left, right] = network.bondTriangles(number);
+    Mesh without = mesh;
+    without.triangles.clear();
+    double oppositeCorners = 0;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+        if (t != left && t != right) {
+            without.triangles.push_back(mesh.triangles[t]);
+            continue;
+        }
+        EXPECT_TRUE(network.isBroken(t));
+        const auto& edge = network.allBonds()[number].node;
+        Index3 corner = mesh.triangles[t];
+        while (corner[0] == edge[0] || corner[0] == edge[1]) {
+            std::rotate(corner.begin(), corner.begin() + 1, corner.end());
+        }
+        const double rest =
+            CornerAngle::at({mesh.nodes[corner[0]], mesh.nodes[corner[1]], mesh.nodes[corner[2]]}).value;
+        oppositeCorners += angles.energy(CornerAngle::at({x[corner[0]], x[corner[1]], x[corner[2]]}).value, rest);
+    }
+    Network reduced(without.nodes, without.triangles);
+    EXPECT_EQ(bondTerm->energy(x), bonds.makeTerm(reduced)->energy(x));
+    EXPECT_NEAR(bendingTerm->energy(x), bending.makeTerm(reduced, {})->energy(x), 1e-12);
+    EXPECT_NEAR(angleTerm->energy(x), angles.makeTerm(reduced)->energy(x) + oppositeCorners, 1e-12);
+
+    // A second break elsewhere, and one that is broken already.
+    network.breakBonds(std::array{number, 300});
+    EXPECT_EQ(network.brokenBonds(), 2);
+}
+
+TEST(Rupture, ForcesStayMinusTheGradient) {
+    const Mesh mesh = testing::irregular(1);
+    Membrane membrane = membraneOf(mesh, allLaws());
+    membrane.position = testing::deformed(mesh.nodes, 0.1);
+    const auto broken = membrane.applyRupture();
+    ASSERT_GT(broken.size(), 5u);
+    ASSERT_LT(broken.size(), 100u);
+    membrane.computeForces();
+    const double h = 1e-5;
+    for (int node = 0; node < 42; ++node) {
+        const double start = membrane.position[node].x();
+        membrane.position[node].x() = start + h;
+        const double plus = membrane.energy();
+        membrane.position[node].x() = start - h;
+        const double minus = membrane.energy();
+        membrane.position[node].x() = start;
+        EXPECT_NEAR(membrane.force[node].x(), -(plus - minus) / (2 * h), 1e-7);
+    }
+}
+
+TEST(Rupture, BondStretchNamesWhatBroke) {
+    Membrane membrane = membraneOf(testing::icosphere(2), allLaws());
+    for (Vec3& x : membrane.position) {
+        x *= 1.0499;
+    }
+    EXPECT_TRUE(membrane.applyRupture().empty());
+    EXPECT_FALSE(membrane.network().isOpen());
+
+    membrane.position[7] *= 1.3;
+    const std::size_t bondsOfNode = std::count_if(membrane.network().bonds().begin(), membrane.network().bonds().end(),
+                                                  [](const Bond& b) { return b.node[0] == 7 || b.node[1] == 7; });
+    const auto broken = membrane.applyRupture();
+    ASSERT_EQ(broken.size(), bondsOfNode);
+    for (const BrokenBond& bond : broken) {
+        const auto [a, b] = membrane.network().allBonds()[bond.bond].node;
+        EXPECT_TRUE(a == 7 || b == 7);
+        EXPECT_GT(bond.stretch, 1.05);
+        EXPECT_LT((bond.place - 0.5 * (membrane.position[a] + membrane.position[b])).norm(), 1e-15);
+        EXPECT_FALSE(hasBond(membrane.network(), {a, b}));
+    }
+    EXPECT_TRUE(membrane.applyRupture().empty());  // what has broken does not break again
+    membrane.computeForces();
+    EXPECT_EQ(membrane.force[7].norm(), 0);  // the node is free
+}
+
+TEST(Rupture, WithoutACriterionNothingBreaks) {
+    MembraneSettings settings = allLaws();
+    settings.rupture = {};
+    Membrane membrane = membraneOf(testing::icosphere(1), settings);
+    for (Vec3& x : membrane.position) {
+        x *= 3;
+    }
+    EXPECT_FALSE(membrane.canRupture());
+    EXPECT_TRUE(membrane.applyRupture().empty());
+}
+
+TEST(Holes, RimsAndAreasOnAFlatPatch) {
+    const Mesh mesh = testing::hexagonalPatch(9);
+    Network network(mesh.nodes, mesh.triangles);
+    const auto openNode = [&](int i, int j) {
+        std::vector<int> numbers;
+        for (const Bond& b : network.allBonds()) {
+            if (b.node[0] == 10 * j + i || b.node[1] == 10 * j + i) {
+                numbers.push_back(b.number);
+            }
+        }
+        network.breakBonds(numbers);
+    };
+    EXPECT_TRUE(network.isOpen());  // a border
+    EXPECT_TRUE(network.rims().empty());
+    const double hexagon = 6 * std::sqrt(3.0) / 4;
+
+    openNode(3, 3);
+    ASSERT_EQ(network.rims().size(), 1u);
+    EXPECT_EQ(network.rims()[0].size(), 6u);
+    EXPECT_NEAR(network.holeRestArea(), hexagon, 1e-12);
+    std::vector<Vec3> x = mesh.nodes;
+    for (Vec3& p : x) {
+        p.x() *= 2;
+    }
+    x[33] = Vec3(100, 100, 100);  // the freed node has no part in the hole
+    EXPECT_NEAR(network.holeArea(x), 2 * hexagon, 1e-12);
+
+    openNode(5, 3);  // touches the first at one node: two holes
+    ASSERT_EQ(network.rims().size(), 2u);
+    EXPECT_EQ(network.rims()[0].size(), 6u);
+    EXPECT_EQ(network.rims()[1].size(), 6u);
+    x[35] = x[33];
+    EXPECT_NEAR(network.holeArea(x), 4 * hexagon, 1e-12);
+
+    openNode(2, 5);  // an edge in common with the first: one hole with a strand across it
+    ASSERT_EQ(network.rims().size(), 2u);
+    EXPECT_EQ(network.rims()[0].size() + network.rims()[1].size(), 6u + 10u);
+    EXPECT_NEAR(network.holeRestArea(), 3 * hexagon, 1e-12);
+    x[52] = x[33];
+    EXPECT_NEAR(network.holeArea(x), 6 * hexagon, 1e-11);
+}
+
+TEST(Holes, VolumeStaysClosedByTheRim) {
+    Membrane membrane = membraneOf(testing::icosphere(3), allLaws());
+    const double whole = membrane.volume();
+    EXPECT_NEAR(whole, 0.9913938426297549 * 4 * std::numbers::pi / 3, 1e-12);
+    EXPECT_NEAR(membrane.area(), 0.9952350696770933 * 4 * std::numbers::pi, 1e-12);
+    const auto areas = membrane.vertexAreas();
+    double sum = 0;
+    for (const double a : areas) {
+        sum += a;
+    }
+    EXPECT_NEAR(sum, membrane.area(), 1e-12);
+
+    membrane.position[20] *= 1.4;
+    ASSERT_GE(membrane.applyRupture().size(), 5u);
+    EXPECT_NEAR(membrane.volume(), whole, 1e-3 * whole);
+    EXPECT_LT(membrane.volume(), whole);  // the cap is cut off
+    const double before = membrane.volume();
+    for (Vec3& x : membrane.position) {
+        x += Vec3(5, -3, 2);
+    }
+    EXPECT_NEAR(membrane.volume(), before, 1e-12);
+}
+
+TEST(Restore, SameBitsAsTheRunThatBroke) {
+    const Mesh mesh = testing::irregular(2);
+    Membrane broke = membraneOf(mesh, allLaws());
+    std::vector<Vec3> x = mesh.nodes;
+    for (int step = 0; step < 3; ++step) {
+        testing::jitter(x, 0.01, 20 + step);
+        broke.position = x;
+        broke.applyRupture();
+    }
+    ASSERT_GT(broke.network().brokenBonds(), 10);
+    Membrane restored = membraneOf(mesh, allLaws());
+    restored.restore(broke.network().aliveBonds());
+    restored.position = broke.position;
+    broke.computeForces();
+    restored.computeForces();
+    EXPECT_EQ(restored.network().brokenTriangles(), broke.network().brokenTriangles());
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        EXPECT_EQ(restored.force[n], broke.force[n]);
+    }
+    EXPECT_EQ(restored.energy(), broke.energy());
+    EXPECT_EQ(restored.volume(), broke.volume());
+    EXPECT_THROW(restored.restore(std::vector<char>(3, 1)), Failure);
+}
+
+TEST(MembraneLaws, ThoseNotNamedHaveNoStorage) {
+    MembraneSettings settings = allLaws();
+    settings.angles = {};
+    settings.bending = {};
+    Membrane membrane = membraneOf(testing::icosphere(1), settings);
+    EXPECT_TRUE(membrane.network().corners().empty());
+    EXPECT_TRUE(membrane.network().hinges().empty());
+    Membrane moved = std::move(membrane);  // terms follow
+    moved.position[0] *= 1.01;
+    moved.computeForces();
+    EXPECT_GT(moved.force[0].norm(), 0);
+}
+
+TEST(Diagnostics, HexagonalPatchUnderEqualStretch) {
+    const Mesh mesh = testing::hexagonalPatch(4);
+    Network network(mesh.nodes, mesh.triangles);
+    HarmonicBond law;
+    law.k = 2;
+    std::vector<Vec3> x = mesh.nodes;
+    for (Vec3& p : x) {
+        p *= 1.1;
+    }
+    const auto tensions = principalTensions(network, law, x);
+    const auto strain = areaStrain(network, x);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        EXPECT_NEAR(tensions.tension1[t], std::sqrt(3.0) * law.k * 0.1 / 1.1, 1e-12);  // sqrt(3) k (l - l0)/l
+        EXPECT_NEAR(tensions.tension2[t], tensions.tension1[t], 1e-12);
+        EXPECT_NEAR(strain[t], 0.21, 1e-12);
+    }
+    for (const double stretch : nodeStretch(network, x)) {
+        EXPECT_NEAR(stretch, 1.1, 1e-12);
+    }
+    EXPECT_NEAR(maxBondStrain(network, x), 0.1, 1e-12);
+}
+
+// Sum of A (tension1 + tension2) over a closed membrane is the virial of its bonds, sum of E'(l) l.
+TEST(Diagnostics, TensionsCarryTheVirial) {
+    const Mesh mesh = testing::irregular(2);
+    Network network(mesh.nodes, mesh.triangles);
+    HarmonicBond law;
+    law.k = 2;
+    const auto x = testing::deformed(mesh.nodes, 0.28);
+    const auto tensions = principalTensions(network, law, x);
+    double surface = 0, virial = 0, largest = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        surface += areaVector(x, mesh.triangles[t]).norm() * (tensions.tension1[t] + tensions.tension2[t]);
+        EXPECT_GE(tensions.tension1[t], tensions.tension2[t]);
+    }
+    for (const Bond& bond : network.bonds()) {
+        const double l = (x[bond.node[1]] - x[bond.node[0]]).norm();
+        virial += law.derivative(l, bond.rest) * l;
+        largest = std::max(largest, l / bond.rest - 1);
+    }
+    EXPECT_NEAR(surface, virial, 1e-12 * std::abs(virial));
+    EXPECT_EQ(maxBondStrain(network, x), largest);
+}
+
+}  // namespace
+}  // namespace corpuscle::membrane
