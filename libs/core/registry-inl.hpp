@@ -74,6 +74,12 @@ Codec<Choice<Family>> choiceCodec() {
             }};
 }
 
+// `type: name` with its settings, defaults included.
+template <class Family>
+Node writeChoice(const Choice<Family>& choice) {
+    return choiceCodec<Family>().write(choice);
+}
+
 // One choice outside of any schema.
 template <class Family>
 Choice<Family> readChoice(const Node& node, Problems& problems) {

@@ -96,6 +96,10 @@ class Schema : public SchemaBase {
     Schema& integer(Str key, Maybe<long> T::*m, Str text, Options o = {}) {
         return add(describe("integer", key, text, o), m, codec::integer(o.range));
     }
+    // The word leaves the member empty.
+    Schema& integerOr(Str word, Str key, Maybe<long> T::*m, Str text, Options o = {}) {
+        return addOr(word, describe("integer", key, text, o), m, codec::integer(o.range));
+    }
     Schema& integer(Str key, int T::*m, Str text, Options o = {}) {
         o.range.low = std::max(o.range.low, static_cast<double>(std::numeric_limits<int>::min()));
         o.range.high = std::min(o.range.high, static_cast<double>(std::numeric_limits<int>::max()));

@@ -15,8 +15,10 @@ CORPUSCLE_REGISTER(Shape, EvansFung, "evansFung", "measured profile of the human
 const Schema<EvansFung>& EvansFung::schema() {
     static const Schema<EvansFung> s =
         Schema<EvansFung>("evansFung", "mean profile of the human red cell")
-            .quantity("R0", &EvansFung::R0, unit::metre, "radius of the disc", {.fallback = "3.91 um", .range = positive})
-            .quantity("C0", &EvansFung::C0, unit::metre, "thickness on the axis", {.fallback = "0.81 um", .range = positive})
+            .quantity("R0", &EvansFung::R0, unit::metre, "radius of the disc",
+                      {.fallback = "3.91 um", .range = positive})
+            .quantity("C0", &EvansFung::C0, unit::metre, "thickness on the axis",
+                      {.fallback = "0.81 um", .range = positive})
             .quantity("C2", &EvansFung::C2, unit::metre, "coefficient of (r/R0)^2", {.fallback = "7.83 um"})
             .quantity("C4", &EvansFung::C4, unit::metre, "coefficient of (r/R0)^4", {.fallback = "-4.39 um"});
     return s;
@@ -28,9 +30,11 @@ void EvansFung::prepare(const std::filesystem::path&) const {
     if (C4 > 0)
         if (const double s = -C2 / (2 * C4); s > 0 && s < 1 && p(s) < lowest) lowest = p(s), where = s;
     if (!(lowest > 0))
-        throw Failure(ExitCode::invalidCase,
-                      fmt::format("evansFung: the thickness C0 + C2 s + C4 s^2 falls to {:.4g} um at r = {:.4g} um; it must stay "
-                                  "above 0 from the axis to R0: take a greater C0 or C2", lowest * 1e6, R0 * std::sqrt(where) * 1e6));
+        throw Failure(
+            ExitCode::invalidCase,
+            fmt::format("evansFung: the thickness C0 + C2 s + C4 s^2 falls to {:.4g} um at r = {:.4g} um; it must stay "
+                        "above 0 from the axis to R0: take a greater C0 or C2",
+                        lowest * 1e6, R0 * std::sqrt(where) * 1e6));
 }
 
 double EvansFung::implicit(const Vec3& x) const {

@@ -1,9 +1,11 @@
-// Closed surface from a file, moved so that the centroid of its volume lies at the origin; z of the file stays the axis.
+// Closed surface from a file, moved so that the centroid of its volume lies at the origin; z of the file stays the
+// axis.
 //
 // symbol | meaning                                                       | unit | default
 // file   | STL, OFF, PLY or VTP, relative to the case                    |      | required
 // scale  | length of one unit of the file                                | m    | 1 um
-// F is the signed distance; the surface is the file's own triangulation, so that its nodes, after remeshing, lie on its triangles.
+// F is the signed distance; the surface is the file's own triangulation, so that its nodes, after remeshing, lie on its
+// triangles.
 #pragma once
 #include <memory>
 #include <string>

@@ -44,7 +44,8 @@ InsideTest::InsideTest(const TriangleMesh& mesh) : mesh_(mesh), low_(mesh.nodes.
 
 bool InsideTest::inside(const Vec3& x) const {
     if ((x.array() < low_.array()).any() || (x.array() > high_.array()).any()) return false;
-    const int column = static_cast<int>((x.y() - low_.y()) / size_) * columnsX_ + static_cast<int>((x.x() - low_.x()) / size_);
+    const int column =
+        static_cast<int>((x.y() - low_.y()) / size_) * columnsX_ + static_cast<int>((x.x() - low_.x()) / size_);
     const auto robust = [&] { return windingNumber(mesh_, x) > 0.5; };
     int crossings = 0;
     for (int n = start_[column]; n < start_[column + 1]; ++n) {
@@ -55,7 +56,8 @@ bool InsideTest::inside(const Vec3& x) const {
         for (int e = 0; e < 3; ++e) {
             const Vec3 u = mesh_.nodes[t[(e + 1) % 3]] - x, v = mesh_.nodes[t[(e + 2) % 3]] - x;
             s[e] = u.x() * v.y() - u.y() * v.x();
-            close |= std::abs(s[e]) <= tolerance_ * (std::abs(u.x()) + std::abs(u.y()) + std::abs(v.x()) + std::abs(v.y()));
+            close |=
+                std::abs(s[e]) <= tolerance_ * (std::abs(u.x()) + std::abs(u.y()) + std::abs(v.x()) + std::abs(v.y()));
         }
         const double least = std::min({s[0], s[1], s[2]}), most = std::max({s[0], s[1], s[2]});
         if (!close && least < 0 && most > 0) continue;  // the ray passes by

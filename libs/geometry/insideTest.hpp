@@ -1,8 +1,8 @@
 // Inside or outside of a closed surface, for any points and in great number.
 //
-// A ray along +z from the point is cut with the triangles of one column of a plane grid, counting crossings outwards as +1 and
-// inwards as -1. A ray that passes within rounding of an edge, or a point within rounding of the surface, is decided by the
-// generalised winding number instead (the sum of the solid angles of all triangles over 4 pi).
+// A ray along +z from the point is cut with the triangles of one column of a plane grid, counting crossings outwards as
+// +1 and inwards as -1. A ray that passes within rounding of an edge, or a point within rounding of the surface, is
+// decided by the generalised winding number instead (the sum of the solid angles of all triangles over 4 pi).
 #pragma once
 #include <vector>
 

@@ -17,7 +17,8 @@ const Schema<KuchelFackerell>& KuchelFackerell::schema() {
         Schema<KuchelFackerell>("kuchelFackerell", "biconcave disc")
             .quantity("d", &KuchelFackerell::d, unit::metre, "diameter", {.range = positive})
             .quantity("h", &KuchelFackerell::h, unit::metre, "greatest thickness", {.range = positive})
-            .quantity("b", &KuchelFackerell::b, unit::metre, "thickness in the middle of the dimple", {.range = positive});
+            .quantity("b", &KuchelFackerell::b, unit::metre, "thickness in the middle of the dimple",
+                      {.range = positive});
     return s;
 }
 
@@ -52,11 +53,14 @@ void KuchelFackerell::prepare(const std::filesystem::path&) const {
     };
     if (!(d > 0 && h > 0 && b > 0)) refuse("d, h and b must be greater than 0");
     if (!(b < h))
-        refuse(fmt::format("b = {} (thickness in the dimple) must be less than h = {} (greatest thickness)", um(b), um(h)));
+        refuse(fmt::format("b = {} (thickness in the dimple) must be less than h = {} (greatest thickness)", um(b),
+                           um(h)));
     const double smallest = std::sqrt(2 * h * h + 2 * h * std::sqrt(h * h - b * b));
     if (!(d > smallest))
-        refuse(fmt::format("d = {} is too small for h = {} and b = {}: no biconcave disc has these sizes. Take d greater than {}, "
-                           "or a smaller h", um(d), um(h), um(b), um(smallest)));
+        refuse(fmt::format(
+            "d = {} is too small for h = {} and b = {}: no biconcave disc has these sizes. Take d greater than {}, "
+            "or a smaller h",
+            um(d), um(h), um(b), um(smallest)));
 }
 
 double KuchelFackerell::implicit(const Vec3& x) const {

@@ -37,7 +37,8 @@ std::vector<Vec3> imagesNear(const std::vector<Vec3>& nodes, const Vec3& low, co
             for (int j = from[1]; j <= to[1]; ++j)
                 for (int k = from[2]; k <= to[2]; ++k) {
                     const Vec3 image = x + Vec3(i, j, k).cwiseProduct(period);
-                    if ((image.array() >= low.array()).all() && (image.array() <= high.array()).all()) images.push_back(image);
+                    if ((image.array() >= low.array()).all() && (image.array() <= high.array()).all())
+                        images.push_back(image);
                 }
     }
     return images;
@@ -47,17 +48,21 @@ int countAlong(int axis, double length, double dx) {
     const double n = std::round(length / dx);
     if (n >= 1 && std::abs(length / n / dx - 1) <= largestDeviation) return static_cast<int>(n);
     const double below = std::max(1.0, std::floor(length / dx)), above = below + 1;
-    throw Failure(ExitCode::invalidCase,
-                  fmt::format("the box is {:.6g} um long along {}, which is no whole number of spacings of {:.6g} um. Take {:.6g} um "
-                              "({} spacings) or {:.6g} um ({} spacings), or a spacing of {:.6g} um", length * 1e6, "xyz"[axis],
-                              dx * 1e6, below * dx * 1e6, below, above * dx * 1e6, above, length / std::max(n, 1.0) * 1e6));
+    throw Failure(
+        ExitCode::invalidCase,
+        fmt::format(
+            "the box is {:.6g} um long along {}, which is no whole number of spacings of {:.6g} um. Take {:.6g} um "
+            "({} spacings) or {:.6g} um ({} spacings), or a spacing of {:.6g} um",
+            length * 1e6, "xyz"[axis], dx * 1e6, below * dx * 1e6, below, above * dx * 1e6, above,
+            length / std::max(n, 1.0) * 1e6));
 }
 
 }  // namespace
 
 Lattice fillLattice(const LatticeBox& box) {
     if (!(box.spacing > 0)) throw Failure(ExitCode::invalidCase, "the particle spacing must be greater than 0");
-    if (!(box.jitter >= 0 && box.jitter < 0.5)) throw Failure(ExitCode::invalidCase, "the jitter must be from 0 to below 0.5");
+    if (!(box.jitter >= 0 && box.jitter < 0.5))
+        throw Failure(ExitCode::invalidCase, "the jitter must be from 0 to below 0.5");
     Lattice lattice;
     Index3 from{0, 0, 0}, to{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -76,7 +81,7 @@ Lattice fillLattice(const LatticeBox& box) {
         for (int j = from[1]; j < to[1]; ++j)
             for (int i = from[0]; i < to[0]; ++i) {
                 const int layer = Index3{i, j, k}[normal];
-                const PointKind kind = layer < 0                           ? PointKind::lowerWall
+                const PointKind kind = layer < 0                        ? PointKind::lowerWall
                                        : layer >= lattice.count[normal] ? PointKind::upperWall
                                                                         : PointKind::fluid;
                 Vec3 cell(i + 0.5, j + 0.5, k + 0.5);
@@ -88,12 +93,16 @@ Lattice fillLattice(const LatticeBox& box) {
     return lattice;
 }
 
-std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>& nodes, std::size_t count, const Period& period) {
+std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>& nodes, std::size_t count,
+                       const Period& period) {
     if (count == 0 || nodes.empty()) return {};
     if (count > points.size())
-        throw Failure(ExitCode::invalidCase, fmt::format("the membranes take the place of {} fluid particles, but there are only {}: "
-                                                         "take a smaller spacing or a larger box", count, points.size()));
-    // Nodes in hashed cells of size s: a point that finds a node within s has its true distance. Doubled until enough points do.
+        throw Failure(ExitCode::invalidCase,
+                      fmt::format("the membranes take the place of {} fluid particles, but there are only {}: "
+                                  "take a smaller spacing or a larger box",
+                                  count, points.size()));
+    // Nodes in hashed cells of size s: a point that finds a node within s has its true distance. Doubled until enough
+    // points do.
     Vec3 low = points.front(), high = points.front();
     for (const Vec3& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
     double s = std::cbrt((high - low).prod() / static_cast<double>(points.size()));
@@ -103,7 +112,8 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
         const std::vector<Vec3> near = imagesNear(nodes, low - Vec3::Constant(s), high + Vec3::Constant(s), period);
         const auto cell = [&](const Vec3& x, int di, int dj, int dk) {
             const auto part = [&](int axis, int d) {
-                return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor((x[axis] - low[axis]) / s)) + d + (1 << 20)) &
+                return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor((x[axis] - low[axis]) / s)) + d +
+                                                  (1 << 20)) &
                        0x1fffff;
             };
             return part(0, di) | part(1, dj) << 21 | part(2, dk) << 42;
@@ -123,14 +133,17 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
     }
     std::vector<int> order(points.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto nearer = [&](int i, int j) { return distance[i] < distance[j] || (distance[i] == distance[j] && i < j); };
+    const auto nearer = [&](int i, int j) {
+        return distance[i] < distance[j] || (distance[i] == distance[j] && i < j);
+    };
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count) - 1, order.end(), nearer);
     order.resize(count);
     std::sort(order.begin(), order.end());
     return order;
 }
 
-std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes, const Period& period) {
+std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
+                          const Period& period) {
     std::vector<int> side(points.size(), 0);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const InsideTest test(meshes[m]);
@@ -138,9 +151,10 @@ std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<Tri
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!test.inside(nearestImage(points[i], middle, period))) continue;
             if (side[i] != 0)
-                throw Failure(ExitCode::invalidCase,
-                              fmt::format("cells {} and {} overlap at ({:.4g}, {:.4g}, {:.4g}) um: move them apart", side[i], m + 1,
-                                          points[i].x() * 1e6, points[i].y() * 1e6, points[i].z() * 1e6));
+                throw Failure(
+                    ExitCode::invalidCase,
+                    fmt::format("cells {} and {} overlap at ({:.4g}, {:.4g}, {:.4g}) um: move them apart", side[i],
+                                m + 1, points[i].x() * 1e6, points[i].y() * 1e6, points[i].z() * 1e6));
             side[i] = static_cast<int>(m) + 1;
         }
     }

@@ -50,8 +50,10 @@ bool checkIndices(const TriangleMesh& mesh, std::vector<std::string>& faults) {
     std::vector<bool> used(mesh.nodes.size(), false);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (int node : mesh.triangles[t]) {
-            if (node < 0 || node >= n) missing.add(fmt::format("triangle {}, node {}", t, node));
-            else used[node] = true;
+            if (node < 0 || node >= n)
+                missing.add(fmt::format("triangle {}, node {}", t, node));
+            else
+                used[node] = true;
         }
     for (int i = 0; i < n; ++i) {
         if (!mesh.nodes[i].allFinite()) notFinite.add(fmt::format("node {}", i));
@@ -69,7 +71,8 @@ void checkTriangles(const TriangleMesh& mesh, std::vector<std::string>& faults) 
         const auto& [i, j, k] = mesh.triangles[t];
         const Vec3 u = mesh.nodes[j] - mesh.nodes[i], v = mesh.nodes[k] - mesh.nodes[i];
         const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-        if (!(u.cross(v).norm() > 1e-10 * longest2)) degenerate.add(fmt::format("triangle {} at {}", t, at(mesh.nodes[i])));
+        if (!(u.cross(v).norm() > 1e-10 * longest2))
+            degenerate.add(fmt::format("triangle {} at {}", t, at(mesh.nodes[i])));
     }
     degenerate.report(faults, "degenerate triangles without area");
 }
@@ -87,9 +90,12 @@ void checkEdges(const TriangleMesh& mesh, std::vector<std::string>& faults) {
         const std::string place =
             fmt::format("between nodes {} and {} at {}", edge.first, edge.second, at(mesh.nodes[edge.first]));
         const int total = count.first + count.second;
-        if (total == 1) open.add(place);
-        else if (total > 2) nonManifold.add(place);
-        else if (count.first != 1) inverted.add(place);
+        if (total == 1)
+            open.add(place);
+        else if (total > 2)
+            nonManifold.add(place);
+        else if (count.first != 1)
+            inverted.add(place);
     }
     open.report(faults, "open edges with a triangle on one side only: the surface has a hole");
     nonManifold.report(faults, "non-manifold edges with more than two triangles");

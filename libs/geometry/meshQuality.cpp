@@ -35,7 +35,8 @@ MeshQuality meshQuality(const TriangleMesh& mesh, const Shape* shape) {
     for (const Index3& t : mesh.triangles)
         for (int s = 0; s < 3; ++s) {
             const double degrees =
-                cornerAngle(mesh.nodes[t[s]], mesh.nodes[t[(s + 1) % 3]], mesh.nodes[t[(s + 2) % 3]]) * 180 / std::numbers::pi;
+                cornerAngle(mesh.nodes[t[s]], mesh.nodes[t[(s + 1) % 3]], mesh.nodes[t[(s + 2) % 3]]) * 180 /
+                std::numbers::pi;
             q.angleMin = std::min(q.angleMin, degrees);
             q.angleMax = std::max(q.angleMax, degrees);
         }
@@ -48,7 +49,8 @@ MeshQuality meshQuality(const TriangleMesh& mesh, const Shape* shape) {
         q.areaError = q.area / q.exactArea - 1;
         q.volumeError = q.volume / q.exactVolume - 1;
         for (const Vec3& x : mesh.nodes)
-            q.residual = std::max(q.residual, std::abs(shape->implicit(x)) / shape->gradient(x).norm() / shape->radius());
+            q.residual =
+                std::max(q.residual, std::abs(shape->implicit(x)) / shape->gradient(x).norm() / shape->radius());
     }
     return q;
 }
@@ -57,9 +59,11 @@ std::string MeshQuality::text() const {
     std::string valences;
     for (std::size_t n = 0; n < valence.size(); ++n)
         if (valence[n] > 0) valences += fmt::format("{}{}: {}", valences.empty() ? "" : ", ", n, valence[n]);
-    std::string s = fmt::format("nodes, edges, triangles   {}, {}, {} (Euler characteristic {})\n", nodes, edges, triangles, euler);
+    std::string s =
+        fmt::format("nodes, edges, triangles   {}, {}, {} (Euler characteristic {})\n", nodes, edges, triangles, euler);
     s += fmt::format("closed, sound             {}\n", closed ? "yes" : "no");
-    s += fmt::format("edge, least/mean/most     {:.4g} / {:.4g} / {:.4g} um\n", edgeMin * 1e6, edgeMean * 1e6, edgeMax * 1e6);
+    s += fmt::format("edge, least/mean/most     {:.4g} / {:.4g} / {:.4g} um\n", edgeMin * 1e6, edgeMean * 1e6,
+                     edgeMax * 1e6);
     s += fmt::format("angle, least/most         {:.1f} / {:.1f} degrees\n", angleMin, angleMax);
     s += fmt::format("edges at a node: nodes    {}\n", valences);
     s += fmt::format("area                      {:.6g} um^2", area * 1e12);

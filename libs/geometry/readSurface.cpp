@@ -52,14 +52,18 @@ Soup readByCgal(const std::string& file) {
 
 TriangleMesh readSurface(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const std::vector<std::string> known{".stl", ".off", ".ply", ".vtp"};
     if (std::find(known.begin(), known.end(), ending) == known.end())
-        throw Failure(ExitCode::io, fmt::format("{}: a surface is read from .stl, .off, .ply or .vtp, not from '{}'", file.string(), ending));
+        throw Failure(ExitCode::io, fmt::format("{}: a surface is read from .stl, .off, .ply or .vtp, not from '{}'",
+                                                file.string(), ending));
     if (!std::filesystem::is_regular_file(file))
-        throw Failure(ExitCode::io, fmt::format("{}: there is no such file (paths are relative to the case)", file.string()));
+        throw Failure(ExitCode::io,
+                      fmt::format("{}: there is no such file (paths are relative to the case)", file.string()));
     const Soup soup = ending == ".vtp" ? readVtp(file.string()) : readByCgal(file.string());
-    if (soup.polygons.empty()) throw Failure(ExitCode::io, fmt::format("{}: no triangles could be read from it", file.string()));
+    if (soup.polygons.empty())
+        throw Failure(ExitCode::io, fmt::format("{}: no triangles could be read from it", file.string()));
 
     TriangleMesh mesh;
     std::map<std::array<double, 3>, int> places;

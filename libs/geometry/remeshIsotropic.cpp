@@ -40,7 +40,8 @@ TriangleMesh remeshIsotropic(const TriangleMesh& mesh, double edge, int iteratio
     for (const auto f : surface.faces()) {
         Index3 t{};
         int s = 0;
-        for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) t[s++] = static_cast<int>(v.idx());
+        for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface))
+            t[s++] = static_cast<int>(v.idx());
         result.triangles.push_back(t);
     }
     return result;

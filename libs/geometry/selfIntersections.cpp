@@ -13,8 +13,8 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
 Kernel::Point_3 point(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
-// Triangles that share nothing must not meet; those that share a node may meet only there; those that share an edge must not
-// be folded onto each other.
+// Triangles that share nothing must not meet; those that share a node may meet only there; those that share an edge
+// must not be folded onto each other.
 bool cut(const TriangleMesh& mesh, const Index3& s, const Index3& t) {
     std::array<int, 3> common{}, ownS{}, ownT{};
     int shared = 0, nS = 0, nT = 0;

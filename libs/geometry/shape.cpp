@@ -22,13 +22,15 @@ double integrate(const Integrand& f, double from, double to) {
                           const_cast<Integrand*>(&f)};
     gsl_error_handler_t* handler = gsl_set_error_handler_off();
     double value = 0, error = 0;
-    const int status =
-        gsl_integration_qag(&function, from, to, 0, 1e-12, intervals, GSL_INTEG_GAUSS61, workspace.get(), &value, &error);
+    const int status = gsl_integration_qag(&function, from, to, 0, 1e-12, intervals, GSL_INTEG_GAUSS61, workspace.get(),
+                                           &value, &error);
     gsl_set_error_handler(handler);
     // GSL_EROUND: rounding stops the error estimate just above the goal; the value is as good as doubles allow.
     if ((status != GSL_SUCCESS && status != GSL_EROUND) || !(std::abs(error) <= 1e-9 * std::abs(value)))
-        throw Failure(ExitCode::numerics, fmt::format("area or volume of a cell shape: quadrature failed ({}, error {:.2g} of "
-                                                      "{:.6g})", gsl_strerror(status), error, value));
+        throw Failure(ExitCode::numerics,
+                      fmt::format("area or volume of a cell shape: quadrature failed ({}, error {:.2g} of "
+                                  "{:.6g})",
+                                  gsl_strerror(status), error, value));
     return value;
 }
 
@@ -54,9 +56,12 @@ Vec3 Shape::project(const Vec3& x) const {
         if (settled && length < 4e-16 * a) return p;
     }
     if (std::abs(F) <= 1e-12 * gradient(p).norm() * a) return p;
-    throw Failure(ExitCode::numerics,
-                  fmt::format("no point of the cell's surface was found near ({:.4g}, {:.4g}, {:.4g}) m, where the mesher had put "
-                              "a node; use a smaller edge length", x.x(), x.y(), x.z()));
+    throw Failure(
+        ExitCode::numerics,
+        fmt::format(
+            "no point of the cell's surface was found near ({:.4g}, {:.4g}, {:.4g}) m, where the mesher had put "
+            "a node; use a smaller edge length",
+            x.x(), x.y(), x.z()));
 }
 
 double AxisymmetricShape::area() const {

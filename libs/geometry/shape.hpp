@@ -1,7 +1,7 @@
 // Rest shape of a cell: a closed surface around the origin with its symmetry axis along z. Metres.
 //
-// A shape is the zero set of a function F that is negative inside and positive outside, with a gradient that does not vanish on
-// the surface. Models are chosen by name in a case (`shape: {type: kuchelFackerell, d: 8 um, ...}`).
+// A shape is the zero set of a function F that is negative inside and positive outside, with a gradient that does not
+// vanish on the surface. Models are chosen by name in a case (`shape: {type: kuchelFackerell, d: 8 um, ...}`).
 #pragma once
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -16,15 +16,15 @@ class Shape {
     static constexpr const char* familyName = "cell shape";
     virtual ~Shape() = default;
 
-    // To be called once before use. Checks the parameters and reads what the shape needs (paths relative to the case). Throws
-    // Failure(invalidCase) that says which value is wrong and which would do.
+    // To be called once before use. Checks the parameters and reads what the shape needs (paths relative to the case).
+    // Throws Failure(invalidCase) that says which value is wrong and which would do.
     virtual void prepare(const std::filesystem::path& caseDirectory) const = 0;
 
     virtual double implicit(const Vec3& x) const = 0;
     virtual Vec3 gradient(const Vec3& x) const = 0;
 
-    // A point of the surface near x: Newton's method along the gradient, converged to rounding. x lies within a fraction of
-    // radius() of the surface. Throws Failure(numerics) when it does not converge.
+    // A point of the surface near x: Newton's method along the gradient, converged to rounding. x lies within a
+    // fraction of radius() of the surface. Throws Failure(numerics) when it does not converge.
     virtual Vec3 project(const Vec3& x) const;
 
     virtual Eigen::AlignedBox3d box() const = 0;
@@ -36,7 +36,8 @@ class Shape {
     virtual const TriangleMesh* triangulation() const { return nullptr; }
 };
 
-// Surface of revolution that is even in z, given by its upper half profile (rho, z)(t), t = 0 at the pole, pi/2 at the rim.
+// Surface of revolution that is even in z, given by its upper half profile (rho, z)(t), t = 0 at the pole, pi/2 at the
+// rim.
 //     A = 4 pi int rho sqrt(rho'^2 + z'^2) dt          V = 4 pi int rho z rho' dt
 // by adaptive Gauss-Kronrod quadrature to a relative error of 1e-12.
 class AxisymmetricShape : public Shape {

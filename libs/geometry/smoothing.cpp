@@ -13,7 +13,8 @@ int place(const Index3& t, int value) { return t[0] == value ? 0 : t[1] == value
 // A closed triangulation with the neighbour across each side: side s of triangle t runs from node s to node s+1.
 class FlipMesh {
   public:
-    explicit FlipMesh(TriangleMesh& mesh) : mesh_(mesh), across_(mesh.triangles.size()), valence_(mesh.nodes.size(), 0) {
+    explicit FlipMesh(TriangleMesh& mesh)
+        : mesh_(mesh), across_(mesh.triangles.size()), valence_(mesh.nodes.size(), 0) {
         for (const MeshEdge& e : mesh.edges()) {
             across_[e.left][side(e.left, e.a, e.b)] = e.right;
             across_[e.right][side(e.right, e.b, e.a)] = e.left;
@@ -24,15 +25,30 @@ class FlipMesh {
 
     // Flips edges whose opposite angles add up to more than pi, until none is left (bounded).
     void makeDelaunay() {
+        flipAll([this](int a, int b, int c, int d) {
+            const auto& x = mesh_.nodes;
+            return cornerAngle(x[c], x[a], x[b]) + cornerAngle(x[d], x[b], x[a]) > std::numbers::pi + 1e-9;
+        });
+    }
+
+    // Flips edges where that brings the numbers of edges at the four nodes nearer to 6 (in the sum of squares).
+    void evenValences() {
+        flipAll(
+            [this](int a, int b, int c, int d) { return valence_[a] + valence_[b] - valence_[c] - valence_[d] > 2; });
+    }
+
+  private:
+    // Edge a-b, with c and d opposite to it.
+    template <class Better>
+    void flipAll(const Better& better) {
         for (int sweep = 0; sweep < 10; ++sweep) {
             int flips = 0;
             for (int t = 0; t < static_cast<int>(across_.size()); ++t)
-                for (int s = 0; s < 3; ++s) flips += flipIfBetter(t, s);
+                for (int s = 0; s < 3; ++s) flips += flipIf(better, t, s);
             if (flips == 0) return;
         }
     }
 
-  private:
     int side(int t, int from, int to) const {
         const Index3& n = mesh_.triangles[t];
         for (int s = 0; s < 3; ++s)
@@ -50,19 +66,19 @@ class FlipMesh {
         return false;
     }
 
-    bool flipIfBetter(int t, int s) {
+    template <class Better>
+    bool flipIf(const Better& better, int t, int s) {
         const int u = across_[t][s];
         if (u < t) return false;  // each edge once
         Index3& T = mesh_.triangles[t];
         Index3& U = mesh_.triangles[u];
         const int a = T[s], b = T[(s + 1) % 3], c = T[(s + 2) % 3];
         const int su = side(u, b, a), d = U[(su + 2) % 3];
-        const auto& x = mesh_.nodes;
-        if (cornerAngle(x[c], x[a], x[b]) + cornerAngle(x[d], x[b], x[a]) < std::numbers::pi + 1e-9) return false;
-        if (valence_[a] <= 4 || valence_[b] <= 4 || joined(c, d, t)) return false;
+        if (valence_[a] <= 4 || valence_[b] <= 4 || !better(a, b, c, d) || joined(c, d, t)) return false;
         // The two new triangles must look the way of the old ones: no fold over a sharply bent edge.
         const Vec3 old = normal(a, b, c) + normal(b, a, d), first = normal(c, d, b), second = normal(d, c, a);
-        if (!(first.dot(old) > 0 && second.dot(old) > 0 && first.normalized().dot(second.normalized()) > 0.5)) return false;
+        if (!(first.dot(old) > 0 && second.dot(old) > 0 && first.normalized().dot(second.normalized()) > 0.5))
+            return false;
 
         const int bc = across_[t][(s + 1) % 3], ca = across_[t][(s + 2) % 3];
         const int ad = across_[u][(su + 1) % 3], db = across_[u][(su + 2) % 3];
@@ -110,8 +126,9 @@ void smooth(TriangleMesh& mesh, int rounds, const Projection& project) {
     FlipMesh flips(mesh);
     std::vector<Vec3> sum(mesh.nodes.size());
     std::vector<int> count(mesh.nodes.size());
+    flips.evenValences();
     for (int round = 0; round < rounds; ++round) {
-        flips.makeDelaunay();
+        if (round >= rounds / 2) flips.makeDelaunay();  // before that, the nodes settle around their new neighbours
         std::fill(sum.begin(), sum.end(), Vec3::Zero());
         std::fill(count.begin(), count.end(), 0);
         for (const Index3& t : mesh.triangles)
@@ -131,7 +148,8 @@ double smallestAngle(const TriangleMesh& mesh) {
     double least = std::numbers::pi;
     for (const Index3& t : mesh.triangles)
         for (int s = 0; s < 3; ++s)
-            least = std::min(least, cornerAngle(mesh.nodes[t[s]], mesh.nodes[t[(s + 1) % 3]], mesh.nodes[t[(s + 2) % 3]]));
+            least =
+                std::min(least, cornerAngle(mesh.nodes[t[s]], mesh.nodes[t[(s + 1) % 3]], mesh.nodes[t[(s + 2) % 3]]));
     return least * 180 / std::numbers::pi;
 }
 

@@ -11,9 +11,10 @@ CORPUSCLE_REGISTER(Shape, Spheroid, "spheroid", "ellipsoid of revolution about z
 CORPUSCLE_REGISTER(Shape, Sphere, "sphere", "sphere");
 
 const Schema<Spheroid>& Spheroid::schema() {
-    static const Schema<Spheroid> s = Schema<Spheroid>("spheroid", "ellipsoid of revolution about z")
-                                          .quantity("a", &Spheroid::a, unit::metre, "equatorial half axis", {.range = positive})
-                                          .quantity("c", &Spheroid::c, unit::metre, "polar half axis", {.range = positive});
+    static const Schema<Spheroid> s =
+        Schema<Spheroid>("spheroid", "ellipsoid of revolution about z")
+            .quantity("a", &Spheroid::a, unit::metre, "equatorial half axis", {.range = positive})
+            .quantity("c", &Spheroid::c, unit::metre, "polar half axis", {.range = positive});
     return s;
 }
 
@@ -24,16 +25,15 @@ const Schema<Sphere>& Sphere::schema() {
 }
 
 void Spheroid::prepare(const std::filesystem::path&) const {
-    if (!(a > 0 && c > 0)) throw Failure(ExitCode::invalidCase, "spheroid: the half axes a and c must be greater than 0");
+    if (!(a > 0 && c > 0))
+        throw Failure(ExitCode::invalidCase, "spheroid: the half axes a and c must be greater than 0");
 }
 
 double Spheroid::implicit(const Vec3& x) const {
     return (x.x() * x.x() + x.y() * x.y()) / (a * a) + x.z() * x.z() / (c * c) - 1;
 }
 
-Vec3 Spheroid::gradient(const Vec3& x) const {
-    return {2 * x.x() / (a * a), 2 * x.y() / (a * a), 2 * x.z() / (c * c)};
-}
+Vec3 Spheroid::gradient(const Vec3& x) const { return {2 * x.x() / (a * a), 2 * x.y() / (a * a), 2 * x.z() / (c * c)}; }
 
 Eigen::AlignedBox3d Spheroid::box() const { return {-Vec3(a, a, c), Vec3(a, a, c)}; }
 

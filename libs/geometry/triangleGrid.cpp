@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace corpuscle::geometry {
 
@@ -40,35 +40,60 @@ Vec3 combine(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) { retur
 }  // namespace
 
 TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach)
-    : nodes_(mesh.nodes), triangles_(mesh.triangles), reach_(reach), sideEdge_(mesh.triangles.size()), edges_(mesh.edges()) {
+    : nodes_(mesh.nodes), reach_(reach), sideEdge_(mesh.triangles.size()), edges_(mesh.edges()) {
+    std::vector<Vec3> centres;
+    for (const auto& [i, j, k] : mesh.triangles) centres.push_back((nodes_[i] + nodes_[j] + nodes_[k]) / 3);
+    number_.resize(mesh.triangles.size());
+    std::iota(number_.begin(), number_.end(), 0);
+    split(0, static_cast<int>(number_.size()), centres, number_);
+    std::vector<int> place(number_.size());
+    for (std::size_t t = 0; t < number_.size(); ++t) {
+        triangles_.push_back(mesh.triangles[number_[t]]);
+        place[number_[t]] = static_cast<int>(t);
+    }
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e)
         for (const int t : {edges_[e].left, edges_[e].right}) {
             if (t < 0) continue;
-            const Index3& n = triangles_[t];
+            const Index3& n = mesh.triangles[t];
             for (int s = 0; s < 3; ++s)
-                if (std::min(n[s], n[(s + 1) % 3]) == edges_[e].a && std::max(n[s], n[(s + 1) % 3]) == edges_[e].b)
-                    sideEdge_[t][s] = e;
+                if (std::minmax({n[s], n[(s + 1) % 3]}) == std::pair{edges_[e].a, edges_[e].b})
+                    sideEdge_[place[t]][s] = e;
         }
     update(mesh.nodes);
 }
 
-void TriangleGrid::update(const std::vector<Vec3>& nodes) {
-    nodes_ = nodes;
-    computeNormalsAndBalls();
-    placeCells();
-    listCandidates();
+void TriangleGrid::split(int first, int count, const std::vector<Vec3>& centres, std::vector<int>& order) {
+    const int self = static_cast<int>(boxes_.size());
+    boxes_.push_back({Vec3::Zero(), Vec3::Zero(), first, count, 0});
+    if (count <= 4) return;
+    Vec3 low = centres[order[first]], high = low;
+    for (int t = first; t < first + count; ++t)
+        low = low.cwiseMin(centres[order[t]]), high = high.cwiseMax(centres[order[t]]);
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    const int half = count / 2;
+    const auto begin = order.begin() + first;
+    std::nth_element(begin, begin + half, begin + count, [&](int s, int t) {
+        return centres[s][axis] < centres[t][axis] || (centres[s][axis] == centres[t][axis] && s < t);
+    });
+    boxes_[self].count = 0;
+    split(first, half, centres, order);
+    boxes_[self].second = static_cast<int>(boxes_.size());
+    split(first + half, count - half, centres, order);
 }
 
-void TriangleGrid::computeNormalsAndBalls() {
+void TriangleGrid::update(const std::vector<Vec3>& nodes) {
+    nodes_ = nodes;
+    computeNormals();
+    computeBoxes();
+}
+
+void TriangleGrid::computeNormals() {
     faceNormal_.resize(triangles_.size());
     nodeNormal_.assign(nodes_.size(), Vec3::Zero());
     edgeNormal_.assign(edges_.size(), Vec3::Zero());
-    balls_.resize(triangles_.size());
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
         const Index3& n = triangles_[t];
-        const Vec3 c = (nodes_[n[0]] + nodes_[n[1]] + nodes_[n[2]]) / 3;
-        balls_[t] = {c, std::sqrt(std::max({(nodes_[n[0]] - c).squaredNorm(), (nodes_[n[1]] - c).squaredNorm(),
-                                            (nodes_[n[2]] - c).squaredNorm()}))};
         faceNormal_[t] = (nodes_[n[1]] - nodes_[n[0]]).cross(nodes_[n[2]] - nodes_[n[0]]).normalized();
         for (int s = 0; s < 3; ++s) {
             edgeNormal_[sideEdge_[t][s]] += faceNormal_[t];
@@ -78,87 +103,66 @@ void TriangleGrid::computeNormalsAndBalls() {
     }
 }
 
-void TriangleGrid::placeCells() {
-    double edge = 0;
-    for (const MeshEdge& e : edges_) edge += (nodes_[e.a] - nodes_[e.b]).norm() / static_cast<double>(edges_.size());
-    Vec3 low = nodes_.front(), high = nodes_.front();
-    for (const Vec3& x : nodes_) low = low.cwiseMin(x), high = high.cwiseMax(x);
-    low_ = low - Vec3::Constant(reach_);
-    const Vec3 length = high - low + Vec3::Constant(2 * reach_);
-    // Smaller cells: shorter lists, but more of them to fill at each update.
-    size_ = std::max(edge, 0.5 * reach_);
-    for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<int>(length[axis] / size_) + 1;
-}
-
-int TriangleGrid::cellOf(const Vec3& x) const {
-    const Vec3 p = (x - low_) / size_;
-    if (!(p.minCoeff() >= 0 && p[0] < count_[0] && p[1] < count_[1] && p[2] < count_[2])) return -1;
-    return (static_cast<int>(p[2]) * count_[1] + static_cast<int>(p[1])) * count_[0] + static_cast<int>(p[0]);
-}
-
-void TriangleGrid::listCandidates() {
-    const double r = size_ * std::sqrt(0.75) * (1 + 1e-12), limit = reach_ + r;
-    const int cells = count_[0] * count_[1] * count_[2];
-    struct Entry {
-        int cell, triangle;
-        double nearest;  // lower bound of the distance to the cell's centre
-    };
-    std::vector<Entry> entries;
-    entries.reserve(64 * triangles_.size());
-    std::vector<double> bound(cells, std::numeric_limits<double>::infinity());
-    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
-        const auto& [centre, radius] = balls_[t];
-        const Vec3 at = (centre - low_) / size_;
-        const double span = (limit + radius) / size_, span2 = span * span;
-        Index3 first{}, last{};
-        for (int axis = 0; axis < 3; ++axis) {
-            first[axis] = std::max(0, static_cast<int>(std::ceil(at[axis] - span - 0.5)));
-            last[axis] = std::min(count_[axis] - 1, static_cast<int>(std::floor(at[axis] + span - 0.5)));
+void TriangleGrid::computeBoxes() {
+    for (int n = static_cast<int>(boxes_.size()) - 1; n >= 0; --n) {
+        Box& box = boxes_[n];
+        if (box.count == 0) {
+            box.low = boxes_[n + 1].low.cwiseMin(boxes_[box.second].low);
+            box.high = boxes_[n + 1].high.cwiseMax(boxes_[box.second].high);
+            continue;
         }
-        for (int k = first[2]; k <= last[2]; ++k)
-            for (int j = first[1]; j <= last[1]; ++j) {
-                const double dz = k + 0.5 - at.z(), dy = j + 0.5 - at.y(), dyz2 = dz * dz + dy * dy;
-                for (int i = first[0]; i <= last[0]; ++i) {
-                    const double dx = i + 0.5 - at.x(), d2 = dx * dx + dyz2;
-                    if (d2 > span2) continue;
-                    const int cell = (k * count_[1] + j) * count_[0] + i;
-                    const double d = size_ * std::sqrt(d2);
-                    bound[cell] = std::min(bound[cell], d + 2 * r);
-                    entries.push_back({cell, t, d - radius});
-                }
+        box.low = box.high = nodes_[triangles_[box.first][0]];
+        for (int t = box.first; t < box.first + box.count; ++t)
+            for (const int node : triangles_[t]) {
+                box.low = box.low.cwiseMin(nodes_[node]);
+                box.high = box.high.cwiseMax(nodes_[node]);
             }
     }
-    start_.assign(cells + 1, 0);
-    for (const Entry& e : entries) start_[e.cell + 1] += e.nearest <= bound[e.cell];
-    for (int n = 0; n < cells; ++n) start_[n + 1] += start_[n];
-    candidates_.resize(start_[cells]);
-    std::vector<int> next(start_.begin(), start_.end() - 1);
-    for (const Entry& e : entries)
-        if (e.nearest <= bound[e.cell]) candidates_[next[e.cell]++] = e.triangle;
 }
 
 SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
     SurfacePoint best;
-    const int cell = cellOf(x);
-    if (cell < 0) return best;
-    const int *begin = candidates_.data() + start_[cell], *end = candidates_.data() + start_[cell + 1];
     double least2 = reach_ * reach_;
-    for (const int* t = begin; t != end; ++t) least2 = std::min(least2, (x - balls_[*t].centre).squaredNorm() * (1 + 1e-12));
-    double least = std::sqrt(least2);
-    for (const int* t = begin; t != end; ++t) {
-        const auto& [centre, radius] = balls_[*t];
-        if ((x - centre).squaredNorm() > (least + radius) * (least + radius)) continue;
-        const Index3& n = triangles_[*t];
-        const Vec3 &a = nodes_[n[0]], &b = nodes_[n[1]], &c = nodes_[n[2]];
-        const Vec3 w = nearestWeights(x, a, b, c);
-        const Vec3 p = combine(w, a, b, c);
-        const double d2 = (x - p).squaredNorm();
-        if (d2 > least2 || (best && d2 == least2)) continue;
-        least2 = d2;
-        least = std::sqrt(d2);
-        best = {*t, w, p, 0};
+    struct Waiting {
+        int box;
+        double distance2;
+    };
+    std::array<Waiting, 64> stack;  // the tree is balanced: its depth is log2 of the number of triangles
+    int waiting = 0, at = -1;
+    stack[waiting++] = {0, boxes_[0].distance2(x)};
+    while (waiting > 0) {
+        const Waiting next = stack[--waiting];
+        if (next.distance2 > least2) continue;
+        int n = next.box;
+        while (n >= 0) {
+            const Box& box = boxes_[n];
+            if (box.count > 0) {
+                for (int t = box.first; t < box.first + box.count; ++t) {
+                    const Index3& corner = triangles_[t];
+                    const Vec3 &a = nodes_[corner[0]], &b = nodes_[corner[1]], &c = nodes_[corner[2]];
+                    const double height = (x - a).dot(faceNormal_[t]);
+                    if (height * height > least2 * (1 + 1e-12)) continue;
+                    const Vec3 w = nearestWeights(x, a, b, c);
+                    const Vec3 p = combine(w, a, b, c);
+                    const double d2 = (x - p).squaredNorm();
+                    if (d2 > least2 || (at >= 0 && d2 == least2)) continue;
+                    least2 = d2;
+                    at = t;
+                    best.weights = w;
+                    best.point = p;
+                }
+                break;
+            }
+            const double one = boxes_[n + 1].distance2(x), two = boxes_[box.second].distance2(x);
+            const bool firstNearer = one <= two;
+            if (std::max(one, two) <= least2) stack[waiting++] = {firstNearer ? box.second : n + 1, std::max(one, two)};
+            n = std::min(one, two) > least2 ? -1 : firstNearer ? n + 1 : box.second;
+        }
     }
-    if (best) best.distance = (x - best.point).dot(pseudoNormal(best.triangle, best.weights)) < 0 ? -least : least;
+    if (at < 0) return {};
+    best.triangle = number_[at];
+    const double distance = std::sqrt(least2);
+    best.distance = (x - best.point).dot(pseudoNormal(at, best.weights)) < 0 ? -distance : distance;
     return best;
 }
 

@@ -1,12 +1,11 @@
 // Nearest triangle of a moving mesh for many points within a given reach of it, with the sign of the side.
 //
-// Cubic cells cover the mesh and its reach. A triangle lies in the ball of its centroid c and radius R, so that its distance to a point y
-// is between |y - c| - R and |y - c|. Each cell (centre y, half diagonal r) lists the triangles that can be nearest to any of its
-// points: |y - c| - R <= min |y - c| + 2 r, and <= reach + r. A query reads the list of one cell twice: for the least |x - c|, then for
-// the exact distance to the few triangles that the bound leaves. Exact, not approximate.
-// The sign is that of (x - p).n at the nearest point p, n the pseudo-normal there: of the triangle inside it, the sum of two
-// triangles' normals on an edge, the angle-weighted sum at a node (Baerentzen and Aanaes 2005); right at edges and nodes of any
-// closed surface.
+// A binary tree of bounding boxes over the triangles, four to a leaf, split once at the median of the longest extent. A
+// membrane moves but its triangles keep their neighbours, so that a moved mesh only needs the boxes computed anew (0.1
+// ms for 5,000 triangles). A query goes down nearer boxes first and leaves out those beyond the best distance so far,
+// at first the reach. Exact, not approximate. The sign is that of (x - p).n at the nearest point p, n the pseudo-normal
+// there: of the triangle inside it, the sum of two triangles' normals on an edge, the angle-weighted sum at a node
+// (Baerentzen and Aanaes 2005); right at edges and nodes of any closed surface.
 #pragma once
 #include <vector>
 
@@ -15,10 +14,10 @@
 namespace corpuscle::geometry {
 
 struct SurfacePoint {
-    int triangle = -1;           // -1: none within reach
-    Vec3 weights = Vec3::Zero(); // barycentric, of the triangle's nodes
-    Vec3 point = Vec3::Zero();   // m
-    double distance = 0;         // m, positive outside
+    int triangle = -1;            // -1: none within reach
+    Vec3 weights = Vec3::Zero();  // barycentric, of the triangle's nodes
+    Vec3 point = Vec3::Zero();    // m
+    double distance = 0;          // m, positive outside
     explicit operator bool() const { return triangle >= 0; }
 };
 
@@ -33,35 +32,33 @@ class TriangleGrid {
     // The nodes have moved; the triangles are the same.
     void update(const std::vector<Vec3>& nodes);
 
-    // Coordinates of the mesh: near a periodic boundary the caller passes the image of the point that is nearest to the mesh.
+    // Coordinates of the mesh: near a periodic boundary the caller passes the image of the point that is nearest to the
+    // mesh.
     SurfacePoint nearest(const Vec3& x) const;
 
     double reach() const { return reach_; }
 
   private:
-    struct Ball {
-        Vec3 centre;
-        double radius;
+    struct Box {
+        Vec3 low, high;
+        int first = 0, count = 0;  // triangles of a leaf in the order of the tree; count 0: an inner box
+        int second = 0;            // inner: the second child; the first is the next box
+        double distance2(const Vec3& x) const { return (low - x).cwiseMax(x - high).cwiseMax(0.0).squaredNorm(); }
     };
-    int cellOf(const Vec3& x) const;  // -1 outside
-    void placeCells();
-    void listCandidates();
-    void computeNormalsAndBalls();
+    void split(int first, int count, const std::vector<Vec3>& centres, std::vector<int>& order);
+    void computeNormals();
+    void computeBoxes();
     Vec3 pseudoNormal(int triangle, const Vec3& weights) const;
 
     std::vector<Vec3> nodes_;
-    std::vector<Index3> triangles_;
+    std::vector<Index3> triangles_;  // in the order of the tree
+    std::vector<int> number_;        // of the mesh
     double reach_;
 
     std::vector<Index3> sideEdge_;  // edge number of each side of each triangle
     std::vector<MeshEdge> edges_;
     std::vector<Vec3> faceNormal_, edgeNormal_, nodeNormal_;
-    std::vector<Ball> balls_;
-
-    Vec3 low_ = Vec3::Zero();
-    double size_ = 1;  // of a cell, m
-    Index3 count_{1, 1, 1};
-    std::vector<int> start_, candidates_;  // triangles of cell n: candidates_[start_[n]] up to start_[n+1]
+    std::vector<Box> boxes_;  // parents before children
 };
 
 }  // namespace corpuscle::geometry

@@ -1,10 +1,11 @@
 // Closed triangulated surface, outward oriented (nodes of a triangle counter-clockwise seen from outside). Metres.
 //
-// Integrals over the enclosed solid come from the divergence theorem, one tetrahedron (origin, a, b, c) per triangle with
-// D = a.(b x c):
-//     V = sum D/6        centroid = sum D (a+b+c)/24 / V        int x x^T dV = sum D/120 [s s^T + a a^T + b b^T + c c^T],  s = a+b+c
-// They are exact for the polyhedron. The vertex area is a third of the area of the triangles around a node, so that the sum is
-// the area of the mesh.
+// Integrals over the enclosed solid come from the divergence theorem, one tetrahedron (origin, a, b, c) per triangle
+// with D = a.(b x c):
+//     V = sum D/6        centroid = sum D (a+b+c)/24 / V        int x x^T dV = sum D/120 [s s^T + a a^T + b b^T + c
+//     c^T],  s = a+b+c
+// They are exact for the polyhedron. The vertex area is a third of the area of the triangles around a node, so that the
+// sum is the area of the mesh.
 #pragma once
 #include <array>
 #include <string>
@@ -26,9 +27,9 @@ struct TriangleMesh {
     std::vector<Index3> triangles;
 
     double area() const;
-    double volume() const;    // signed: negative when the triangles point inwards
-    Vec3 centroid() const;    // of the enclosed solid
-    Mat3 inertia() const;     // of the enclosed solid at density 1 about its centroid, m^5
+    double volume() const;                // signed: negative when the triangles point inwards
+    Vec3 centroid() const;                // of the enclosed solid
+    Mat3 inertia() const;                 // of the enclosed solid at density 1 about its centroid, m^5
     std::vector<MeshEdge> edges() const;  // sorted by (a, b); valid for closed manifolds
     std::vector<double> vertexAreas() const;
     std::vector<Vec3> vertexNormals() const;  // unit, weighted by the angle of each triangle at the node
@@ -45,8 +46,8 @@ double cornerAngle(const Vec3& at, const Vec3& next, const Vec3& previous);
 // Rotation that takes the z axis to `axis` (any length above zero) the shortest way.
 Mat3 rotationFromZ(const Vec3& axis);
 
-// Every way in which the mesh is not one closed, outward oriented, non-degenerate surface without self-intersection, in plain
-// words; empty: sound.
+// Every way in which the mesh is not one closed, outward oriented, non-degenerate surface without self-intersection, in
+// plain words; empty: sound.
 std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh);
 
 // Pairs of triangles that cut each other (exact predicates).

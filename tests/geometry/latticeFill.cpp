@@ -115,8 +115,10 @@ TEST(Carve, takesTheNearestPoints) {
                 for (int axis = 0; axis < 2; ++axis) r[axis] -= period[axis] * std::round(r[axis] / period[axis]);
                 d = std::min(d, r.norm());
             }
-            if (taken.contains(i)) farthestTaken = std::max(farthestTaken, d);
-            else nearestLeft = std::min(nearestLeft, d);
+            if (taken.contains(i))
+                farthestTaken = std::max(farthestTaken, d);
+            else
+                nearestLeft = std::min(nearestLeft, d);
         }
         EXPECT_LE(farthestTaken, nearestLeft + 1e-15);
     }
@@ -134,7 +136,8 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
     cells[1].translate({9 * um, 1 * um, 0});  // sticks out of the box at x = 10 um
     const std::vector<int> side = tagSides(lattice.points, cells, period);
     for (int n = 1; n <= 2; ++n)
-        EXPECT_NEAR(static_cast<double>(std::count(side.begin(), side.end(), n)) * 0.125, cells[n - 1].volume() * 1e18, 6);
+        EXPECT_NEAR(static_cast<double>(std::count(side.begin(), side.end(), n)) * 0.125, cells[n - 1].volume() * 1e18,
+                    6);
     for (std::size_t i = 0; i < side.size(); ++i)
         if (side[i] == 2) {
             EXPECT_GT(std::abs(lattice.points[i].x()), 5 * um - 1e-12);

@@ -24,26 +24,30 @@ constexpr double micro = 1e-6;
 // Kuchel-Fackerell cell of 8, 2.12, 1 um: area 128.0304 um^2, volume 85.9883 fL (30-digit quadrature; grade: analytic).
 TEST(Mesher, redCellAtFourEdgeLengths) {
     std::printf("edge um   nodes  area um^2   error     order  volume fL  error     order  angle  residual/d^4\n");
-    double lastEdge = 0, lastArea = 0, lastVolume = 0;
+    double lastEdge = 1e-3, lastArea = 1, lastVolume = 1;
     for (const double edge : {1.0, 0.5, 0.25, 0.1}) {
         const TriangleMesh mesh = meshSurface(redCell, edge * micro);
         const MeshQuality q = meshQuality(mesh, &redCell);
         double residual = 0;
-        for (const Vec3& x : mesh.nodes) residual = std::max(residual, std::abs(redCell.implicit(x)) / std::pow(redCell.d, 4));
-        const double area = std::abs(q.area * 1e12 / 128.030428 - 1), volume = std::abs(q.volume * 1e18 / 85.988326 - 1);
+        for (const Vec3& x : mesh.nodes)
+            residual = std::max(residual, std::abs(redCell.implicit(x)) / std::pow(redCell.d, 4));
+        const double area = std::abs(q.area * 1e12 / 128.030428 - 1),
+                     volume = std::abs(q.volume * 1e18 / 85.988326 - 1);
         const double ratio = std::log(lastEdge / q.edgeMean);
         const double areaOrder = std::log(lastArea / area) / ratio, volumeOrder = std::log(lastVolume / volume) / ratio;
-        std::printf("%-8g %6d  %-10.4f  %.2e  %-5.2f  %-9.4f  %.2e  %-5.2f  %-5.1f  %.1e\n", edge, q.nodes, q.area * 1e12, area,
-                    areaOrder, q.volume * 1e18, volume, volumeOrder, q.angleMin, residual);
+        std::printf("%-8g %6d  %-10.4f  %.2e  %-5.2f  %-9.4f  %.2e  %-5.2f  %-5.1f  %.1e\n", edge, q.nodes,
+                    q.area * 1e12, area, areaOrder, q.volume * 1e18, volume, volumeOrder, q.angleMin, residual);
         EXPECT_TRUE(q.closed);
         EXPECT_EQ(q.euler, 2);
         EXPECT_GT(q.angleMin, 30);
         EXPECT_NEAR(q.edgeMean / (edge * micro), 1, 0.1);
         EXPECT_LT(q.edgeMax, 1.75 * edge * micro);
         EXPECT_LT(residual, 1e-10);
-        if (lastEdge > 0) {
-            EXPECT_NEAR(areaOrder, 2, 0.3);
-            EXPECT_NEAR(volumeOrder, 2, 0.3);
+        if (edge < 1) {
+            // An edge of 1 um is as long as the rim's radius of curvature, where the order is not reached yet.
+            const double tolerance = edge > 0.4 ? 0.7 : 0.2;
+            EXPECT_NEAR(areaOrder, 2, tolerance);
+            EXPECT_NEAR(volumeOrder, 2, tolerance);
         }
         lastEdge = q.edgeMean;
         lastArea = area;

@@ -53,7 +53,7 @@ TEST(InsideTest, agreesWithTheWindingNumber) {
     EXPECT_NEAR(inside / 3000.0, cell().volume() / std::pow(9e-6, 3), 0.03);
 }
 
-// Rays through nodes and along edges: a box with its corners on the rays, and the points above and below each node of the cell.
+// Rays that pass exactly through nodes and edges.
 TEST(InsideTest, raysThroughNodesAndEdges) {
     const TriangleMesh& mesh = cell();
     const InsideTest test(mesh);
@@ -89,11 +89,13 @@ TEST(TriangleGrid, agreesWithBruteForce) {
         if (!p) continue;
         ++within;
         EXPECT_NEAR(std::abs(p.distance), least, 1e-18);
-        EXPECT_EQ(p.distance < 0, windingNumber(mesh, x) > 0.5);
+        EXPECT_EQ(p.distance<0, windingNumber(mesh, x)> 0.5);
         const Index3& t = mesh.triangles[p.triangle];
         EXPECT_NEAR(p.weights.sum(), 1, 1e-12);
         EXPECT_GE(p.weights.minCoeff(), 0);
-        EXPECT_LT((p.weights[0] * mesh.nodes[t[0]] + p.weights[1] * mesh.nodes[t[1]] + p.weights[2] * mesh.nodes[t[2]] - p.point).norm(),
+        EXPECT_LT((p.weights[0] * mesh.nodes[t[0]] + p.weights[1] * mesh.nodes[t[1]] + p.weights[2] * mesh.nodes[t[2]] -
+                   p.point)
+                      .norm(),
                   1e-18);
     }
     EXPECT_GT(within, 300);
@@ -110,7 +112,7 @@ TEST(TriangleGrid, signAtNodesAndEdges) {
     for (const Vec3& d : randomPoints(4000, 1)) {
         const Vec3 x = spike.nodes[3] + 0.9 * d;
         if (const SurfacePoint p = grid.nearest(x)) {
-            EXPECT_EQ(p.distance < 0, windingNumber(spike, x) > 0.5);
+            EXPECT_EQ(p.distance<0, windingNumber(spike, x)> 0.5);
             nodesAndEdges += p.weights.minCoeff() == 0;
         }
     }
@@ -147,9 +149,13 @@ TEST(TriangleGrid, isQuick) {
     const double tested = seconds([&] {
         for (const Vec3& x : near) inside += test.inside(x);
     });
-    std::printf("%zu triangles: rebuild %.2f ms; nearest %.0f ns within reach, %.0f ns beyond; inside %.0f ns (%d, %g)\n",
-                mesh.triangles.size(), rebuild * 1e3, inReach / static_cast<double>(near.size()) * 1e9,
-                outside / static_cast<double>(far.size()) * 1e9, tested / static_cast<double>(near.size()) * 1e9, inside, sum);
+    std::printf(
+        "%zu triangles: rebuild %.2f ms; nearest %.0f ns within reach, %.0f ns beyond; inside %.0f ns (%d, %g)\n",
+        mesh.triangles.size(), rebuild * 1e3, inReach / static_cast<double>(near.size()) * 1e9,
+        outside / static_cast<double>(far.size()) * 1e9, tested / static_cast<double>(near.size()) * 1e9, inside, sum);
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "timing means nothing in an instrumented build";
+#endif
     EXPECT_LT(inReach / static_cast<double>(near.size()), 10e-6);
     EXPECT_LT(outside / static_cast<double>(far.size()), 2e-6);
     EXPECT_LT(rebuild, 0.5);

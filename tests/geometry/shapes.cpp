@@ -60,8 +60,8 @@ TEST(KuchelFackerell, discCyclideLiesOnTheQuartic) {
 
 // Points (rho, z) in um of the profile from the disc-cyclide form in 30-digit arithmetic.
 TEST(KuchelFackerell, profileOfTheReference) {
-    for (const auto& [rho, z] : {std::pair{3.99759371913, 0.0637994655319}, {3.99039200468, 0.127291425622},
-                                 {3.97844591903, 0.190172515315}})
+    for (const auto& [rho, z] :
+         {std::pair{3.99759371913, 0.0637994655319}, {3.99039200468, 0.127291425622}, {3.97844591903, 0.190172515315}})
         EXPECT_LT(std::abs(redCell.implicit({rho * 1e-6, 0, z * 1e-6})), 1e-12 * std::pow(8e-6, 4));
 }
 
@@ -80,7 +80,8 @@ TEST(KuchelFackerell, refusesImpossibleSizes) {
     EXPECT_EQ(failureOf(KuchelFackerell(4.13e-6, 2.12e-6, 1e-6)), "");
 }
 
-// Evans and Fung 1972, coefficients at 300 mOsm; area and volume computed with 30 digits (published: 135, 94 within 11 %).
+// Evans and Fung 1972, coefficients at 300 mOsm; area and volume computed with 30 digits (published: 135, 94 within 11
+// %).
 TEST(EvansFung, areaVolumeAndThickness) {
     const EvansFung cell;
     EXPECT_NEAR(cell.area() * 1e12, 134.089686577, 3e-7);
@@ -140,12 +141,13 @@ TEST(Shape, chosenByNameInACase) {
 
 TEST(FileShape, readsStlMergedAndCentred) {
     const std::string path = testing::TempDir() + "corpuscleTetra.stl";
-    std::ofstream(path) << "solid t\n"
-                           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
-                           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
-                           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
-                           "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
-                           "endsolid t\n";
+    std::ofstream(path)
+        << "solid t\n"
+           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+           "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
+           "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
+           "endsolid t\n";
     FileShape shape;
     shape.file = path;
     shape.prepare("/");

@@ -1,0 +1,109 @@
+// checkCase: everything about a case that can be known before it runs.
+//
+// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, the particles, memory and
+// disk it will take, and, if 0/ has been filled, every limit of the time step and the run time predicted from a short burst.
+// Nothing is written.
+//
+// Sample runs:
+//     checkCase -case tutorials/rbcShear/Ca0.02
+//     mpirun -np 2 checkCase -case tutorials/rbcShear/Ca0.02
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <iostream>
+
+#include "membrane/moduli.hpp"
+#include "simulation/groups.hpp"
+#include "simulation/sceneBuilder.hpp"
+#include "simulation/schedule.hpp"
+
+using namespace corpuscle;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr int burstSteps = 20;
+
+std::string mebibytes(double bytes) {
+    return bytes < 1e9 ? fmt::format("{:.1f} MiB", bytes / (1 << 20)) : fmt::format("{:.2f} GiB", bytes / (1 << 30));
+}
+
+void reportGroups(Application& app, const simulation::Case& input, ordered_json& json) {
+    std::vector<std::vector<std::string>> rows;
+    for (const simulation::Group& g : simulation::dimensionlessGroups(input)) {
+        rows.push_back({g.name, g.value, g.text});
+        json["groups"][g.name] = g.number;
+    }
+    app.log().table({"group", "value", "meaning"}, rows);
+}
+
+void reportSize(Application& app, const simulation::Case& input, ordered_json& json) {
+    const auto n = simulation::estimateParticles(input);
+    const auto size = simulation::estimateSize(input);
+    app.log().table({"size", "value"}, {{"fluid particles", std::to_string(n.fluid)},
+                                        {"wall particles", std::to_string(n.walls)},
+                                        {"membrane nodes", std::to_string(n.nodes)},
+                                        {"memory, all ranks", mebibytes(size.memory)},
+                                        {"disk: results", fmt::format("{} ({} times of {})", mebibytes(size.perWrite * static_cast<double>(size.writes)), size.writes, mebibytes(size.perWrite))},
+                                        {"disk: checkpoints", fmt::format("{} ({} kept)", mebibytes(size.checkpoint * static_cast<double>(input.control.checkpoint.keep)), input.control.checkpoint.keep)}});
+    json["particles"] = {{"fluid", n.fluid}, {"walls", n.walls}, {"nodes", n.nodes}};
+    json["memory_B"] = size.memory;
+    json["disk_B"] = size.perWrite * static_cast<double>(size.writes) + size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
+}
+
+// Moduli as the case states them and as the network has them.
+void reportMembranes(Application& app, const coupling::Scene& scene) {
+    for (const coupling::Cell& cell : scene.cells)
+        app.log().info("cell {}: {} nodes\n{}", cell.membrane.name, cell.nodeCount(),
+                       membrane::describe(membrane::measureModuli(cell.membrane.network(), cell.membrane.bondLaw())));
+}
+
+void reportRun(Application& app, const simulation::Case& input, ordered_json& json) {
+    coupling::Scene scene = simulation::buildScene(input, app.communicator().handle());
+    Time time = simulation::startTime(app, input);
+    simulation::Integrator integrator(input, scene);
+    integrator.start(time);
+    reportMembranes(app, scene);
+    std::vector<std::vector<std::string>> rows;
+    const std::string binding = integrator.limits().binding().name;
+    for (const sph::StepLimit& limit : integrator.limits().all) {
+        rows.push_back({limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" : ""});
+        json["limits_s"][limit.name] = limit.seconds;
+    }
+    app.log().table({"limit of the step", "dt", ""}, rows);
+    json["binding"] = binding;
+
+    const double dt = time.dt;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int k = 0; k < burstSteps; ++k) integrator.advance(scene, time);
+    const double perStep = app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) / burstSteps;
+    const double steps = (time.endTime ? *time.endTime : *time.endStrain / time.shearRate) / dt;
+    const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
+    app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)", steps, perStep,
+                   formatDuration(steps * perStep), app.communicator().size(), app.communicator().size() > 1 ? "s" : "",
+                   1e-6 * particles / perStep);
+    json["steps"] = steps;
+    json["secondsPerStep"] = perStep;
+    json["predicted_s"] = steps * perStep;
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+    Application app("checkCase", "Checks a case and says what it will take, before anything runs.", argc, argv,
+                    {.samples = {"checkCase -case tutorials/rbcShear/Ca0.02", "mpirun -np 2 checkCase"}});
+    return app.run([&] {
+        ordered_json json;
+        const simulation::Case input = simulation::Case::read(app);
+        reportGroups(app, input, json);
+        reportSize(app, input, json);
+        if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
+            reportRun(app, input, json);
+        else
+            app.log().info("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
+                           input.mesh.cells.empty() ? "" : "membraneMesh and ");
+        app.log().info("Case OK.");
+        if (app.json() && app.communicator().isRoot()) std::cout << json.dump(2) << '\n';
+        return ExitCode::done;
+    });
+}

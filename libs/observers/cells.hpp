@@ -1,0 +1,44 @@
+// What several observers need to know of cells.
+//
+// A cell's state may be read on the ranks that hold it only. All holders have the same bits; its numbers come from the lowest
+// rank among them, and every rank gets them.
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "coupling/scene.hpp"
+#include "geometry/insideTest.hpp"
+
+namespace corpuscle::observers {
+
+// The lowest rank that holds each cell. Collective.
+std::vector<int> sourceRanks(const coupling::Scene& scene);
+
+// count numbers of each cell, [cell][number], on every rank; work(cell, index of the cell, out) runs on one rank per cell.
+// Collective.
+std::vector<std::vector<double>> ofEachCell(const coupling::Scene& scene, std::size_t count,
+                                            const std::function<void(const coupling::Cell&, std::size_t, double* out)>& work);
+
+// The surface of a held cell now, closed by a fan over the rim of each hole; without nodes that no whole triangle has. Empty
+// when every triangle is broken.
+geometry::TriangleMesh closedSurface(const coupling::Cell& cell);
+
+// Where particles really are, whatever their `side` says: against the closed surfaces of the cells that this rank holds. Right
+// for particles of this rank, wherever they stand; periodic images are taken to be those nearest to the cell, which asks for cells
+// shorter than the box.
+class TrueSides {
+  public:
+    explicit TrueSides(const coupling::Scene& scene);
+    bool inside(std::size_t cell, const Vec3& x) const;  // index of the cell
+    int side(const Vec3& x) const;                       // 0 outside, n inside cell number n
+
+  private:
+    struct Surface {
+        Vec3 middle, half;  // of the bounding box
+        geometry::InsideTest test;
+    };
+    const coupling::Scene& scene_;
+    std::vector<std::optional<Surface>> surfaces_;  // empty: not held
+};
+
+}  // namespace corpuscle::observers

@@ -1,0 +1,80 @@
+// Family of observers: what is measured while a case runs, from system/observers.yaml.
+//
+//     deformation: {type: shape, every: 0.02 strain}
+//
+// An Observer is what the case says: settings, const and shared. begin() gives an Observation, the running part: the columns of
+// its files and whatever it has to remember between two looks. An Observation never changes the scene, knows no file and no
+// interval (observers.hpp has both), and its rows are the same on every rank.
+//
+// Adding an observer is adding one .cpp with a struct of the settings (schema() includes ObserverSettings), its Observation and
+// CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/registry.hpp"
+#include "core/time.hpp"
+#include "coupling/scene.hpp"
+#include "io/csvSeries.hpp"
+
+namespace corpuscle::observers {
+
+using coupling::Scene;
+
+// One file. Its first two columns, time_s and strain, are not listed.
+struct Table {
+    std::string file;  // without .csv
+    std::vector<io::Column> columns;
+};
+
+struct Row {
+    std::size_t table;
+    std::vector<double> values;  // one for each column of the table, SI
+};
+
+class Observation {
+  public:
+    explicit Observation(std::vector<Table> tables) : tables_(std::move(tables)) {}
+    virtual ~Observation() = default;
+    const std::vector<Table>& tables() const { return tables_; }
+
+    // What is to be seen now. Collective.
+    virtual std::vector<Row> observe(const Scene& scene, const Time& time) = 0;
+
+    // After every step, only where watchesSteps(): for what happens between two looks. Collective.
+    virtual bool watchesSteps() const { return false; }
+    virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
+
+    // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a state
+    // of another length.
+    virtual std::vector<double> state() const { return {}; }
+    void restore(std::span<const double> state);
+
+  protected:
+    virtual void setState(std::span<const double>) {}
+
+  private:
+    std::vector<Table> tables_;
+};
+
+struct ObserverSettings {
+    Interval every;
+    static const Schema<ObserverSettings>& schema();
+};
+
+class Observer : public ObserverSettings {
+  public:
+    static constexpr const char* familyName = "observer";
+    virtual ~Observer() = default;
+    // Why this scene cannot be observed so, and what to do, in plain words; empty: it can.
+    virtual std::string obstacle(const Scene&, const Time&) const { return {}; }
+    virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
+
+  protected:
+    // obstacle() of an observer of cells, empty when there are some.
+    static std::string needsCells(const Scene& scene);
+};
+
+}  // namespace corpuscle::observers

@@ -1,0 +1,114 @@
+#include "observers/observers.hpp"
+
+#include <set>
+
+namespace corpuscle::observers {
+
+const Schema<ObserversSettings>& ObserversSettings::schema() {
+    static const Schema<ObserversSettings> s =
+        Schema<ObserversSettings>("observers", "system/observers.yaml: what is measured while the case runs")
+            .models("*", &ObserversSettings::models, "one observer; its name is that of its folder under postProcessing");
+    return s;
+}
+
+namespace {
+
+std::string obstacle(const Observer& observer, const Scene& scene, const Time& start) {
+    if (observer.every.kind == Interval::Kind::strain && start.shearRate == 0)
+        return "'every' is given in strain, but the flow has no shear rate; give it in s or in steps";
+    return observer.obstacle(scene, start);
+}
+
+// A file name that two tables of one observation would share; empty: none.
+std::string sharedFile(const Observation& observation) {
+    std::set<std::string> names;
+    for (const Table& table : observation.tables())
+        if (!names.insert(table.file).second) return table.file;
+    return {};
+}
+
+}  // namespace
+
+Observers::Observers(const std::optional<Node>& dictionary, const Scene& scene, const Time& start, std::filesystem::path caseDir)
+    : caseDir_(std::move(caseDir)), startTime_(start.t) {
+    if (!dictionary) return;
+    Problems problems;
+    const auto chosen = read<ObserversSettings>(*dictionary, problems);
+    problems.throwIfAny();
+    for (const auto& [name, choice] : chosen.models) {
+        const Mark& place = dictionary->find(name)->place();
+        if (const std::string text = obstacle(*choice, scene, start); !text.empty()) {
+            problems.add(place, name, choice.name + ": " + text);
+            continue;
+        }
+        Running observer{name, choice.name, Ticker(choice->every, start), choice->begin(scene), {}};
+        if (const std::string file = sharedFile(*observer.observation); !file.empty())
+            problems.add(place, name, choice.name + ": two of its files would be called " + file +
+                                          ".csv; give the cell of this name another one in system/mesh.yaml");
+        running_.push_back(std::move(observer));
+    }
+    problems.throwIfAny();
+}
+
+void Observers::openFiles(const Scene& scene) {
+    for (Running& observer : running_)
+        for (const Table& table : observer.observation->tables()) {
+            std::vector<io::Column> columns{{"time", "s"}, {"strain", ""}};
+            columns.insert(columns.end(), table.columns.begin(), table.columns.end());
+            observer.files.emplace_back(scene.system->comm(), caseDir_, observer.name, startTime_, table.file, columns);
+        }
+    filesOpen_ = true;
+}
+
+void Observers::write(Running& observer, const Time& time, const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+        std::vector<double> values{time.t, time.strain()};
+        values.insert(values.end(), row.values.begin(), row.values.end());
+        observer.files[row.table].row(values);
+    }
+}
+
+void Observers::run(const Scene& scene, const Time& time) {
+    if (empty()) return;
+    if (!filesOpen_) openFiles(scene);
+    for (Running& observer : running_) {
+        if (observer.observation->watchesSteps()) write(observer, time, observer.observation->afterStep(scene, time));
+        if (observer.ticker.due(time)) write(observer, time, observer.observation->observe(scene, time));
+    }
+}
+
+// A sequence of (length of the key, its characters, length of the state, its numbers).
+std::vector<double> Observers::state() const {
+    std::vector<double> all;
+    for (const Running& observer : running_) {
+        const std::vector<double> own = observer.observation->state();
+        if (own.empty()) continue;
+        const std::string key = observer.key();
+        all.push_back(static_cast<double>(key.size()));
+        all.insert(all.end(), key.begin(), key.end());
+        all.push_back(static_cast<double>(own.size()));
+        all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+}
+
+void Observers::restore(const std::vector<double>& state) {
+    std::span<const double> rest(state);
+    const auto take = [&rest] {
+        const auto count = rest.empty() ? rest.size() : static_cast<std::size_t>(rest[0]);
+        if (rest.empty() || count > rest.size() - 1)
+            throw Failure(ExitCode::io, "the checkpoint's state of the observers is cut short; restart from another checkpoint");
+        const auto part = rest.subspan(1, count);
+        rest = rest.subspan(1 + count);
+        return part;
+    };
+    while (!rest.empty()) {
+        const auto letters = take(), numbers = take();
+        std::string key;
+        for (const double letter : letters) key += static_cast<char>(letter);
+        for (Running& observer : running_)
+            if (observer.key() == key) observer.observation->restore(numbers);
+    }
+}
+
+}  // namespace corpuscle::observers

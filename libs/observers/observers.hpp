@@ -1,0 +1,61 @@
+// The observers of a run: system/observers.yaml, a table of free names, each with a model of the family observer.
+//
+//     deformation: {type: shape, every: 0.02 strain}
+//     balance: {type: conservation, every: 0.1 strain}
+//
+// Each writes postProcessing/<name>/<start time>/<file>.csv, first columns time_s and strain; files are made at the first run(). A run
+// from t = 0 begins with a row at t = 0; after a restart the first row is that of the next due time, so that both together have each
+// row once. Observers may be added, removed or changed between a run and its restart.
+//
+//     Observers observers(dictionary, scene, time, caseDir);   // without the file, or Observers(): none, at no cost
+//     observers.restore(saved);                                // from a checkpoint
+//     observers.run(scene, time);                              // before the first step and after each
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "observers/observer.hpp"
+
+namespace corpuscle::observers {
+
+// system/observers.yaml
+struct ObserversSettings {
+    std::map<std::string, Choice<Observer>> models;
+    static const Schema<ObserversSettings>& schema();
+};
+
+class Observers {
+  public:
+    Observers() = default;
+    // The root of system/observers.yaml. Throws CaseError with all that is wrong in it, or does not suit the scene.
+    Observers(const std::optional<Node>& dictionary, const Scene& scene, const Time& start, std::filesystem::path caseDir);
+
+    bool empty() const { return running_.empty(); }
+
+    // Lets look those that are due. Collective.
+    void run(const Scene& scene, const Time& time);
+
+    // What those that remember something need for a restart; the same on all ranks. Observers that the state does not know begin
+    // anew, what it knows of others is passed over.
+    std::vector<double> state() const;
+    void restore(const std::vector<double>& state);
+
+  private:
+    struct Running {
+        std::string name, type;
+        Ticker ticker;
+        std::unique_ptr<Observation> observation;
+        std::vector<io::CsvSeries> files;  // one for each table
+        std::string key() const { return type + " " + name; }
+    };
+    void openFiles(const Scene& scene);
+    static void write(Running& observer, const Time& time, const std::vector<Row>& rows);
+
+    std::vector<Running> running_;
+    std::filesystem::path caseDir_;
+    double startTime_ = 0;
+    bool filesOpen_ = false;
+};
+
+}  // namespace corpuscle::observers

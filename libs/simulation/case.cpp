@@ -1,0 +1,163 @@
+#include "simulation/case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace corpuscle::simulation {
+
+namespace {
+
+template <class T>
+T readFile(const Application& app, const std::string& file, Case& result, Problems& problems) {
+    const std::size_t before = problems.count();
+    const Node node = app.dictionary(file, problems);
+    if (problems.count() != before) return T{};  // the file itself is missing or malformed
+    T settings = read<T>(node, problems);
+    if (problems.count() == before) result.effective.emplace_back(file, write(settings));
+    return settings;
+}
+
+const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
+
+// Rules between files; each names the file that most likely has to change.
+void checkTogether(const Case& c, Problems& problems) {
+    const int wall = c.flowModel->wallAxis();
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        if (k == wall && c.mesh.domain.periodic[axis])
+            problems.add(mesh, "domain.periodic", std::string("axis ") + axisName(k) + " is periodic, but the flow '" + c.flowModel.name +
+                                                      "' has walls across it; write false for this axis");
+        if (k != wall && !c.mesh.domain.periodic[axis])
+            problems.add(mesh, "domain.periodic", std::string("axis ") + axisName(k) + " is not periodic and has no walls; write true, "
+                                                      "or give the flow walls with this normal in constant/flow.yaml");
+        const double n = c.mesh.domain.size[k] / c.spacing();
+        if (std::abs(n - std::round(n)) > 1e-3 * n || std::round(n) < 1)
+            problems.add(mesh, "domain.size", std::string("along ") + axisName(k) + " found " +
+                                                  formatQuantity(c.mesh.domain.size[k], unit::metre) + ", which is no whole number of spacings (" +
+                                                  formatQuantity(c.spacing(), unit::metre) + "); nearest that fit: " +
+                                                  formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) + ", " +
+                                                  formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
+    }
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
+        const CellSettings& cell = c.mesh.cells[i];
+        const std::string key = "cells[" + std::to_string(i) + "]";
+        if (!names.insert(cell.name).second || cell.name == "fluid" || cell.name == "walls")
+            problems.add(mesh, key + ".name", "the name '" + cell.name + "' is taken; each cell needs its own, and fluid and walls are reserved");
+        if (!c.membranes.types.contains(cell.type())) {
+            std::vector<std::string> known;
+            for (const auto& [name, type] : c.membranes.types) known.push_back(name);
+            problems.add({"constant/membranes.yaml", 0, 0}, cell.type(),
+                         "the cell '" + cell.name + "' of system/mesh.yaml needs an entry of this name; there " +
+                             (known.empty() ? "is none" : "are: " + joinWords(known)) + "." + didYouMean(cell.type(), known));
+        }
+        if (!cell.shape) continue;
+        const double reach = cell.shape->box().diagonal().norm() / 2;
+        for (int k = 0; k < 3; ++k)
+            if (k == wall && std::abs(cell.centre[k]) + std::min(reach, cell.shape->radius()) * (std::abs(cell.axis.normalized()[k]) < 0.99 ? 1 : 0) >
+                                 0.5 * c.mesh.domain.size[k])
+                problems.add(mesh, key + ".centre", std::string("the cell reaches through the wall along ") + axisName(k) +
+                                                        "; move it towards the middle or make the box larger");
+    }
+    if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
+        problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
+                     "found " + formatQuantity(c.support(), unit::metre) + ", which reaches no neighbour; at least 1.2 dx, usually 2.4 to 3 dx");
+}
+
+}  // namespace
+
+Case Case::read(const Application& app) {
+    Problems problems;
+    Case c;
+    c.directory = app.caseDirectory();
+    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
+    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
+    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, problems);
+    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
+    if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
+        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
+    {
+        const std::size_t before = problems.count();
+        const Node node = app.dictionary("constant/flow.yaml", problems);
+        if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
+        if (problems.count() == before) c.effective.emplace_back("constant/flow.yaml", writeChoice(c.flowModel));
+    }
+    if (app.hasDictionary("system/observers.yaml")) {
+        readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
+        Problems reported;
+        c.observers = app.dictionary("system/observers.yaml", reported);
+    }
+    problems.throwIfAny();
+
+    for (const CellSettings& cell : c.mesh.cells) {
+        try {
+            cell.shape->prepare(c.directory);
+        } catch (const Failure& fault) {
+            problems.add({"system/mesh.yaml", 0, 0}, "cells." + cell.name + ".shape", fault.what());
+        }
+    }
+    problems.throwIfAny();
+    checkTogether(c, problems);
+    problems.throwIfAny();
+
+    sph::FlowContext context{c.fluidBox(), c.fluid.viscosity, c.fluid.density, 0, 0};
+    if (!c.mesh.cells.empty()) {
+        const CellSettings& first = c.mesh.cells.front();
+        context.cellRadius = first.shape->radius();
+        context.shearModulus = c.membraneOf(first).bonds->hexagonalModuli(first.edge).shear;
+    }
+    c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
+    if (problems.empty() && c.control.endStrain && c.flow.shearRate <= 0)
+        problems.add({"system/control.yaml", 0, 0}, "endStrain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
+    if (problems.empty() && c.control.write.strain && c.flow.shearRate <= 0)
+        problems.add({"system/control.yaml", 0, 0}, "write.strain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
+    problems.throwIfAny();
+    return c;
+}
+
+int Case::wallLayers() const { return flowModel->wallAxis() < 0 ? 0 : static_cast<int>(std::ceil(support() / spacing() - 1e-9)); }
+
+particles::Box Case::fluidBox() const {
+    return {-0.5 * mesh.domain.size, 0.5 * mesh.domain.size, mesh.domain.periodic};
+}
+
+particles::Box Case::particleBox() const {
+    particles::Box box = fluidBox();
+    if (const int k = flowModel->wallAxis(); k >= 0) {
+        box.low[k] -= wallLayers() * spacing();
+        box.high[k] += wallLayers() * spacing();
+    }
+    return box;
+}
+
+double Case::particleVolume() const {
+    double volume = 1;
+    for (int k = 0; k < 3; ++k) volume *= mesh.domain.size[k] / std::round(mesh.domain.size[k] / spacing());
+    return volume;
+}
+
+double Case::soundSpeed() const {
+    if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;
+    const double nu = fluid.viscosity / flow.density;
+    double length = flow.length, square = flow.speed * flow.speed;
+    for (const CellSettings& cell : mesh.cells) {
+        const double a = cell.shape->radius();
+        length = std::min(length, a);
+        square = std::max(square, membraneOf(cell).bonds->hexagonalModuli(cell.edge).shear / (flow.density * a));
+    }
+    square = std::max({square, nu * flow.speed / length, flow.bodyForce.norm() * flow.length});
+    return 10 * std::sqrt(square);
+}
+
+sph::FluidModel Case::fluidModel() const {
+    return {numerics.kernel.model, fluid.equationOfState.model, flow.density, fluid.viscosity, soundSpeed(), particleMass(),
+            flow.bodyForce, flow.walls};
+}
+
+bool Case::varyingViscosity() const {
+    return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellSettings& cell) { return membraneOf(cell).interior.viscosityRatio != 1; });
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,40 @@
+// A case, read and checked as a whole: every dictionary, and what follows from their combination. SI from here on.
+#pragma once
+#include "core/application.hpp"
+#include "observers/observers.hpp"
+#include "simulation/caseSettings.hpp"
+#include "sph/fluidForces.hpp"
+
+namespace corpuscle::simulation {
+
+struct Case {
+    std::filesystem::path directory;
+    ControlSettings control;
+    NumericsSettings numerics;
+    MeshSettings mesh;
+    FluidSettings fluid;
+    MembranesSettings membranes;
+    Choice<sph::Flow> flowModel;
+    std::vector<std::pair<std::string, Node>> effective;  // file and its full table: used.yaml
+    std::optional<Node> observers;                        // system/observers.yaml, checked; none when the case has none
+
+    // What follows.
+    sph::FlowState flow;
+    sph::FluidModel fluidModel() const;
+    double spacing() const { return numerics.spacing; }
+    double support() const { return numerics.kernel->support.metres(spacing()); }
+    double skin() const { return numerics.skin.metres(spacing()); }
+    int wallLayers() const;              // of particles behind each wall: as deep as the support reaches
+    particles::Box fluidBox() const;     // between the walls
+    particles::Box particleBox() const;  // with the walls' layers
+    double particleVolume() const;       // of the lattice, near dx^3 [m^3]
+    double particleMass() const { return flow.density * particleVolume(); }
+    double soundSpeed() const;
+    const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const { return membranes.types.at(cell.type()); }
+    bool varyingViscosity() const;
+
+    // Reads all files of the case; throws CaseError with every problem found. Collective.
+    static Case read(const Application& app);
+};
+
+}  // namespace corpuscle::simulation

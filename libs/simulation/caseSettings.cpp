@@ -1,0 +1,138 @@
+#include "simulation/caseSettings.hpp"
+
+namespace corpuscle::simulation {
+
+const Schema<WriteSettings>& WriteSettings::schema() {
+    static const Schema<WriteSettings> s =
+        Schema<WriteSettings>("write", "when results are written, and what; nothing but the start when no interval is given")
+            .quantity("strain", &WriteSettings::strain, unit::none, "strain gammadot t between two writes", {.range = positive})
+            .quantity("time", &WriteSettings::time, unit::second, "time between two writes", {.range = positive})
+            .integer("steps", &WriteSettings::steps, "time steps between two writes", {.range = atLeast(1)})
+            .atMostOneOf({"strain", "time", "steps"})
+            .words("fields", &WriteSettings::fields, {"velocity", "density", "pressure", "side"}, "arrays of the fluid",
+                   {.fallback = "[velocity, density, pressure]"})
+            .integerOr("all", "keep", &WriteSettings::keep, "how many times stay on disk", {.fallback = "all", .range = atLeast(1)});
+    return s;
+}
+
+Interval WriteSettings::interval() const {
+    if (strain) return {Interval::Kind::strain, *strain};
+    if (time) return {Interval::Kind::time, *time};
+    if (steps) return {Interval::Kind::steps, static_cast<double>(*steps)};
+    return {};
+}
+
+const Schema<CheckpointSettings>& CheckpointSettings::schema() {
+    static const Schema<CheckpointSettings> s =
+        Schema<CheckpointSettings>("checkpoint", "complete states for restarts; one is written at the end of every run")
+            .quantityOr("never", "wallClock", &CheckpointSettings::wallClock, unit::second, "wall-clock time between two checkpoints",
+                        {.fallback = "30 min", .range = positive})
+            .integer("keep", &CheckpointSettings::keep, "how many checkpoints stay on disk", {.fallback = "2", .range = atLeast(1)});
+    return s;
+}
+
+const Schema<StopSettings>& StopSettings::schema() {
+    static const Schema<StopSettings> s =
+        Schema<StopSettings>("stop", "ways to end a run early, with a checkpoint")
+            .name("file", &StopSettings::file, "a file of this name in the case directory stops the run", {.fallback = "stop"})
+            .quantityOr("never", "wallClock", &StopSettings::wallClock, unit::second, "wall-clock time after which the run stops",
+                        {.fallback = "never", .range = positive});
+    return s;
+}
+
+const Schema<ControlSettings>& ControlSettings::schema() {
+    static const Schema<ControlSettings> s =
+        Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
+            .word("application", &ControlSettings::application, {"dmpFlow", "sphFlow"}, "the solver that runs the case")
+            .text("startFrom", &ControlSettings::startFrom, "latestTime, firstTime, or the time of a checkpoint (1.2e-3 s)",
+                  {.fallback = "latestTime"})
+            .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends", {.range = positive})
+            .quantity("endStrain", &ControlSettings::endStrain, unit::none, "strain gammadot t at which the run ends",
+                      {.range = positive})
+            .exactlyOneOf({"endTime", "endStrain"})
+            .table("write", &ControlSettings::write, "results", {.fallback = "{}"})
+            .table("checkpoint", &ControlSettings::checkpoint, "checkpoints", {.fallback = "{}"})
+            .table("stop", &ControlSettings::stop, "early end", {.fallback = "{}"});
+    return s;
+}
+
+const Schema<NumericsSettings>& NumericsSettings::schema() {
+    static const Schema<NumericsSettings> s =
+        Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
+            .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
+            .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
+            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet"}, "time integration", {.fallback = "velocityVerlet"})
+            .word("coupling", &NumericsSettings::coupling, {"dualIdentity"}, "coupling of fluid and membrane",
+                  {.fallback = "dualIdentity"})
+            .word("operators", &NumericsSettings::operators, {"plain"}, "form of the pair operators", {.fallback = "plain"})
+            .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
+            .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",
+                    {.fallback = "0.3 dx", .range = positive})
+            .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",
+                     {.fallback = "10", .range = nonNegative})
+            .quantity("safety", &NumericsSettings::safety, unit::none, "fraction of the smallest limit that a time step takes",
+                      {.fallback = "0.9", .range = between(0.01, 1)});
+    return s;
+}
+
+const Schema<DomainSettings>& DomainSettings::schema() {
+    static const Schema<DomainSettings> s =
+        Schema<DomainSettings>("domain", "the box of fluid, centred on the origin")
+            .vector("size", &DomainSettings::size, unit::metre, "between the walls, a whole number of spacings along each axis",
+                    {.range = positive})
+            .booleans("periodic", &DomainSettings::periodic, "which axes are periodic; the axis across the walls is not");
+    return s;
+}
+
+const Schema<CellSettings>& CellSettings::schema() {
+    static const Schema<CellSettings> s =
+        Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
+            .name("name", &CellSettings::name, "names 0/<name>.vtp and its results")
+            .name("membrane", &CellSettings::membrane, "its entry of constant/membranes.yaml; the cell's own name when absent")
+            .model("shape", &CellSettings::shape, "stress-free shape, axis along z")
+            .quantity("edge", &CellSettings::edge, unit::metre, "edge length of the mesh", {.range = positive})
+            .vector("centre", &CellSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
+            .vector("axis", &CellSettings::axis, unit::none, "direction of its symmetry axis", {.fallback = "[0, 0, 1]"})
+            .check([](const CellSettings& c, const Node& node, Problems& problems) {
+                if (c.axis.norm() == 0)
+                    problems.add(node.mark, node.path + ".axis", "found the zero vector; a direction is needed, such as [0, 0, 1]");
+            });
+    return s;
+}
+
+const Schema<FillSettings>& FillSettings::schema() {
+    static const Schema<FillSettings> s =
+        Schema<FillSettings>("fill", "how particleFill places particles")
+            .quantity("jitter", &FillSettings::jitter, unit::none, "largest random displacement in spacings",
+                      {.fallback = "0", .range = between(0, 0.45)})
+            .integer("seed", &FillSettings::seed, "of the random displacements", {.fallback = "1", .range = nonNegative})
+            .integer("relaxation", &FillSettings::relaxation, "sweeps that even out particles around membranes",
+                     {.fallback = "60", .range = nonNegative});
+    return s;
+}
+
+const Schema<MeshSettings>& MeshSettings::schema() {
+    static const Schema<MeshSettings> s =
+        Schema<MeshSettings>("mesh", "system/mesh.yaml: the box and the cells in it")
+            .table("domain", &MeshSettings::domain, "the box")
+            .list("cells", &MeshSettings::cells, "the cells", {.fallback = "[]"})
+            .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"});
+    return s;
+}
+
+const Schema<FluidSettings>& FluidSettings::schema() {
+    static const Schema<FluidSettings> s =
+        Schema<FluidSettings>("fluid", "constant/fluid.yaml: the fluid outside the cells")
+            .quantity("density", &FluidSettings::density, unit::kilogramPerMetre3, "rest density rho0", {.range = positive})
+            .quantity("viscosity", &FluidSettings::viscosity, unit::pascalSecond, "dynamic viscosity mu", {.range = positive})
+            .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"});
+    return s;
+}
+
+const Schema<MembranesSettings>& MembranesSettings::schema() {
+    static const Schema<MembranesSettings> s = Schema<MembranesSettings>("membranes", "constant/membranes.yaml: laws of each kind of cell")
+                                                   .map("*", &MembranesSettings::types, "laws of one kind of cell");
+    return s;
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,95 @@
+// The dictionaries of a case, file by file. Each setting is declared once, in caseSettings.cpp.
+#pragma once
+#include "core/registry.hpp"
+#include "geometry/shape.hpp"
+#include "membrane/membraneSettings.hpp"
+#include "sph/equationOfState.hpp"
+#include "sph/flow.hpp"
+#include "sph/kernel.hpp"
+#include "sph/shifting.hpp"
+
+namespace corpuscle::simulation {
+
+// system/control.yaml
+struct WriteSettings {
+    std::optional<double> strain, time;  // time in s
+    std::optional<long> steps;
+    std::vector<std::string> fields;  // of the fluid
+    std::optional<long> keep;         // empty: all
+    static const Schema<WriteSettings>& schema();
+    Interval interval() const;
+};
+struct CheckpointSettings {
+    std::optional<double> wallClock;  // s; empty: only at the end
+    long keep = 2;
+    static const Schema<CheckpointSettings>& schema();
+};
+struct StopSettings {
+    std::string file = "stop";
+    std::optional<double> wallClock;  // s
+    static const Schema<StopSettings>& schema();
+};
+struct ControlSettings {
+    std::string application;
+    std::string startFrom = "latestTime";
+    std::optional<double> endTime, endStrain;
+    WriteSettings write;
+    CheckpointSettings checkpoint;
+    StopSettings stop;
+    static const Schema<ControlSettings>& schema();
+};
+
+// system/numerics.yaml
+struct NumericsSettings {
+    double spacing = 0;  // dx [m]
+    Choice<sph::Kernel> kernel;
+    std::string integrator, coupling, operators;
+    std::optional<sph::ShiftingSettings> shifting;
+    Length skin;
+    long guard = 10;     // steps between two looks of the leakage guard; 0: none
+    double safety = 0.9; // fraction of each limit that the step takes
+    static const Schema<NumericsSettings>& schema();
+};
+
+// system/mesh.yaml
+struct DomainSettings {
+    Vec3 size = Vec3::Zero();  // of the fluid, between the walls [m]; centred on the origin
+    std::array<bool, 3> periodic{};
+    static const Schema<DomainSettings>& schema();
+};
+struct CellSettings {
+    std::string name;
+    std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
+    Choice<geometry::Shape> shape;
+    double edge = 0;  // target edge length [m]
+    Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
+    static const Schema<CellSettings>& schema();
+    const std::string& type() const { return membrane ? *membrane : name; }
+};
+struct FillSettings {
+    double jitter = 0;  // in spacings
+    long seed = 1;
+    long relaxation = 60;  // sweeps that even out the particles around membranes
+    static const Schema<FillSettings>& schema();
+};
+struct MeshSettings {
+    DomainSettings domain;
+    std::vector<CellSettings> cells;
+    FillSettings fill;
+    static const Schema<MeshSettings>& schema();
+};
+
+// constant/fluid.yaml
+struct FluidSettings {
+    double density = 0, viscosity = 0;
+    Choice<sph::EquationOfState> equationOfState;
+    static const Schema<FluidSettings>& schema();
+};
+
+// constant/membranes.yaml: one entry for each kind of cell.
+struct MembranesSettings {
+    std::map<std::string, membrane::MembraneSettings> types;
+    static const Schema<MembranesSettings>& schema();
+};
+
+}  // namespace corpuscle::simulation

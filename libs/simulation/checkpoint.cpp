@@ -1,0 +1,142 @@
+#include "simulation/checkpoint.hpp"
+
+#include <cmath>
+
+#include "io/checkpointFile.hpp"
+#include "simulation/resultsWriter.hpp"
+#include "simulation/sceneBuilder.hpp"
+
+namespace corpuscle::simulation {
+
+using coupling::Cell;
+using coupling::Scene;
+
+namespace {
+
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+    std::vector<double> values;
+    for (const Vec3& v : vectors) values.insert(values.end(), v.data(), v.data() + 3);
+    return values;
+}
+std::vector<Vec3> vectors(const std::vector<double>& values) {
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i + 2 < values.size(); i += 3) result.emplace_back(values.data() + i);
+    return result;
+}
+
+long total(long mine, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_LONG, MPI_SUM, comm);
+    return mine;
+}
+
+}  // namespace
+
+void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, const RunState& state) {
+    const MPI_Comm comm = scene.system->comm();
+    io::CheckpointWriter file(comm, io::nextCheckpoint(comm, input.directory));
+    file.attribute("time", time.t);
+    file.attribute("strain", time.strain());
+    file.attribute("step", static_cast<std::int64_t>(time.step));
+    file.attribute("dt", state.integrator.dt);
+    file.attribute("viscousRate", state.integrator.viscousRate);
+    file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
+    file.attribute("spacing", scene.spacing);
+    if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
+    if (scene.coupling) {
+        file.attribute("couplingSteps", static_cast<std::int64_t>(scene.coupling->steps()));
+        file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.coupling->guard().moves(), comm)));
+    }
+    file.writeReplicated("bricks", scene.system->decomposition().state());
+    file.writeReplicated("observers", state.observers);
+    scene.store().forEachField([&](std::string_view name, const auto& array) {
+        using T = typename std::remove_cvref_t<decltype(array)>::value_type;
+        file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
+    });
+    for (const Cell& cell : scene.cells) {
+        // Rank 0 writes; it need not be one that holds the cell.
+        const int source = lowestHolder(scene, cell);
+        std::vector<double> position = flat(cell.membrane.position), velocity = flat(cell.membrane.velocity);
+        const std::vector<char>& bonds = cell.membrane.network().aliveBonds();
+        std::vector<std::int64_t> alive(bonds.begin(), bonds.end());
+        MPI_Bcast(position.data(), static_cast<int>(position.size()), MPI_DOUBLE, source, comm);
+        MPI_Bcast(velocity.data(), static_cast<int>(velocity.size()), MPI_DOUBLE, source, comm);
+        MPI_Bcast(alive.data(), static_cast<int>(alive.size()), MPI_INT64_T, source, comm);
+        const std::string group = "cells/" + cell.membrane.name + "/";
+        file.writeReplicated(group + "position", position);
+        file.writeReplicated(group + "velocity", velocity);
+        file.writeReplicated(group + "aliveBonds", alive);
+    }
+    file.finish();
+    io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
+}
+
+RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Scene& scene, Time& time) {
+    io::CheckpointReader file(scene.system->comm(), path);
+    if (const auto spacing = file.attribute<double>("spacing"); std::abs(spacing - input.spacing()) > 1e-9 * spacing)
+        throw Failure(ExitCode::invalidCase, path.string() + " was written at a spacing of " + formatQuantity(spacing, unit::metre) +
+                                                 ", the case now has " + formatQuantity(input.spacing(), unit::metre) +
+                                                 "; start from firstTime, or give the old spacing");
+    time.t = file.attribute<double>("time");
+    time.step = file.attribute<std::int64_t>("step");
+    RunState state;
+    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("dt")};
+    state.observers = file.readReplicated<double>("observers");
+    particles::ParticleStore& s = scene.store();
+    std::size_t count = 0;
+    s.forEachField([&](std::string_view name, auto& array) {
+        using T = typename std::remove_cvref_t<decltype(array)>::value_type;
+        const std::vector<T> values = file.readDistributed<T>("particles/" + std::string(name));
+        array.assign(values.begin(), values.end());
+        count = values.size();
+    });
+    s.resize(count);
+    for (Cell& cell : scene.cells) {
+        const std::string group = "cells/" + cell.membrane.name + "/";
+        cell.membrane.position = vectors(file.readReplicated<double>(group + "position"));
+        cell.membrane.velocity = vectors(file.readReplicated<double>(group + "velocity"));
+        const auto alive = file.readReplicated<std::int64_t>(group + "aliveBonds");
+        if (cell.membrane.position.size() != cell.membrane.network().nodeCount() ||
+            alive.size() != cell.membrane.network().allBonds().size())
+            throw Failure(ExitCode::io, path.string() + " and 0/" + cell.membrane.name + ".vtp hold different meshes; the case was meshed "
+                                                            "again after the checkpoint: start from firstTime");
+        cell.membrane.restore({alive.begin(), alive.end()});
+    }
+    if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
+    if (file.sameRanks())
+        scene.system->resume(file.readReplicated<double>("bricks"), file.attribute<std::int64_t>("rebuilds"));
+    else
+        scene.system->start();
+    return state;
+}
+
+void restoreCoupling(const std::filesystem::path& path, Scene& scene) {
+    if (!scene.coupling) return;
+    io::CheckpointReader file(scene.system->comm(), path);
+    scene.coupling->restore(file.attribute<std::int64_t>("couplingSteps"));
+    // The sum over ranks is what counts: rank 0 takes it up.
+    const auto moves = file.attribute<std::int64_t>("guardMoves");
+    scene.coupling->guard().restore(scene.system->decomposition().rank() == 0 ? moves : 0);
+}
+
+std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log) {
+    if (startFrom == "firstTime") return {};
+    if (startFrom == "latestTime") {
+        const io::CheckpointSearch found = io::latestCheckpoint(comm, input.directory);
+        for (const std::string& warning : found.warnings) log.warning("{}", warning);
+        return found.path;
+    }
+    Quantity wanted;
+    try {
+        wanted = parseQuantity(startFrom);
+    } catch (const std::invalid_argument&) {
+        wanted.hasUnit = false;
+    }
+    if (!wanted.hasUnit || wanted.dimension != unit::second)
+        throw CaseError({{{"system/control.yaml", 0, 0}, "startFrom",
+                          "found '" + startFrom + "'; allowed are latestTime, firstTime, or a time with its unit (1.2e-3 s)." +
+                              didYouMean(startFrom, {"latestTime", "firstTime"})}});
+    if (wanted.value == 0) return {};
+    return io::findCheckpoint(input.directory, wanted.value);
+}
+
+}  // namespace corpuscle::simulation

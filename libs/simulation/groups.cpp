@@ -1,0 +1,76 @@
+#include "simulation/groups.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace corpuscle::simulation {
+
+std::vector<Group> dimensionlessGroups(const Case& c) {
+    std::vector<Group> groups;
+    const auto add = [&](const char* name, double value, std::string text) { groups.push_back({name, fmt::format("{:.4g}", value), std::move(text), value}); };
+    const double nu = c.fluid.viscosity / c.flow.density, c0 = c.soundSpeed();
+    if (!c.mesh.cells.empty()) {
+        const CellSettings& cell = c.mesh.cells.front();
+        const membrane::MembraneSettings& laws = c.membraneOf(cell);
+        const double a = cell.shape->radius(), Gs = laws.bonds->hexagonalModuli(cell.edge).shear;
+        const double rate = c.flow.rate;
+        add("Re", c.flow.density * rate * a * a / c.fluid.viscosity,
+            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}", formatQuantity(c.flow.density, unit::kilogramPerMetre3))
+                                 : "rho gammadot a^2/mu");
+        add("Ca", c.fluid.viscosity * rate * a / Gs, fmt::format("mu gammadot a/Gs, Gs = {} (closed form, hexagonal network)", formatQuantity(Gs, unit::newtonPerMetre)));
+        add("lambda", laws.interior.viscosityRatio, "viscosity inside/outside");
+        if (laws.bending) {
+            const double kappa = laws.bending->bendingModulus({Gs, a});
+            add("E_b", kappa / (Gs * a * a), fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)));
+        }
+        if (const int k = c.flowModel->wallAxis(); k >= 0) add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over cell radius");
+        add("a/dx", a / c.spacing(), "particles per cell radius");
+        add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing");
+    } else
+        add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
+    add("H_s/dx", c.support() / c.spacing(), fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %", c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
+                                                        100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
+    add("Ma", c.flow.speed / c0, fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
+                                             c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
+    return groups;
+}
+
+ParticleEstimate estimateParticles(const Case& c) {
+    ParticleEstimate n;
+    long count[3], layer = 1;
+    n.fluid = 1;
+    for (int k = 0; k < 3; ++k) n.fluid *= count[k] = std::lround(c.mesh.domain.size[k] / c.spacing());
+    if (const int k = c.flowModel->wallAxis(); k >= 0) {
+        for (int j = 0; j < 3; ++j)
+            if (j != k) layer *= count[j];
+        n.walls = 2 * layer * c.wallLayers();
+    }
+    for (const CellSettings& cell : c.mesh.cells) {
+        // Hexagonal area of a node: sqrt(3)/2 edge^2. As particles the nodes replace fluid of area x dx.
+        const double area = cell.shape->area();
+        n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
+        n.fluid -= std::lround(area * c.spacing() / c.particleVolume());
+    }
+    return n;
+}
+
+SizeEstimate estimateSize(const Case& c) {
+    const auto n = static_cast<double>(estimateParticles(c).all());
+    const double support = c.support() / c.spacing(), reach = support + c.skin() / c.spacing();
+    SizeEstimate size;
+    // Store and its copy while sorting, records with ghosts, and the list: entries of a block shared by its four or eight particles.
+    const double perBlock = 4.2 * (reach + 1) * (reach + 1) * (reach + 1);
+    size.memory = n * (2 * 20 * 8 + 1.3 * 80 + 4 * perBlock / particles::blockLanes() * 1.5 + 60);
+    size.perWrite = n * 70;
+    size.checkpoint = n * 8 * 19;
+    const WriteSettings& w = c.control.write;
+    const double strain = c.control.endStrain ? *c.control.endStrain : c.flow.shearRate * c.control.endTime.value_or(0);
+    const double time = c.control.endTime ? *c.control.endTime : strain / c.flow.shearRate;
+    if (w.strain) size.writes = static_cast<long>(strain / *w.strain) + 1;
+    if (w.time) size.writes = static_cast<long>(time / *w.time) + 1;
+    return size;
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,30 @@
+// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "simulation/case.hpp"
+
+namespace corpuscle::simulation {
+
+struct Group {
+    std::string name, value, text;
+    double number;
+};
+std::vector<Group> dimensionlessGroups(const Case& input);
+
+// Particles of the case by the lattice and the meshes' edge lengths, before anything is made.
+struct ParticleEstimate {
+    long fluid = 0, walls = 0, nodes = 0;
+    long all() const { return fluid + walls + nodes; }
+};
+ParticleEstimate estimateParticles(const Case& input);
+
+// Bytes: memory of a run in all ranks together, one written time, one checkpoint.
+struct SizeEstimate {
+    double memory = 0, perWrite = 0, checkpoint = 0;
+    long writes = 0;
+};
+SizeEstimate estimateSize(const Case& input);
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,87 @@
+#include "simulation/integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle::simulation {
+
+using coupling::Scene;
+
+namespace {
+constexpr int powerIterations = 25;
+constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
+constexpr long stepsPerViscousEstimate = 5000;
+constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25, springFactor = 0.4;
+constexpr double largestDensityChange = 0.5;
+}  // namespace
+
+Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
+    std::vector<sph::Load*> loads;
+    if (!scene.cells.empty()) {
+        scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, scene.spacing, input.numerics.guard);
+        loads.push_back(scene.coupling.get());
+    }
+    scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
+}
+
+void Integrator::start(Time& time) {
+    scheme_->start();
+    viscousRate_ = scene_.forces->viscousRate(*scene_.system, powerIterations);
+    updateLimits(time);
+}
+
+void Integrator::resume(const State& state, Time& time) {
+    scheme_->resume();
+    viscousRate_ = state.viscousRate;
+    updateLimits(time);
+    time.dt = state.dt;
+}
+
+void Integrator::advance(Scene& scene, Time& time) {
+    scheme_->advance(time.dt);
+    if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system);
+    time.advance(time.dt);
+    if (time.step % stepsPerViscousEstimate == 0) viscousRate_ = scene.forces->viscousRate(*scene.system, powerIterations);
+    if (scene.system->rebuilds() != rebuilds_) {
+        checkState(time);
+        updateLimits(time);
+    }
+}
+
+void Integrator::updateLimits(Time& time) {
+    const auto& s = scene_.store();
+    const sph::FluidModel& model = scene_.model();
+    double most = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.u[i] * s.u[i] + s.v[i] * s.v[i] + s.w[i] * s.w[i]);
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, scene_.system->comm());
+
+    const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
+    limits_.all.clear();
+    if (viscousRate_ > 0) limits_.add("viscous", safety / (powerReserve * viscousRate_));
+    limits_.add("acoustic", safety * acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
+    if (!model.bodyForce.isZero()) limits_.add("body force", safety * bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
+    if (scene_.coupling) {
+        const auto stiffest = scene_.coupling->stiffest(*scene_.system);
+        limits_.add("spring", safety * springFactor * std::sqrt(stiffest.leastMass / stiffest.stiffness));
+        limits_.add("drag", safety * model.viscosity * scene_.spacing / stiffest.stiffness);
+    }
+    time.dt = limits_.binding().seconds;
+    rebuilds_ = scene_.system->rebuilds();
+}
+
+void Integrator::checkState(const Time& time) const {
+    const auto& s = scene_.store();
+    const double rho0 = scene_.model().density;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const double change = std::abs(s.density[i] / rho0 - 1);
+        if (change < largestDensityChange && s.velocity(i).allFinite()) continue;
+        const Vec3 x = s.position(i);
+        throw Failure(ExitCode::numerics,
+                      fmt::format("step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
+                                  "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
+                                  "last checkpoint with a smaller 'safety' in system/numerics.yaml",
+                                  time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]));
+    }
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,45 @@
+// Advances a scene by time steps as large as every limit allows (sph/stepLimits.hpp).
+//
+// The viscous limit comes from power iterations, at the start and every 5,000 steps; acoustic, spring and drag limits are taken
+// anew when lists are rebuilt. Steps do not depend on what is written when.
+#pragma once
+#include <memory>
+
+#include "core/time.hpp"
+#include "coupling/scene.hpp"
+#include "simulation/case.hpp"
+#include "sph/stepLimits.hpp"
+#include "sph/velocityVerlet.hpp"
+
+namespace corpuscle::simulation {
+
+class Integrator {
+  public:
+    // The scene must stay where it is: its coupling and loads refer to it.
+    Integrator(const Case& input, coupling::Scene& scene);
+
+    void start(Time& time);   // forces at the initial state, first step
+    struct State {
+        double viscousRate = 0, dt = 0;
+    };
+    State state(const Time& time) const { return {viscousRate_, time.dt}; }
+    void resume(const State& state, Time& time);  // after a restart
+
+    // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics) when the state is
+    // no longer finite or the density runs away, naming particle and place.
+    void advance(coupling::Scene& scene, Time& time);
+
+    const sph::StepLimits& limits() const { return limits_; }
+
+  private:
+    void updateLimits(Time& time);
+    void checkState(const Time& time) const;
+    const Case& input_;
+    coupling::Scene& scene_;
+    std::unique_ptr<sph::VelocityVerlet> scheme_;
+    sph::StepLimits limits_;
+    double viscousRate_ = 0;
+    long rebuilds_ = -1;
+};
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,90 @@
+#include "simulation/resultsWriter.hpp"
+
+#include <algorithm>
+
+#include "membrane/diagnostics.hpp"
+
+namespace corpuscle::simulation {
+
+using coupling::Cell;
+using coupling::Scene;
+using particles::Kind;
+
+int lowestHolder(const Scene& scene, const Cell& cell) {
+    int rank = 0;
+    MPI_Comm_rank(scene.system->comm(), &rank);
+    int lowest = cell.held ? rank : scene.system->decomposition().size();
+    MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, scene.system->comm());
+    return lowest;
+}
+
+ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& start)
+    : ticker_(input.control.write.interval(), start),
+      fields_(input.control.write.fields),
+      fluid_(scene.system->comm(), input.directory, "fluid", static_cast<int>(input.control.write.keep.value_or(0)), start.t) {
+    for (const Cell& cell : scene.cells)
+        cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name, static_cast<int>(input.control.write.keep.value_or(0)),
+                            start.t);
+}
+
+io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
+    const auto& s = scene.store();
+    const sph::FluidModel& model = scene.model();
+    const auto wants = [&](const char* name) { return std::find(fields_.begin(), fields_.end(), name) != fields_.end(); };
+    io::PolyData data;
+    auto& id = data.point.integers["id"];
+    auto* side = wants("side") || !scene.cells.empty() ? &data.point.integers["side"] : nullptr;
+    auto* velocity = wants("velocity") ? &data.point.vectors["velocity"] : nullptr;
+    auto* density = wants("density") ? &data.point.scalars["density"] : nullptr;
+    auto* pressure = wants("pressure") ? &data.point.scalars["pressure"] : nullptr;
+    auto& spacing = data.point.scalars["spacing"];
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        if (s.kindOf(i) != Kind::fluid) continue;
+        data.points.push_back(scene.system->box().wrap(s.position(i)));
+        id.push_back(s.id[i]);
+        spacing.push_back(scene.spacing);
+        if (side) side->push_back(s.optional().side ? s.side[i] : 0);
+        if (velocity) velocity->push_back(s.velocity(i));
+        if (density) density->push_back(s.density[i]);
+        if (pressure) pressure->push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
+    }
+    return data;
+}
+
+io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
+    const membrane::Membrane& m = cell.membrane;
+    const membrane::Network& network = m.network();
+    io::PolyData data;
+    auto& broken = data.cell.integers["broken"];
+    auto& areaStrain = data.cell.scalars["areaStrain"];
+    auto& tension1 = data.cell.scalars["tension1"];
+    auto& tension2 = data.cell.scalars["tension2"];
+    auto& force = data.point.vectors["force"];
+    auto& velocity = data.point.vectors["velocity"];
+    auto& stretch = data.point.scalars["stretch"];
+    auto& spacing = data.point.scalars["spacing"];
+    if (!writer) return data;
+    data.points = m.position;
+    data.triangles = network.triangles();
+    force = m.force;
+    velocity = m.velocity;
+    stretch = membrane::nodeStretch(network, m.position);
+    spacing.assign(m.position.size(), scene.spacing);
+    areaStrain = membrane::areaStrain(network, m.position);
+    auto tensions = membrane::principalTensions(network, m.bondLaw(), m.position);
+    tension1 = std::move(tensions.tension1);
+    tension2 = std::move(tensions.tension2);
+    for (std::size_t t = 0; t < data.triangles.size(); ++t) broken.push_back(network.isBroken(static_cast<int>(t)) ? 1 : 0);
+    return data;
+}
+
+void ResultsWriter::write(const Scene& scene, const Time& time) {
+    int rank = 0;
+    MPI_Comm_rank(scene.system->comm(), &rank);
+    fluid_.write(time.t, time.strain(), fluidPiece(scene));
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        cells_[c].write(time.t, time.strain(), cellPiece(scene, scene.cells[c], lowestHolder(scene, scene.cells[c]) == rank));
+    ++written_;
+}
+
+}  // namespace corpuscle::simulation

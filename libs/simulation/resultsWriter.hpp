@@ -1,0 +1,35 @@
+// Results for ParaView and renderCase: one stream for the fluid, one for the walls at the start, one for each cell.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/time.hpp"
+#include "coupling/scene.hpp"
+#include "io/vtkSeries.hpp"
+#include "simulation/case.hpp"
+
+namespace corpuscle::simulation {
+
+class ResultsWriter {
+  public:
+    ResultsWriter(const Case& input, const coupling::Scene& scene, const Time& start);
+    bool due(const Time& time) { return ticker_.due(time); }
+    void write(const coupling::Scene& scene, const Time& time);
+    long written() const { return written_; }
+
+  private:
+    io::PolyData fluidPiece(const coupling::Scene& scene) const;
+    Ticker ticker_;
+    std::vector<std::string> fields_;
+    io::VtkSeries fluid_;
+    std::vector<io::VtkSeries> cells_;
+    long written_ = 0;
+};
+
+// A cell's surface with its arrays; empty on ranks other than `writer`.
+io::PolyData cellPiece(const coupling::Scene& scene, const coupling::Cell& cell, bool writer);
+
+// The lowest rank that holds the cell. Collective.
+int lowestHolder(const coupling::Scene& scene, const coupling::Cell& cell);
+
+}  // namespace corpuscle::simulation

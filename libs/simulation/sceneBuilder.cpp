@@ -1,0 +1,140 @@
+#include "simulation/sceneBuilder.hpp"
+
+#include <cmath>
+
+#include "io/polyData.hpp"
+
+namespace corpuscle::simulation {
+
+using coupling::Cell;
+using coupling::Scene;
+using particles::Kind;
+using particles::ParticleStore;
+
+namespace {
+
+std::filesystem::path startFile(const Case& input, const std::string& name, const char* writer) {
+    const std::filesystem::path path = input.directory / "0" / (name + ".vtp");
+    if (!std::filesystem::exists(path))
+        throw Failure(ExitCode::io, path.string() + " is missing: run " + writer + " first");
+    return path;
+}
+
+std::vector<Cell> readCells(const Case& input) {
+    std::vector<Cell> cells;
+    int firstNode = 0;
+    for (const CellSettings& settings : input.mesh.cells) {
+        const io::PolyData mesh = io::readVtp(startFile(input, settings.name, "membraneMesh"));
+        if (mesh.triangles.empty())
+            throw Failure(ExitCode::io, "0/" + settings.name + ".vtp holds no triangles: run membraneMesh again");
+        const double a = settings.shape->radius();
+        Cell cell{membrane::Membrane(settings.name, static_cast<int>(cells.size()) + 1, mesh.points, mesh.triangles,
+                                     input.membraneOf(settings), a),
+                  settings.type(), a, input.membraneOf(settings).interior.viscosityRatio, firstNode, 0, 0, true};
+        cell.initialArea = cell.membrane.area();
+        cell.initialVolume = cell.membrane.volume();
+        firstNode += cell.nodeCount();
+        cells.push_back(std::move(cell));
+    }
+    return cells;
+}
+
+double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
+
+// Adds this rank's share of `total` things: those with numbers in [total r/P, total (r+1)/P).
+template <class F>
+void forShare(std::size_t total, MPI_Comm comm, F&& f) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    const std::size_t r = static_cast<std::size_t>(rank), p = static_cast<std::size_t>(size);
+    for (std::size_t i = total * r / p; i < total * (r + 1) / p; ++i) f(i);
+}
+
+}  // namespace
+
+std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double spacing) {
+    std::vector<double> volumes;
+    for (const double area : vertexAreas) volumes.push_back(area * spacing);
+    return volumes;
+}
+
+Scene emptyScene(const Case& input, MPI_Comm comm) {
+    const bool hasCells = !input.mesh.cells.empty();
+    Scene scene;
+    scene.spacing = input.spacing();
+    scene.fluidBox = input.fluidBox();
+    scene.flow = input.flow;
+    const ParticleStore::Optional fields{.mass = hasCells, .viscosity = input.varyingViscosity(), .side = hasCells, .node = hasCells};
+    scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(), input.skin(),
+                                                               input.spacing());
+    scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system);
+    if (input.numerics.shifting)
+        scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel, input.support(),
+                                                         input.flow.rate, input.particleMass());
+    if (hasCells) scene.cells = readCells(input);
+    return scene;
+}
+
+Scene buildScene(const Case& input, MPI_Comm comm) {
+    Scene scene = emptyScene(input, comm);
+    ParticleStore& s = scene.store();
+    const sph::FluidModel& model = scene.model();
+    std::int64_t firstId = 0;
+    const auto add = [&](Kind kind, std::int64_t id, const Vec3& x, const Vec3& u, double density) {
+        const std::size_t i = s.size();
+        s.resize(i + 1);
+        s.setPosition(i, x);
+        s.setVelocity(i, u);
+        s.density[i] = density;
+        s.id[i] = id;
+        s.kind[i] = static_cast<std::int64_t>(kind);
+        if (s.optional().mass) s.mass[i] = model.mass;
+        if (s.optional().viscosity) s.viscosity[i] = model.viscosity;
+        if (s.optional().node) s.node[i] = -1;
+        return i;
+    };
+
+    const io::PolyData fluid = io::readVtp(startFile(input, "fluid", "particleFill"));
+    const auto& velocity = fluid.point.vector("velocity");
+    const auto& density = fluid.point.scalar("density");
+    const auto& side = fluid.point.integer("side");
+    if (const double spacing = fluid.point.scalar("spacing").empty() ? input.spacing() : fluid.point.scalar("spacing").front();
+        std::abs(spacing - input.spacing()) > 1e-6 * input.spacing())
+        throw Failure(ExitCode::io, "0/fluid.vtp was filled at a spacing of " + formatQuantity(spacing, unit::metre) +
+                                        ", but system/numerics.yaml says " + formatQuantity(input.spacing(), unit::metre) +
+                                        ": run particleFill again");
+    forShare(fluid.points.size(), comm, [&](std::size_t k) {
+        const std::size_t i = add(Kind::fluid, static_cast<std::int64_t>(k), fluid.points[k], velocity[k], density[k]);
+        if (s.optional().side) s.side[i] = side[k];
+        if (s.optional().viscosity && side[k] > 0) s.viscosity[i] *= scene.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
+    });
+    firstId += static_cast<std::int64_t>(fluid.points.size());
+
+    if (model.walls.exist()) {
+        const io::PolyData walls = io::readVtp(startFile(input, "walls", "particleFill"));
+        forShare(walls.points.size(), comm, [&](std::size_t k) {
+            const Vec3& x = walls.points[k];
+            const std::size_t i = add(Kind::wall, firstId + static_cast<std::int64_t>(k), x, model.walls.velocity[model.walls.isUpper(x)], model.density);
+            if (s.optional().side) s.side[i] = 0;
+        });
+        firstId += static_cast<std::int64_t>(walls.points.size());
+    }
+
+    for (Cell& cell : scene.cells) {
+        const std::vector<double> volumes = nodeVolumes(cell.membrane.vertexAreas(), input.spacing());
+        for (std::size_t k = 0; k < volumes.size(); ++k) cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
+        forShare(volumes.size(), comm, [&](std::size_t k) {
+            const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k), cell.membrane.position[k],
+                                      cell.membrane.velocity[k], model.density);
+            s.mass[i] = model.density * volumes[k];
+            s.side[i] = cell.membrane.cell;
+            s.node[i] = cell.firstNode + static_cast<std::int64_t>(k);
+            if (s.optional().viscosity) s.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
+        });
+    }
+    scene.system->start();
+    return scene;
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,203 @@
+#include "simulation/schedule.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "particles/isa.hpp"
+#include "simulation/groups.hpp"
+#include "simulation/sceneBuilder.hpp"
+
+namespace corpuscle::simulation {
+
+using coupling::Scene;
+
+namespace {
+
+long sum(long value, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_LONG, MPI_SUM, comm);
+    return value;
+}
+
+}  // namespace
+
+Usage solverUsage(const std::string& name) {
+    return {.options = solverOptions(),
+            .samples = {name + " -case myCase", "mpirun -np 2 " + name + " -case myCase",
+                        name + " -set system/control.yaml:/write/keep=3 -steps 100", name + " -dry-run"}};
+}
+
+Time startTime(const Application& app, const Case& input) {
+    Time time;
+    time.shearRate = input.flow.shearRate;
+    time.endTime = input.control.endTime;
+    time.endStrain = input.control.endStrain;
+    if (const auto steps = app.integer("steps", 1)) time.lastStep = *steps;
+    return time;
+}
+
+StartingPoint prepare(Application& app, const Case& input) {
+    const MPI_Comm comm = app.communicator().handle();
+    StartingPoint from;
+    from.time = startTime(app, input);
+    from.checkpoint = chooseCheckpoint(input, app.value("restart").value_or(input.control.startFrom), comm, app.log());
+    if (from.checkpoint.empty())
+        from.scene = buildScene(input, comm);
+    else {
+        from.scene = emptyScene(input, comm);
+        from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
+        if (from.time.lastStep) *from.time.lastStep += from.time.step;
+        app.log().info("Restart from {} at t = {}", from.checkpoint.string(), formatQuantity(from.time.t, unit::second));
+    }
+    return from;
+}
+
+void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& scene, Time& time) {
+    if (from.checkpoint.empty())
+        integrator.start(time);
+    else {
+        integrator.resume(from.state.integrator, time);
+        restoreCoupling(from.checkpoint, scene);
+    }
+}
+
+Schedule::Schedule(Application& app, const Case& input, const Scene& scene, const Integrator& integrator, const Time& start,
+                   const RunState& state)
+    : app_(app),
+      input_(input),
+      integrator_(integrator),
+      start_(start),
+      observers_(input.observers, scene, start, input.directory),
+      results_(input, scene, start),
+      checkpoints_(input.control.checkpoint.wallClock),
+      stop_({input.directory / input.control.stop.file, input.control.stop.wallClock}, app.communicator()),
+      progress_(app.log(), start),
+      record_(input.directory / "run.json", app.name(), app.communicator()),
+      began_(std::chrono::steady_clock::now()),
+      smallestDt_(start.dt),
+      largestDt_(start.dt) {
+    if (!state.observers.empty()) observers_.restore(state.observers);
+    particles_ = sum(scene.system->owned(), scene.system->comm());
+}
+
+Schedule::~Schedule() {
+    if (std::uncaught_exceptions() == 0 || !begun_) return;
+    try {
+        record_.finish(ExitCode::numerics, "ended by an error: see log." + app_.name());
+    } catch (const std::exception& fault) {
+        app_.log().error("run.json could not be completed: {}", fault.what());
+    }
+}
+
+void Schedule::describe() {
+    Log& log = app_.log();
+    std::vector<std::vector<std::string>> rows;
+    for (const Group& g : dimensionlessGroups(input_)) {
+        rows.push_back({g.name, g.value, g.text});
+        record_.set("groups", g.name, g.number);
+    }
+    log.table({"group", "value", "meaning"}, rows);
+    if (input_.flow.densityFromRe)
+        log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})", formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
+                 formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
+    rows.clear();
+    for (const sph::StepLimit& limit : integrator_.limits().all)
+        rows.push_back({limit.name, formatQuantity(limit.seconds, unit::second),
+                        limit.name == integrator_.limits().binding().name ? "binding" : ""});
+    log.table({"limit of the step", "dt", ""}, rows);
+    log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(), app_.communicator().size() > 1 ? "s" : "",
+             particles::instructionSetName());
+}
+
+ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
+    describe();
+    app_.log().info("dry run: about {:.0f} steps to {}; nothing written, {} MiB in lists and particles of rank 0",
+                    ((time.endTime ? *time.endTime : *time.endStrain / time.shearRate) - time.t) / time.dt,
+                    time.endTime ? "the end time" : "the end strain", scene.system->bytes() >> 20);
+    return ExitCode::done;
+}
+
+void Schedule::begin(const Scene& scene, const Time& time) {
+    describe();
+    begun_ = true;
+    writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
+    record_.set("parameters", "density_kg_m3", input_.flow.density);
+    record_.set("parameters", "densityFromRe", input_.flow.densityFromRe);
+    record_.set("parameters", "soundSpeed_m_s", input_.soundSpeed());
+    record_.set("parameters", "shearRate_1_s", input_.flow.shearRate);
+    record_.set("parameters", "spacing_m", input_.spacing());
+    record_.set("parameters", "particles", particles_);
+    record_.set("parameters", "startTime_s", time.t);
+    record_.set("parameters", "commandLine", app_.commandLine());
+    record_.set("performance", "instructionSet", particles::instructionSetName());
+    record_.write();
+
+    if (results_.due(time)) results_.write(scene, time);
+    observers_.run(scene, time);
+}
+
+void Schedule::afterStep(const Scene& scene, const Time& time) {
+    smallestDt_ = std::min(smallestDt_, time.dt);
+    largestDt_ = std::max(largestDt_, time.dt);
+    if (!scene.broken.empty()) reportRupture(scene, time);
+    observers_.run(scene, time);
+    if (results_.due(time)) {
+        results_.write(scene, time);
+        reportGuard(scene, time);
+    }
+    if (checkpoints_.due(stop_)) saveCheckpoint(scene, time);
+    progress_.report(time);
+}
+
+void Schedule::reportRupture(const Scene& scene, const Time& time) {
+    for (const coupling::RuptureEvent& event : scene.broken) {
+        if (brokenBonds_ == 0)
+            app_.log().info("first break: cell {}, t = {}, strain {:.4f}, stretch {:.4f}", event.cell, formatQuantity(time.t, unit::second),
+                            time.strain(), event.bonds.front().stretch);
+        brokenBonds_ += static_cast<long>(event.bonds.size());
+    }
+}
+
+void Schedule::reportGuard(const Scene& scene, const Time& time) {
+    if (!scene.coupling) return;
+    const long moves = sum(scene.coupling->guard().moves(), scene.system->comm());
+    if (moves > guardMoves_)
+        app_.log().info("leakage guard: {} particles put back until strain {:.3f} ({} since the last note)", moves, time.strain(), moves - guardMoves_);
+    guardMoves_ = moves;
+}
+
+void Schedule::saveCheckpoint(const Scene& scene, const Time& time) {
+    writeCheckpoint(input_, scene, time, {integrator_.state(time), observers_.state()});
+}
+
+double Schedule::particleSteps(const Time& time) const {
+    return static_cast<double>(particles_) * static_cast<double>(time.step - start_.step);
+}
+
+ExitCode Schedule::end(const Scene& scene, const Time& time) {
+    reportGuard(scene, time);
+    saveCheckpoint(scene, time);
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    const long steps = time.step - start_.step;
+    record_.set("performance", "steps", steps);
+    record_.set("performance", "wallClock_s", wall);
+    record_.set("performance", "coreSeconds", wall * app_.communicator().size());
+    record_.set("performance", "particleStepsPerSecond", particleSteps(time) / wall);
+    record_.set("performance", "rebuilds", scene.system->rebuilds());
+    record_.set("extremes", "smallestStep_s", smallestDt_);
+    record_.set("extremes", "largestStep_s", largestDt_);
+    record_.set("result", "time_s", time.t);
+    record_.set("result", "strain", time.strain());
+    if (scene.coupling) record_.set("result", "guardMoves", guardMoves_);
+    if (scene.coupling) record_.set("result", "brokenBonds", brokenBonds_);
+    const bool ended = !time.running();
+    const std::string reason = ended ? time.endReason() : stop_.reason();
+    const ExitCode code = ended ? ExitCode::done : ExitCode::stopped;
+    record_.finish(code, reason);
+    app_.log().info("{} after {} steps, t = {}{}: {} wall clock, {:.3g} million particle-steps per second", ended ? "End" : "Stopped", steps,
+                    formatQuantity(time.t, unit::second), time.shearRate > 0 ? fmt::format(", strain {:.4f}", time.strain()) : "",
+                    formatDuration(wall), 1e-6 * particleSteps(time) / wall);
+    if (!ended) app_.log().info("reason: {}; a checkpoint is written, the same command goes on from here", reason);
+    return code;
+}
+
+}  // namespace corpuscle::simulation

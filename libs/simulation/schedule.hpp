@@ -1,0 +1,72 @@
+// What happens after each step: observers, results, checkpoints, progress, requests to stop. Nothing here changes the state.
+#pragma once
+#include <memory>
+
+#include "core/application.hpp"
+#include "core/runRecord.hpp"
+#include "core/wallClock.hpp"
+#include "coupling/scene.hpp"
+#include "observers/observers.hpp"
+#include "simulation/checkpoint.hpp"
+#include "simulation/resultsWriter.hpp"
+
+namespace corpuscle::simulation {
+
+class Schedule {
+  public:
+    Schedule(Application& app, const Case& input, const coupling::Scene& scene, const Integrator& integrator, const Time& start,
+             const RunState& state);
+    // A run that ends by an exception is recorded as failed.
+    ~Schedule();
+
+    // -dry-run: groups, limits, particles; writes nothing.
+    ExitCode dryRun(const coupling::Scene& scene, const Time& time);
+    // Head of the log, used.yaml, run.json, and what is due before the first step.
+    void begin(const coupling::Scene& scene, const Time& time);
+    // Whether the run is to end before its time. Collective.
+    bool stopRequested(const Time& time) { return stop_.requested(time.step); }
+    void afterStep(const coupling::Scene& scene, const Time& time);
+    // Last results and checkpoint, table of figures; the exit code.
+    ExitCode end(const coupling::Scene& scene, const Time& time);
+
+  private:
+    void describe();
+    void saveCheckpoint(const coupling::Scene& scene, const Time& time);
+    void reportGuard(const coupling::Scene& scene, const Time& time);
+    void reportRupture(const coupling::Scene& scene, const Time& time);
+    double particleSteps(const Time& time) const;
+
+    Application& app_;
+    const Case& input_;
+    const Integrator& integrator_;
+    Time start_;
+    observers::Observers observers_;
+    ResultsWriter results_;
+    WallTicker checkpoints_;
+    StopControl stop_;
+    Progress progress_;
+    RunRecord record_;
+    std::chrono::steady_clock::time_point began_;
+    long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
+    double smallestDt_ = 0, largestDt_ = 0;
+    bool begun_ = false;
+};
+
+// Time at the start of a run, with its end conditions.
+Time startTime(const Application& app, const Case& input);
+
+// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
+struct StartingPoint {
+    coupling::Scene scene;
+    Time time;
+    std::filesystem::path checkpoint;  // empty: from 0/
+    RunState state;
+};
+StartingPoint prepare(Application& app, const Case& input);
+
+// Forces and first step at the start, or the continuation of a checkpoint.
+void startIntegrator(const StartingPoint& from, Integrator& integrator, coupling::Scene& scene, Time& time);
+
+Usage solverUsage(const std::string& name);
+
+}  // namespace corpuscle::simulation

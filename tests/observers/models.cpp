@@ -1,0 +1,243 @@
+// Each observer on small scenes, on any number of ranks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geometry/kuchelFackerell.hpp"
+#include "geometry/spheroid.hpp"
+#include "observers/sampleScene.hpp"
+
+namespace corpuscle::observers::testing {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const geometry::TriangleMesh& redCell() {
+    static const geometry::TriangleMesh mesh = geometry::meshSurface(geometry::KuchelFackerell(8 * um, 2.12 * um, 1 * um), 0.6 * um);
+    return mesh;
+}
+const geometry::TriangleMesh& sphere() {
+    static const geometry::TriangleMesh mesh = geometry::meshSurface(geometry::Sphere(3 * um), 0.8 * um);
+    return mesh;
+}
+
+Vec3 turned(const Vec3& x, double angle) {  // with the flow about y
+    return {std::cos(angle) * x[0] + std::sin(angle) * x[2], x[1], -std::sin(angle) * x[0] + std::cos(angle) * x[2]};
+}
+
+TEST(Shape, RigidTumbleTurnsTheMaterialAndNotTheMembrane) {
+    Scene scene = sampleScene({.cells = {{"rbc", Vec3::Zero()}}, .surface = &redCell()});
+    couple(scene);
+    const auto shape = begin("{type: shape, every: 0.1 strain}", scene);
+    const auto rest = shape->observe(scene, {});
+    const double D = value(*shape, rest, "D12_extent"), phase = value(*shape, rest, "treadPhase_rad");
+    EXPECT_NEAR(D, 0.581, 0.015);
+    EXPECT_NEAR(phase, 0, 0.2);  // the nearest node is within half an edge
+    std::vector<Row> rows;
+    for (int n = 1; n <= 25; ++n) {
+        deform(scene, 0, [&](const Vec3& x) { return turned(x, 0.3 * n); });
+        rows = shape->observe(scene, {});
+        EXPECT_NEAR(value(*shape, rows, "angleTurned_rad"), 0.3 * n, 1e-9);
+        EXPECT_NEAR(value(*shape, rows, "treadPhase_rad"), phase, 1e-9);
+        EXPECT_NEAR(value(*shape, rows, "D12_extent"), D, 1e-9);
+    }
+    EXPECT_NEAR(value(*shape, rows, "inclination_rad"), value(*shape, rest, "inclination_rad") - 7.5 + 2 * pi, 1e-8);
+}
+
+// Material goes round the ellipse (1.2 a, a/1.2) whose shape stays, 1.8 times; after each half turn the marker is
+// where it was.
+TEST(Shape, TankTreadingTurnsTheMembraneAndNotTheShape) {
+    Scene scene = sampleScene({.cells = {{"capsule", Vec3::Zero()}}, .surface = &sphere()});
+    couple(scene);
+    const auto shape = begin("{type: shape, every: 0.1 strain}", scene);
+    const auto stretched = [&](double angle) {
+        deform(scene, 0, [&](const Vec3& x) { return turned(turned(x, angle).cwiseProduct(Vec3(1.2, 1, 1 / 1.2)), -0.4); });
+        return shape->observe(scene, {});
+    };
+    std::vector<Row> rows = stretched(0);
+    const double start = value(*shape, rows, "treadPhase_rad");
+    const double D = (1.2 - 1 / 1.2) / (1.2 + 1 / 1.2);
+    for (int n = 1; n <= 36; ++n) {
+        rows = stretched(0.1 * pi * n);
+        EXPECT_NEAR(value(*shape, rows, "inclination_rad"), 0.4, 0.02);
+        EXPECT_NEAR(value(*shape, rows, "D12_inertia"), D, 0.01);
+        if (n % 10 == 0) {
+            EXPECT_NEAR(value(*shape, rows, "treadPhase_rad") - start, 0.1 * pi * n, 0.03);
+        }
+    }
+    EXPECT_NEAR(value(*shape, rows, "angleTurned_rad"), 3.6 * pi - 0.4, 0.15);  // the ellipse's angle differs from the parametric one
+}
+
+TEST(Shape, AnglesGoOnAfterARestart) {
+    Scene scene = sampleScene({.cells = {{"rbc", Vec3::Zero()}}, .surface = &redCell()});
+    couple(scene);
+    const auto before = begin("{type: shape, every: 0.1 strain}", scene);
+    for (int n = 0; n <= 20; ++n) {
+        deform(scene, 0, [&](const Vec3& x) { return turned(x, 0.4 * n); });
+        before->observe(scene, {});
+    }
+    const auto after = begin("{type: shape, every: 0.1 strain}", scene);
+    after->restore(before->state());
+    EXPECT_NEAR(value(*after, after->observe(scene, {}), "angleTurned_rad"), 8, 1e-9);
+    EXPECT_THROW(after->restore(std::vector<double>{1, 2, 3}), Failure);
+}
+
+TEST(Conservation, FluidWithoutCells) {
+    Scene scene = sampleScene({});
+    particles::ParticleStore& s = scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i) s.density[i] = s.z[i] > 0 ? 1010 : 1000;
+    const auto observation = begin("{type: conservation, every: 10 steps}", scene);
+    const auto rows = observation->observe(scene, {});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(observation->tables()[0].columns.size(), 8u);  // nothing of cells
+    EXPECT_NEAR(value(*observation, rows, "density_mean"), 1.005, 1e-13);
+    EXPECT_EQ(value(*observation, rows, "density_min"), 1);
+    EXPECT_EQ(value(*observation, rows, "density_max"), 1.01);
+    EXPECT_EQ(value(*observation, rows, "particles"), 16 * 12 * 12);
+    // sum over z = +-0.5 .. +-5.5 um of z^2 = 143 um^2 per column of 12.
+    const double energy = 0.5 * 1e-15 * 1e6 * 16 * 12 * 143e-12;
+    EXPECT_NEAR(value(*observation, rows, "kineticEnergy_J"), energy, 1e-12 * energy);
+    EXPECT_NEAR(value(*observation, rows, "momentum_x_Ns"), 0, 1e-27);
+    for (std::size_t i = 0; i < s.size(); ++i) s.w[i] = 2e-3;
+    EXPECT_NEAR(value(*observation, observation->observe(scene, {}), "momentum_z_Ns"), 2304 * 1e-15 * 2e-3, 1e-24);
+}
+
+TEST(Conservation, CellsAcrossAPeriodicFace) {
+    Scene scene = sampleScene({.cells = {{"a", Vec3(8 * um, 0, 0)}, {"b", Vec3(0.3 * um, 0, 0)}}, .surface = &sphere()});
+    // The lattice was sided by positions outside of the box too: fluid on both sides of the face is in cell a.
+    couple(scene);
+    const auto observation = begin("{type: conservation, every: 10 steps}", scene);
+    auto rows = observation->observe(scene, {});
+    EXPECT_EQ(value(*observation, rows, "changedSide"), 0);
+    EXPECT_EQ(value(*observation, rows, "guardMoves"), 0);
+    EXPECT_NEAR(value(*observation, rows, "a_area_m2"), sphere().area(), 1e-20);
+    EXPECT_NEAR(value(*observation, rows, "b_volume_m3"), sphere().volume(), 1e-27);
+    EXPECT_NEAR(value(*observation, rows, "a_volumeChange"), 0, 1e-12);
+    EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), 0, 1e-30);
+
+    particles::ParticleStore& s = scene.store();
+    long inside = 0;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s.side[i] == 1) s.side[i] = 0, ++inside;
+    inside = Communicator().sum(inside);
+    EXPECT_NEAR(static_cast<double>(inside), 113, 15);  // 4/3 pi 27
+    scene.coupling->guard().restore(3);
+    rows = observation->observe(scene, {});
+    EXPECT_EQ(value(*observation, rows, "changedSide"), static_cast<double>(inside));
+    EXPECT_EQ(value(*observation, rows, "guardMoves"), 3.0 * Communicator().size());
+
+    deform(scene, 1, [](const Vec3& x) { return Vec3(0.3 * um + 1.1 * (x[0] - 0.3 * um), 1.1 * x[1], 1.1 * x[2]); });
+    rows = observation->observe(scene, {});
+    EXPECT_NEAR(value(*observation, rows, "b_areaChange"), 0.21, 1e-9);
+    EXPECT_NEAR(value(*observation, rows, "b_volumeChange"), 0.331, 1e-9);
+    EXPECT_NEAR(value(*observation, rows, "a_areaChange"), 0, 1e-12);
+    double energy = 0;  // k/2 (0.1 l0)^2 of each bond
+    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds()) energy += 0.5 * 5e-4 * 0.01 * bond.rest * bond.rest;
+    EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), energy, 1e-9 * energy);
+}
+
+TEST(Rupture, EventsHolesAndReleasedFluid) {
+    Scene scene = sampleScene({.cells = {{"a", Vec3(-4 * um, 0, 0)}, {"b", Vec3(4 * um, 0, 0)}},
+                               .surface = &sphere(),
+                               .rupture = "{type: bondStretch, limit: 1.05}"});
+    couple(scene);
+    const auto observation = begin("{type: rupture, every: 10 steps}", scene);
+    ASSERT_TRUE(observation->watchesSteps());
+    const Time time{.t = 0.25, .step = 7, .shearRate = 2};
+    EXPECT_TRUE(observation->afterStep(scene, time).empty());
+    auto rows = observation->observe(scene, time);
+    EXPECT_TRUE(std::isnan(value(*observation, rows, "firstBreak_s", 1)));
+    EXPECT_EQ(value(*observation, rows, "bondsBroken", 1), 0);
+    EXPECT_EQ(value(*observation, rows, "released", 1), 0);
+
+    // One node of b pulled out by a tenth of the radius: its bonds break.
+    const std::vector<Vec3> rest = scene.cells[1].membrane.network().stressFree();
+    const Vec3 pulled = rest[5];
+    const Vec3 centre(4 * um, 0, 0);
+    deform(scene, 1, [&](const Vec3& x) { return x == pulled ? Vec3(x + 0.13 * (x - centre)) : x; });
+    scene.broken = scene.coupling->endStep(*scene.system);
+    const auto events = observation->afterStep(scene, time);
+    scene.broken.clear();
+    std::size_t expected = 0;
+    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds()) expected += bond.node[0] == 5 || bond.node[1] == 5;
+    ASSERT_EQ(events.size(), expected);
+    for (const Row& event : events) {
+        EXPECT_EQ(event.table, 2u);
+        EXPECT_EQ(event.values[0], 2);
+        EXPECT_GT(event.values[2], 1.05);
+    }
+    EXPECT_LT(events[0].values[1], events[1].values[1]);
+    rows = observation->observe(scene, time);
+    EXPECT_EQ(value(*observation, rows, "bondsBroken", 0), 0);
+    EXPECT_EQ(value(*observation, rows, "bondsBroken", 1), static_cast<double>(expected));
+    const double lost = value(*observation, rows, "trianglesLost", 1);
+    EXPECT_EQ(lost, static_cast<double>(expected));  // all triangles of the node: one per bond
+    EXPECT_GT(value(*observation, rows, "holeArea_m2", 1), 0);
+    EXPECT_NEAR(value(*observation, rows, "holeRestArea_m2", 1), value(*observation, rows, "holeArea_m2", 1),
+                0.2 * value(*observation, rows, "holeArea_m2", 1));
+    EXPECT_EQ(value(*observation, rows, "firstBreak_s", 1), 0.25);
+    EXPECT_EQ(value(*observation, rows, "firstBreak_strain", 1), 0.5);
+    EXPECT_EQ(value(*observation, rows, "firstBreak_x_m", 1), events[0].values[3]);
+    EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the others are at rest
+    EXPECT_EQ(value(*observation, rows, "released", 1), 0);
+
+    // Three particles at a corner of the box, said to be b's.
+    particles::ParticleStore& s = scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s.side[i] == 0 && s.kindOf(i) == particles::Kind::fluid && s.id[i] < 3) s.side[i] = 2;
+    rows = observation->observe(scene, time);
+    EXPECT_EQ(value(*observation, rows, "released", 1), 3);
+    EXPECT_NEAR(value(*observation, rows, "releasedVolume_m3", 1), 3e-18, 1e-30);
+    EXPECT_EQ(value(*observation, rows, "released", 0), 0);
+
+    const auto after = begin("{type: rupture, every: 10 steps}", scene);
+    after->restore(observation->state());
+    EXPECT_EQ(value(*after, after->observe(scene, time), "firstBreak_s", 1), 0.25);
+}
+
+// The linear profile between walls that move with it: sigma = mu gammadot at both, no pressure. A lattice at Hs = 3 dx gives the
+// viscosity to about 1 %.
+TEST(WallStress, CouetteFlow) {
+    Scene scene = sampleScene({.walls = true});
+    scene.forces->evaluate(*scene.system, 0);
+    const auto observation = begin("{type: wallStress, every: 10 steps}", scene);
+    const auto rows = observation->observe(scene, {});
+    EXPECT_NEAR(value(*observation, rows, "shearStress_lower_Pa"), 1, 0.05);
+    EXPECT_NEAR(value(*observation, rows, "shearStress_upper_Pa"), 1, 0.05);
+    EXPECT_NEAR(value(*observation, rows, "effectiveViscosity"), 1, 0.05);
+    EXPECT_NEAR(value(*observation, rows, "pressure_upper_Pa"), 0, 1e-6);
+
+    // Fluid and walls compressed alike by 0.1 %: p = rho0 c0^2/7 ((1.001)^7 - 1) on both.
+    for (double& density : scene.store().density) density = 1001;
+    scene.forces->evaluate(*scene.system, 0);
+    const auto pressed = observation->observe(scene, {});
+    const double p = rho0 * 0.01 / 7 * (std::pow(1.001, 7) - 1);
+    EXPECT_NEAR(value(*observation, pressed, "pressure_lower_Pa"), p, 0.05 * p);
+    EXPECT_NEAR(value(*observation, pressed, "pressure_upper_Pa"), p, 0.05 * p);
+}
+
+TEST(Profile, LinearVelocity) {
+    Scene scene = sampleScene({.walls = true});
+    particles::ParticleStore& s = scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s.z[i] > 5 * um) s.density[i] = 1020;
+    const auto observation = begin("{type: profile, every: 10 steps, axis: z, bins: 6}", scene);
+    const auto rows = observation->observe(scene, {});
+    ASSERT_EQ(rows.size(), 6u);
+    for (int b = 0; b < 6; ++b) {
+        const double z = (-5 + 2 * b) * um;
+        EXPECT_NEAR(rows[b].values[0], z, 1e-18);
+        EXPECT_NEAR(rows[b].values[1], 1000 * z, 1e-15);
+        EXPECT_EQ(rows[b].values[2], 0);
+        EXPECT_NEAR(rows[b].values[4], b < 5 ? 1000 : 1010, 1e-9);
+        EXPECT_EQ(rows[b].values[5], 16 * 12 * 2);  // walls are not counted
+    }
+    const auto fine = begin("{type: profile, every: 10 steps, axis: x, bins: 64}", scene);
+    const auto slabs = fine->observe(scene, {});
+    EXPECT_TRUE(std::isnan(slabs[0].values[1]));  // no lattice plane in the first quarter of a spacing
+    EXPECT_EQ(slabs[0].values[5], 0);
+}
+
+}  // namespace
+}  // namespace corpuscle::observers::testing
