@@ -63,20 +63,23 @@ bool isName(const std::string& text) {
 
 namespace {
 
+struct Opened {
+    char character;  // a bracket or a quotation mark
+    int line, column;
+};
+
 // "[20, 16, 16] um" is no YAML. The unit is replaced by blanks before parsing, so that every column stays right, and
 // found again by the place of its bracket.
 struct ListUnits {
     std::string text;
     std::map<std::pair<int, int>, std::string> unitAt;  // (line, column) of '[', from 0, in bytes as yaml-cpp counts
+    std::optional<Opened> unclosed;                     // the bracket that is to blame if YAML cannot read the text
 };
 
 ListUnits takeListUnits(std::string text, const std::string& shownAs, Problems& problems) {
     ListUnits result;
-    struct Open {
-        char bracket;
-        int line, column;
-    };
-    std::vector<Open> open;
+    std::vector<Opened> open;
+    Opened quotation{};
     int line = 0, column = 0;
     char quote = 0, previous = '\n';  // previous: last character of this line that is not blank
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -109,11 +112,15 @@ ListUnits takeListUnits(std::string text, const std::string& shownAs, Problems& 
         }
         const bool startsToken = previous == '\n' || (text[i - 1] == ' ' && (previous == ':' || previous == '-')) ||
                                  (!open.empty() && std::string_view(",[{:").find(previous) != std::string_view::npos);
-        if ((c == '"' || c == '\'') && startsToken) quote = c;
+        if ((c == '"' || c == '\'') && startsToken) {
+            quote = c;
+            quotation = {c, line, here};
+        }
         if ((c == '[' || c == '{') && (startsToken || !open.empty())) open.push_back({c, line, here});
         if ((c == ']' || c == '}') && !open.empty()) {
-            const Open opened = open.back();
+            const Opened opened = open.back();
             open.pop_back();
+            if ((opened.character == '[') != (c == ']') && !result.unclosed) result.unclosed = opened;
             std::size_t end = i + 1;
             while (end < text.size() && std::string_view(",]}\n").find(text[end]) == std::string_view::npos &&
                    !(text[end] == '#' && text[end - 1] == ' '))
@@ -121,13 +128,17 @@ ListUnits takeListUnits(std::string text, const std::string& shownAs, Problems& 
             std::string unit = text.substr(i + 1, end - i - 1);
             unit.erase(0, unit.find_first_not_of(' '));
             unit.erase(unit.find_last_not_of(" \r") + 1);
-            if (opened.bracket == '[' && c == ']' && !unit.empty() && unit.front() != ':') {
+            if (opened.character == '[' && c == ']' && !unit.empty() && unit.front() != ':') {
                 result.unitAt[{opened.line, opened.column}] = unit;
                 std::fill(text.begin() + static_cast<long>(i) + 1, text.begin() + static_cast<long>(end), ' ');
             }
         }
         if (c != ' ' && c != '\r') previous = c;
     }
+    if (quote)
+        problems.add({shownAs, quotation.line + 1, quotation.column + 1}, "",
+                     fmt::format("this quotation mark is not closed; a {} is missing", quote));
+    if (!open.empty() && !result.unclosed) result.unclosed = open.front();
     result.text = std::move(text);
     return result;
 }
@@ -245,15 +256,19 @@ class TreeBuilder : public YAML::EventHandler {
 
 // What is said about a value that YAML cannot read.
 std::string hint(const std::string& message) {
+    if (message.find("anchor is not defined") != std::string::npos)
+        return "an alias (*name); write the value out, anchors and aliases are not part of a dictionary";
     if (message.find("end of map") != std::string::npos || message.find("illegal map value") != std::string::npos)
         return message + "; is a ':' missing, or a line indented wrongly?";
     return message;
 }
 
 Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, Problems& problems) {
+    const std::size_t before = problems.count();
     const ListUnits units = takeListUnits(text, shownAs, problems);
     Node root;
     root.mark = {shownAs, 1, 1};
+    if (problems.count() != before) return root;  // YAML would stumble over the same place once more
     try {
         std::istringstream stream(units.text);
         YAML::Parser parser(stream);
@@ -270,7 +285,12 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
                 problems.add(root.mark, "", "more than one document ('---'); one file holds one dictionary");
         }
     } catch (const YAML::Exception& e) {
-        problems.add({shownAs, e.mark.line + 1, e.mark.column + 1}, "", hint(e.msg));
+        if (const auto& opened = units.unclosed)
+            problems.add({shownAs, opened->line + 1, opened->column + 1}, "",
+                         fmt::format("this '{}' is not closed; a '{}' is missing", opened->character,
+                                     opened->character == '[' ? ']' : '}'));
+        else
+            problems.add({shownAs, e.mark.line + 1, e.mark.column + 1}, "", hint(e.msg));
     }
     root.setPath("");
     return root;
@@ -332,8 +352,7 @@ Node* child(Node& node, const std::string& name, const std::string& shown, Probl
     if (node.kind == Node::Kind::scalar) {
         // "kernel: lucy" is short for "kernel: {type: lucy}".
         Node table;
-        table.mark = node.mark;
-        table.keyMark = node.keyMark;
+        table.mark = table.keyMark = Mark{"-set", 0, 0};
         if (!node.isNothing()) {
             Node type = node;
             type.keyMark = node.mark;

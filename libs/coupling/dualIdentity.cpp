@@ -1,7 +1,7 @@
 #include "coupling/dualIdentity.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace corpuscle::coupling {
 
@@ -40,13 +40,39 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system) {
     return events;
 }
 
-DualIdentity::Stiffest DualIdentity::stiffest(const ParticleSystem& system) const {
-    double values[2] = {0, -std::numeric_limits<double>::infinity()};
-    for (const Cell& cell : cells_)
-        if (cell.held) values[0] = std::max(values[0], cell.membrane.maxStiffness());
-    for (const NodeExchange::OwnedNode& n : exchange_.owned()) values[1] = std::max(values[1], -system.store().mass[n.particle]);
-    MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_DOUBLE, MPI_MAX, system.comm());
-    return {values[0], -values[1]};
+double DualIdentity::springRate2(const ParticleSystem& system, int iterations) {
+    double largest = 0;
+    for (Cell& cell : cells_) {
+        if (!cell.held) continue;
+        membrane::Membrane& m = cell.membrane;
+        const std::vector<Vec3> rest = m.position, restForce = [&] { return m.computeForces(), m.force; }();
+        const double step = 1e-4 * m.network().meanBondLength();
+        std::vector<Vec3> mode(rest.size());
+        for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
+            mode[k] = Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
+                           std::sin(3 + 37.719 * static_cast<double>(k)));
+        double rate2 = 0;
+        for (int it = 0; it < iterations; ++it) {
+            double longest = 0;
+            for (const Vec3& v : mode) longest = std::max(longest, v.norm());
+            if (longest == 0) break;
+            for (std::size_t k = 0; k < mode.size(); ++k) m.position[k] = rest[k] + step / longest * mode[k];
+            m.computeForces();
+            double before = 0, after = 0;
+            for (std::size_t k = 0; k < mode.size(); ++k) {
+                const Vec3 image = (restForce[k] - m.force[k]) / (step * cell.nodeMass[k]);
+                before += cell.nodeMass[k] * (mode[k] / longest).squaredNorm();
+                after += cell.nodeMass[k] * image.squaredNorm();
+                mode[k] = image;
+            }
+            rate2 = std::sqrt(after / before);
+        }
+        m.position = rest;
+        m.force = restForce;
+        largest = std::max(largest, rate2);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
+    return largest;
 }
 
 }  // namespace corpuscle::coupling

@@ -38,11 +38,9 @@ class DualIdentity : public sph::Load {
     long steps() const { return steps_; }
     void restore(long steps) { steps_ = steps; }
 
-    // Largest stiffness over cells, and the least mass of a node, over all ranks: for the limits of the step. Collective.
-    struct Stiffest {
-        double stiffness = 0, leastMass = 0;
-    };
-    Stiffest stiffest(const particles::ParticleSystem& system) const;
+    // Squared frequency of the stiffest mode of any cell's nodes on their springs: the largest eigenvalue of M^-1 K, by power
+    // iterations on differences of forces [1/s^2]. Collective.
+    double springRate2(const particles::ParticleSystem& system, int iterations);
 
   private:
     std::vector<Cell>& cells_;

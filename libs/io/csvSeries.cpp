@@ -100,8 +100,10 @@ CsvTable readCsvSeries(const std::filesystem::path& caseDir, const std::string& 
         if (all.columns.empty()) all.columns = run.columns;
         if (run.columns != all.columns)
             throw Failure(ExitCode::io, fmt::format("{}: other columns than in the runs before", path.string()));
-        const double limit = start - 1e-8 * std::abs(start);
-        std::erase_if(all.rows, [&](const auto& row) { return row[0] >= limit; });
+        // A restarted run begins after its start, where the earlier one has a row; one that begins there takes its place.
+        const double slack = 1e-8 * std::abs(start), last = start + slack;
+        const double first = run.rows.empty() ? last : run.rows.front()[0] - slack;
+        std::erase_if(all.rows, [&](const auto& row) { return row[0] > last || row[0] >= first; });
         all.rows.insert(all.rows.end(), run.rows.begin(), run.rows.end());
     }
     return all;

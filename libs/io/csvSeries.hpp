@@ -49,8 +49,8 @@ struct CsvTable {
 // row without its line end (being written) is left out.
 CsvTable readCsv(const std::filesystem::path& path);
 
-// All start-time folders in order; the first column is the time, and rows of an earlier run at or after the next run's
-// start are left out. Throws Failure(ExitCode::io) when there is none or the columns differ.
+// All start-time folders in order; the first column is the time, and rows of an earlier run after the next run's start,
+// or at or after its first row, are left out. Throws Failure(ExitCode::io) when there is none or the columns differ.
 CsvTable readCsvSeries(const std::filesystem::path& caseDir, const std::string& observer, const std::string& file);
 
 }  // namespace corpuscle::io

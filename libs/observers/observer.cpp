@@ -20,8 +20,8 @@ void Observation::restore(std::span<const double> saved) {
     setState(saved);
 }
 
-std::string Observer::needsCells(const Scene& scene) {
-    if (!scene.cells.empty()) return {};
+std::string Observer::needsCells(const Subject& subject) {
+    if (subject.cells) return {};
     return "this observer looks at cells, and the case has none; remove it, or give cells in system/mesh.yaml";
 }
 

@@ -59,6 +59,12 @@ class Observation {
     std::vector<Table> tables_;
 };
 
+// What a case has to look at, known before it runs.
+struct Subject {
+    bool cells = false, walls = false;
+    double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
+};
+
 struct ObserverSettings {
     Interval every;
     static const Schema<ObserverSettings>& schema();
@@ -68,13 +74,13 @@ class Observer : public ObserverSettings {
   public:
     static constexpr const char* familyName = "observer";
     virtual ~Observer() = default;
-    // Why this scene cannot be observed so, and what to do, in plain words; empty: it can.
-    virtual std::string obstacle(const Scene&, const Time&) const { return {}; }
+    // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
+    virtual std::string obstacle(const Subject&) const { return {}; }
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
 
   protected:
     // obstacle() of an observer of cells, empty when there are some.
-    static std::string needsCells(const Scene& scene);
+    static std::string needsCells(const Subject& subject);
 };
 
 }  // namespace corpuscle::observers

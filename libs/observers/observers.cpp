@@ -11,13 +11,16 @@ const Schema<ObserversSettings>& ObserversSettings::schema() {
     return s;
 }
 
-namespace {
-
-std::string obstacle(const Observer& observer, const Scene& scene, const Time& start) {
-    if (observer.every.kind == Interval::Kind::strain && start.shearRate == 0)
-        return "'every' is given in strain, but the flow has no shear rate; give it in s or in steps";
-    return observer.obstacle(scene, start);
+void ObserversSettings::check(const Node& dictionary, const Subject& subject, Problems& problems) const {
+    for (const auto& [name, choice] : models) {
+        const bool strainless = choice->every.kind == Interval::Kind::strain && subject.shearRate == 0;
+        const std::string text = strainless ? "'every' is given in strain, but the flow has no shear rate; give it in s or in steps"
+                                            : choice->obstacle(subject);
+        if (!text.empty()) problems.add(dictionary.find(name)->place(), name, choice.name + ": " + text);
+    }
 }
+
+namespace {
 
 // A file name that two tables of one observation would share; empty: none.
 std::string sharedFile(const Observation& observation) {
@@ -35,15 +38,12 @@ Observers::Observers(const std::optional<Node>& dictionary, const Scene& scene, 
     Problems problems;
     const auto chosen = read<ObserversSettings>(*dictionary, problems);
     problems.throwIfAny();
+    chosen.check(*dictionary, {!scene.cells.empty(), scene.flow.walls.exist(), start.shearRate}, problems);
+    problems.throwIfAny();
     for (const auto& [name, choice] : chosen.models) {
-        const Mark& place = dictionary->find(name)->place();
-        if (const std::string text = obstacle(*choice, scene, start); !text.empty()) {
-            problems.add(place, name, choice.name + ": " + text);
-            continue;
-        }
         Running observer{name, choice.name, Ticker(choice->every, start), choice->begin(scene), {}};
         if (const std::string file = sharedFile(*observer.observation); !file.empty())
-            problems.add(place, name, choice.name + ": two of its files would be called " + file +
+            problems.add(dictionary->find(name)->place(), name, choice.name + ": two of its files would be called " + file +
                                           ".csv; give the cell of this name another one in system/mesh.yaml");
         running_.push_back(std::move(observer));
     }

@@ -23,6 +23,8 @@ namespace corpuscle::observers {
 struct ObserversSettings {
     std::map<std::string, Choice<Observer>> models;
     static const Schema<ObserversSettings>& schema();
+    // Adds a problem for each observer that does not suit the subject, at its place in `dictionary`, from which these were read.
+    void check(const Node& dictionary, const Subject& subject, Problems& problems) const;
 };
 
 class Observers {

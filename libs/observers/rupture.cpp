@@ -148,7 +148,7 @@ struct RuptureObserver : Observer {
             Schema<RuptureObserver>("rupture", "broken bonds, holes and released fluid").include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Scene& scene, const Time&) const override { return needsCells(scene); }
+    std::string obstacle(const Subject& subject) const override { return needsCells(subject); }
     std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<RuptureObservation>(scene); }
 };
 

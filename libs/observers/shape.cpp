@@ -120,13 +120,13 @@ struct ShapeObserver : Observer {
             Schema<ShapeObserver>("shape", "deformation, orientation and rotation of each cell").include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Scene& scene, const Time& time) const override {
+    std::string obstacle(const Subject& subject) const override {
         const double strain = every.kind == Interval::Kind::strain ? every.value
-                              : every.kind == Interval::Kind::time ? every.value * time.shearRate
+                              : every.kind == Interval::Kind::time ? every.value * subject.shearRate
                                                                    : 0;
         if (strain > largestStrainBetweenLooks)
             return "angles are followed from one look to the next: at most 1.5 strain may pass; give a smaller 'every'";
-        return needsCells(scene);
+        return needsCells(subject);
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<ShapeObservation>(scene); }
 };

@@ -48,8 +48,8 @@ struct WallStressObserver : Observer {
             Schema<WallStressObserver>("wallStress", "stress on the walls and effective viscosity").include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Scene& scene, const Time&) const override {
-        if (scene.flow.walls.exist()) return {};
+    std::string obstacle(const Subject& subject) const override {
+        if (subject.walls) return {};
         return "this observer looks at walls, and the flow has none; remove it, or choose a flow with walls in constant/flow.yaml";
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<WallStressObservation>(scene); }

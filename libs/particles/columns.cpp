@@ -60,17 +60,4 @@ double Columns::gapY(int cy, double a, double b) const {
     return std::max({0.0, low - b, a - high});
 }
 
-Columns::Span Columns::between(int column, const double* z, double zLow, double zHigh) const {
-    const double* first = z + begin(column);
-    const double* last = z + end(column);
-    if (downwards(column)) {
-        const double* a = std::lower_bound(first, last, zHigh, [](double value, double bound) { return value > bound; });
-        const double* b = std::upper_bound(a, last, zLow, [](double bound, double value) { return value < bound; });
-        return {static_cast<int>(a - z), static_cast<int>(b - z)};
-    }
-    const double* a = std::lower_bound(first, last, zLow);
-    const double* b = std::upper_bound(a, last, zHigh);
-    return {static_cast<int>(a - z), static_cast<int>(b - z)};
-}
-
 }  // namespace corpuscle::particles

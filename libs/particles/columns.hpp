@@ -31,11 +31,28 @@ class Columns {
     double gapX(int cx, double a, double b) const;
     double gapY(int cy, double a, double b) const;
 
-    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array.
+    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. Walks there from `near`,
+    // the answer to a similar question: any range is right, a close one is fast.
     struct Span {
-        int begin, end;
+        int begin = 0, end = 0;
     };
-    Span between(int column, const double* z, double zLow, double zHigh) const;
+    Span between(int column, const double* z, double zLow, double zHigh, Span near) const {
+        const int first = begin(column), last = end(column);
+        int a = near.begin < first ? first : near.begin > last ? last : near.begin;
+        int b = near.end < first ? first : near.end > last ? last : near.end;
+        if (downwards(column)) {
+            while (a > first && z[a - 1] <= zHigh) --a;
+            while (a < last && z[a] > zHigh) ++a;
+            while (b > first && z[b - 1] < zLow) --b;
+            while (b < last && z[b] >= zLow) ++b;
+        } else {
+            while (a > first && z[a - 1] >= zLow) --a;
+            while (a < last && z[a] < zLow) ++a;
+            while (b > first && z[b - 1] > zHigh) --b;
+            while (b < last && z[b] <= zHigh) ++b;
+        }
+        return {a, b};
+    }
 
   private:
     static int clampCell(double c, int n) {

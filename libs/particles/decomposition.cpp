@@ -70,8 +70,9 @@ void Decomposition::balance(const ParticleStore& particles) {
         void operator()(Zoltan_Struct* z) const { Zoltan_Destroy(&z); }
     };
     const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(comm_));
-    for (auto [key, value] : {std::pair{"LB_METHOD", "RCB"}, {"NUM_GID_ENTRIES", "1"}, {"NUM_LID_ENTRIES", "1"},
-                              {"DEBUG_LEVEL", "0"}, {"KEEP_CUTS", "1"}, {"RCB_RECTILINEAR_BLOCKS", "1"},
+    // The debug level first: every later setting would be told on the standard output.
+    for (auto [key, value] : {std::pair{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"NUM_GID_ENTRIES", "1"},
+                              {"NUM_LID_ENTRIES", "1"}, {"KEEP_CUTS", "1"}, {"RCB_RECTILINEAR_BLOCKS", "1"},
                               {"RETURN_LISTS", "NONE"}, {"OBJ_WEIGHT_DIM", "0"}})
         require(Zoltan_Set_Param(zoltan.get(), key, value), key);
     void* data = const_cast<ParticleStore*>(&particles);
@@ -167,6 +168,7 @@ void migrate(ParticleStore& particles, const Decomposition& decomposition) {
     MPI_Alltoallv(sent.data(), sendCounts.data(), sendStart.data(), MPI_DOUBLE, received.data(), receiveCounts.data(),
                   receiveStart.data(), MPI_DOUBLE, decomposition.comm());
 
+    if (staying.size() == particles.size() && received.empty()) return;
     particles.reorder(staying);
     const std::size_t kept = staying.size(), arriving = received.size() / static_cast<std::size_t>(fields);
     particles.resize(kept + arriving);

@@ -4,20 +4,72 @@
 namespace corpuscle::particles::CORPUSCLE_ISA_NAMESPACE {
 
 namespace {
-using V = Simd<CORPUSCLE_ISA_TAG>;
 
-int gather(const double* blockX, const double* blockY, const double* blockZ, const double* x, const double* y, const double* z,
-           int begin, int end, double reach2, const unsigned char* skip, int* out) {
-    const V bx = V::load(blockX), by = V::load(blockY), bz = V::load(blockZ);
+// Writes first + l for every lane l whose value is below the bound, without a branch, and says how many. Lanes from `valid` on
+// do not count.
+#if defined(__AVX512F__)
+typedef float Lanes __attribute__((vector_size(64)));
+CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm512_min_ps(__m512(a), __m512(b))); }
+CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
+    unsigned mask = _mm512_cmp_ps_mask(__m512(r2), _mm512_set1_ps(bound), _CMP_LT_OQ);
+    if (valid < 16) mask &= (1u << valid) - 1;
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i number = _mm512_add_epi32(lane, _mm512_set1_epi32(first));
+    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), number));
+    return __builtin_popcount(mask);
+}
+#elif defined(__AVX2__)
+// For each mask of eight lanes the numbers of those that are set, in order.
+struct Compression {
+    unsigned char lane[256][8];
+    constexpr Compression() : lane{} {
+        for (int mask = 0; mask < 256; ++mask)
+            for (int l = 0, k = 0; l < 8; ++l)
+                if (mask >> l & 1) lane[mask][k++] = static_cast<unsigned char>(l);
+    }
+};
+alignas(64) constexpr Compression compression;
+
+typedef float Lanes __attribute__((vector_size(32)));
+CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm256_min_ps(__m256(a), __m256(b))); }
+CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
+    auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(r2), _mm256_set1_ps(bound), _CMP_LT_OQ)));
+    if (valid < 8) mask &= (1u << valid) - 1;
+    const __m256i lane = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(compression.lane[mask])));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(lane, _mm256_set1_epi32(first)));
+    return __builtin_popcount(mask);
+}
+#else
+typedef float Lanes __attribute__((vector_size(16)));
+CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
+CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
     int count = 0;
-    for (int c = begin; c < end; ++c) {
-        const V dx = bx - V(x[c]), dy = by - V(y[c]), dz = bz - V(z[c]);
-        const V r2 = dx * dx + dy * dy + dz * dz;
-        out[count] = c;
-        count += anyBelow(r2, reach2) && !(skip && skip[c]);
+    for (int l = 0; l < 4; ++l) {
+        out[count] = first + l;
+        count += r2[l] < bound && l < valid;
     }
     return count;
 }
+#endif
+
+int gather(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset, float reach2, int* out) {
+    constexpr int lanes = CORPUSCLE_ISA_TAG::lanes, width = sizeof(Lanes) / sizeof(float);
+    int count = 0;
+    for (int c = begin; c < end; c += width) {
+        Lanes px, py, pz, nearest;
+        __builtin_memcpy(&px, x + c, sizeof(Lanes));
+        __builtin_memcpy(&py, y + c, sizeof(Lanes));
+        __builtin_memcpy(&pz, z + c, sizeof(Lanes));
+        for (int l = 0; l < lanes; ++l) {
+            const Lanes dx = px - block[l], dy = py - block[lanes + l], dz = pz - block[2 * lanes + l];
+            const Lanes r2 = dx * dx + dy * dy + dz * dz;
+            nearest = l == 0 ? r2 : least(nearest, r2);
+        }
+        count += append(nearest, reach2, c + offset, end - c, out + count);
+    }
+    return count;
+}
+
 }  // namespace
 
 extern const ListKernel kernel;

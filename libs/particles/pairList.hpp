@@ -1,13 +1,15 @@
 // The neighbour list: one flat array of j for every block of consecutive particles i (as many as the pair loop has lanes).
 //
 // j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
-// the list holds as long as no particle has moved more than skin/2 since. Pairs of two wall particles are left out.
+// the list holds as long as no particle has moved more than skin/2 since. A block of nothing but wall particles lists no wall
+// particles: walls do not act on walls.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
 // a wall need the wall's form of a law.
 #pragma once
 #include <vector>
 
 #include "particles/columns.hpp"
+#include "particles/decomposition.hpp"
 #include "particles/isa.hpp"
 #include "particles/pairLoop.hpp"
 #include "particles/particleStore.hpp"
@@ -19,9 +21,9 @@ class PairList {
     enum Group { interior = 0, interiorAtWall = 1, boundary = 2, boundaryAtWall = 3, groups = 4 };
 
     // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
-    // wall[k] != 0 for wall particles (empty: there are none).
+    // wall[k] != 0 for wall particles (empty: there are none). No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts, const double* const position[3],
-               const std::vector<unsigned char>& wall, double reach);
+               const std::vector<unsigned char>& wall, const Brick& brick, double reach);
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }
@@ -33,6 +35,7 @@ class PairList {
     int owned_ = 0;
     std::vector<int> first_{0};
     AlignedVector<int> j_;
+    AlignedVector<float> relative_[3];  // positions relative to the brick's middle, kept for their memory
     std::vector<int> blocks_[groups];
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <string_view>
 #include <vector>
@@ -14,15 +15,28 @@
 
 namespace corpuscle::particles {
 
-// 64-byte aligned storage for vector loads.
+// 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would put them all at the same
+// place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the cache (an integrator's
+// loop took four times as long).
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
     AlignedAllocator() = default;
     template <class U>
     AlignedAllocator(const AlignedAllocator<U>&) {}
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t(64))); }
-    void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+    T* allocate(std::size_t n) {
+        constexpr std::size_t line = 64, lines = 4096 / line, large = 65536;
+        static std::size_t next = 0;
+        const std::size_t skipped = line * (1 + (n * sizeof(T) < large ? 0 : next++ * 5 % lines));
+        char* const whole = static_cast<char*>(::operator new(n * sizeof(T) + skipped, std::align_val_t(line)));
+        std::memcpy(whole + skipped - sizeof whole, &whole, sizeof whole);  // where it began, for deallocate
+        return reinterpret_cast<T*>(whole + skipped);
+    }
+    void deallocate(T* p, std::size_t) {
+        char* whole = nullptr;
+        std::memcpy(&whole, reinterpret_cast<char*>(p) - sizeof whole, sizeof whole);
+        ::operator delete(whole, std::align_val_t(64));
+    }
     bool operator==(const AlignedAllocator&) const { return true; }
 };
 template <class T>
@@ -92,6 +106,8 @@ class ParticleStore {
         if (s.optional_.node) f("node", s.node);
     }
     Optional optional_;
+    RealArray spareReals_;  // memory for reorder: swapped in turn with every array
+    IntegerArray spareIntegers_;
 };
 
 }  // namespace corpuscle::particles

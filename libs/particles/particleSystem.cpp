@@ -1,6 +1,8 @@
 #include "particles/particleSystem.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 
@@ -36,7 +38,9 @@ double ParticleSystem::largestDisplacement2() const {
     double most = 0;
     for (int i = 0; i < owned(); ++i) {
         const double dx = store_.x[i] - store_.xBuilt[i], dy = store_.y[i] - store_.yBuilt[i], dz = store_.z[i] - store_.zBuilt[i];
-        most = std::max(most, dx * dx + dy * dy + dz * dz);
+        const double d2 = dx * dx + dy * dy + dz * dz;
+        if (!(d2 <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::infinity();  // NaN too
+        most = std::max(most, d2);
     }
     return most;
 }
@@ -44,9 +48,9 @@ double ParticleSystem::largestDisplacement2() const {
 bool ParticleSystem::mustRebuild() const { return mustRebuild(largestDisplacement2()); }
 
 bool ParticleSystem::mustRebuild(double largestDisplacement2) const {
-    double most = largestDisplacement2;
+    double most = std::isnan(largestDisplacement2) ? std::numeric_limits<double>::infinity() : largestDisplacement2;
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, comm());
-    return !(most <= 0.25 * skin_ * skin_);  // true for NaN: the rebuild then reports the lost particle
+    return most > 0.25 * skin_ * skin_;
 }
 
 void ParticleSystem::rebuild() {
@@ -73,14 +77,15 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     halo_.plan(x.data(), y.data(), z.data(), n, decomposition_, box_, reach);
     const int g = halo_.ghostCount();
     const auto total = static_cast<std::size_t>(n + g);
-    RealArray records(total * 4);
+    RealArray& records = buildRecords_;
+    records.resize(total * 4);
     for (int i = 0; i < n; ++i) {
         double* r = records.data() + 4 * static_cast<std::size_t>(i);
         r[0] = x[i], r[1] = y[i], r[2] = z[i], r[3] = store_.kindOf(i) == Kind::wall ? 1.0 : 0.0;
     }
     halo_.exchange(records.data(), n, 4);
 
-    RealArray position[3];
+    RealArray(&position)[3] = buildPosition_;
     std::vector<unsigned char> wall(total);
     for (int k = 0; k < 3; ++k) {
         position[k].resize(total);
@@ -103,7 +108,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     if (std::find(wall.begin(), wall.end(), 1) == wall.end()) wall.clear();
 
     const double* const pointers[3] = {position[0].data(), position[1].data(), position[2].data()};
-    list_.build(columns_, n, ghostColumns_, g, pointers, wall, reach);
+    list_.build(columns_, n, ghostColumns_, g, pointers, wall, brick, reach);
 }
 
 std::size_t ParticleSystem::bytes() const {

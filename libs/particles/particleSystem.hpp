@@ -49,7 +49,8 @@ class ParticleSystem {
 
     // Whether some particle of any rank has moved more than skin/2 since the last build. Collective.
     bool mustRebuild() const;
-    // The same from a square of displacement that the caller has at hand.
+    // The same from a square of displacement that the caller has at hand; NaN or infinity where a position is not finite:
+    // the rebuild then reports the particle.
     bool mustRebuild(double largestDisplacement2) const;
     double largestDisplacement2() const;
     // Wraps, migrates, sorts, plans the halo, builds the list; rebalances bricks when they are uneven. Collective.
@@ -75,6 +76,7 @@ class ParticleSystem {
     PairList list_;
     Columns columns_, ghostColumns_;
     long rebuilds_ = 0;
+    RealArray buildRecords_, buildPosition_[3];  // kept for their memory
 };
 
 }  // namespace corpuscle::particles

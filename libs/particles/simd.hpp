@@ -127,6 +127,13 @@ template <class Isa>
 CORPUSCLE_INLINE Simd<Isa> sqrt(const Simd<Isa>& a) {
     return Simd<Isa>::map([](auto x) CORPUSCLE_LAMBDA { return native::sqrt(x); }, a);
 }
+// a where the sign is negative, b elsewhere.
+template <class Isa>
+CORPUSCLE_INLINE Simd<Isa> whereNegative(const Simd<Isa>& sign, const Simd<Isa>& a, const Simd<Isa>& b) {
+    Simd<Isa> r;
+    for (int k = 0; k < Simd<Isa>::registers; ++k) r.part[k] = sign.part[k] < typename Simd<Isa>::Native{} ? a.part[k] : b.part[k];
+    return r;
+}
 // Whether any lane of a is below s.
 template <class Isa>
 CORPUSCLE_INLINE bool anyBelow(const Simd<Isa>& a, double s) {

@@ -2,20 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace corpuscle::simulation {
 
 namespace {
 
+using Files = std::map<std::string, Node>;  // the dictionaries as they were read
+
 template <class T>
-T readFile(const Application& app, const std::string& file, Case& result, Problems& problems) {
+T readFile(const Application& app, const std::string& file, Case& result, Files& files, Problems& problems) {
     const std::size_t before = problems.count();
-    const Node node = app.dictionary(file, problems);
+    const Node& node = files[file] = app.dictionary(file, problems);
     if (problems.count() != before) return T{};  // the file itself is missing or malformed
     T settings = read<T>(node, problems);
     if (problems.count() == before) result.effective.emplace_back(file, write(settings));
     return settings;
+}
+
+// Place of a key, or of the innermost table around it that was written.
+const Mark& placeOf(const Node& node, const std::string& key) {
+    const auto holds = [&](const Node& child) {
+        const std::size_t n = child.path.size();
+        return key.starts_with(child.path) && (key.size() == n || key[n] == '.' || key[n] == '[');
+    };
+    for (const auto& [name, child] : node.entries)
+        if (holds(child)) return placeOf(child, key);
+    for (const Node& child : node.items)
+        if (holds(child)) return placeOf(child, key);
+    return node.isNothing() ? node.place() : node.mark;
+}
+
+// Rules between files know a file and a key; the line and column follow from the dictionary.
+void throwIfAny(const Problems& problems, const Files& files) {
+    try {
+        problems.throwIfAny();
+    } catch (const CaseError& error) {
+        Problems placed;
+        for (const Problem& p : error.problems()) {
+            const auto file = files.find(p.mark.file);
+            placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key, p.message);
+        }
+        placed.throwIfAny();
+    }
 }
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
@@ -24,6 +54,9 @@ const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 void checkTogether(const Case& c, Problems& problems) {
     const int wall = c.flowModel->wallAxis();
     const Mark mesh{"system/mesh.yaml", 0, 0};
+    if (c.control.application == "sphFlow" && !c.mesh.cells.empty())
+        problems.add({"system/control.yaml", 0, 0}, "application",
+                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or remove the cells");
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (k == wall && c.mesh.domain.periodic[axis])
@@ -54,53 +87,64 @@ void checkTogether(const Case& c, Problems& problems) {
                              (known.empty() ? "is none" : "are: " + joinWords(known)) + "." + didYouMean(cell.type(), known));
         }
         if (!cell.shape) continue;
-        const double reach = cell.shape->box().diagonal().norm() / 2;
-        for (int k = 0; k < 3; ++k)
-            if (k == wall && std::abs(cell.centre[k]) + std::min(reach, cell.shape->radius()) * (std::abs(cell.axis.normalized()[k]) < 0.99 ? 1 : 0) >
-                                 0.5 * c.mesh.domain.size[k])
-                problems.add(mesh, key + ".centre", std::string("the cell reaches through the wall along ") + axisName(k) +
-                                                        "; move it towards the middle or make the box larger");
+        const double radius = cell.shape->radius();
+        if (cell.edge > 0.5 * radius)
+            problems.add(mesh, key + ".edge", "found " + formatQuantity(cell.edge, unit::metre) + ", too coarse for a cell of radius " +
+                                                  formatQuantity(radius, unit::metre) + "; at most half the radius, " +
+                                                  formatQuantity(0.5 * radius, unit::metre));
+        if (wall < 0) continue;
+        // Extent across the walls, as that of the ellipsoid in the shape's box.
+        const Eigen::AlignedBox3d box = cell.shape->box();
+        const Vec3 across = geometry::rotationFromZ(cell.axis).row(wall).transpose(), half = 0.5 * box.sizes(), middle = box.center();
+        const double extent = std::abs(cell.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
+        if (extent > 0.5 * c.mesh.domain.size[wall])
+            problems.add(mesh, key + ".centre", std::string("the cell reaches through the wall along ") + axisName(wall) + ", to " +
+                                                    formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
+                                                    formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
+                                                    "; move it towards the middle or make the box larger");
     }
     if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
-                     "found " + formatQuantity(c.support(), unit::metre) + ", which reaches no neighbour; at least 1.2 dx, usually 2.4 to 3 dx");
+                     "found " + formatQuantity(c.support() / c.spacing(), unit::none) +
+                         " dx, which reaches too few neighbours; at least 1.2 dx, usually 2.4 to 3 dx");
 }
 
 }  // namespace
 
 Case Case::read(const Application& app) {
     Problems problems;
+    Files files;
     Case c;
     c.directory = app.caseDirectory();
-    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
-    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
-    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, problems);
-    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
+    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, files, problems);
+    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, files, problems);
+    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, files, problems);
+    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, files, problems);
     if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
-        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
+        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, files, problems);
     {
         const std::size_t before = problems.count();
-        const Node node = app.dictionary("constant/flow.yaml", problems);
+        const Node& node = files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
         if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
         if (problems.count() == before) c.effective.emplace_back("constant/flow.yaml", writeChoice(c.flowModel));
     }
+    observers::ObserversSettings observing;
     if (app.hasDictionary("system/observers.yaml")) {
-        readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
-        Problems reported;
-        c.observers = app.dictionary("system/observers.yaml", reported);
+        observing = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, files, problems);
+        c.observers = files["system/observers.yaml"];
     }
     problems.throwIfAny();
 
-    for (const CellSettings& cell : c.mesh.cells) {
+    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
         try {
-            cell.shape->prepare(c.directory);
+            c.mesh.cells[i].shape->prepare(c.directory);
         } catch (const Failure& fault) {
-            problems.add({"system/mesh.yaml", 0, 0}, "cells." + cell.name + ".shape", fault.what());
+            problems.add({"system/mesh.yaml", 0, 0}, "cells[" + std::to_string(i) + "].shape", fault.what());
         }
     }
-    problems.throwIfAny();
+    throwIfAny(problems, files);
     checkTogether(c, problems);
-    problems.throwIfAny();
+    throwIfAny(problems, files);
 
     sph::FlowContext context{c.fluidBox(), c.fluid.viscosity, c.fluid.density, 0, 0};
     if (!c.mesh.cells.empty()) {
@@ -109,11 +153,14 @@ Case Case::read(const Application& app) {
         context.shearModulus = c.membraneOf(first).bonds->hexagonalModuli(first.edge).shear;
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
-    if (problems.empty() && c.control.endStrain && c.flow.shearRate <= 0)
+    throwIfAny(problems, files);
+    if (c.control.endStrain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "endStrain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
-    if (problems.empty() && c.control.write.strain && c.flow.shearRate <= 0)
+    if (c.control.write.strain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "write.strain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
-    problems.throwIfAny();
+    if (c.observers)
+        observing.check(*c.observers, {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
+    throwIfAny(problems, files);
     return c;
 }
 

@@ -1,5 +1,7 @@
 #include "simulation/caseSettings.hpp"
 
+#include <stdexcept>
+
 namespace corpuscle::simulation {
 
 const Schema<WriteSettings>& WriteSettings::schema() {
@@ -40,6 +42,21 @@ const Schema<StopSettings>& StopSettings::schema() {
     return s;
 }
 
+std::optional<double> ControlSettings::startingTime(const std::string& startFrom) {
+    if (startFrom == "latestTime") return std::nullopt;
+    if (startFrom == "firstTime") return 0.0;
+    Quantity time;
+    try {
+        time = parseQuantity(startFrom);
+    } catch (const std::invalid_argument&) {
+        time.hasUnit = false;
+    }
+    if (!time.hasUnit || time.dimension != unit::second || time.value < 0)
+        throw std::invalid_argument("found '" + startFrom + "'; allowed are latestTime, firstTime, or a time with its unit (1.2e-3 s)." +
+                                    didYouMean(startFrom, {"latestTime", "firstTime"}));
+    return time.value;
+}
+
 const Schema<ControlSettings>& ControlSettings::schema() {
     static const Schema<ControlSettings> s =
         Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
@@ -52,7 +69,14 @@ const Schema<ControlSettings>& ControlSettings::schema() {
             .exactlyOneOf({"endTime", "endStrain"})
             .table("write", &ControlSettings::write, "results", {.fallback = "{}"})
             .table("checkpoint", &ControlSettings::checkpoint, "checkpoints", {.fallback = "{}"})
-            .table("stop", &ControlSettings::stop, "early end", {.fallback = "{}"});
+            .table("stop", &ControlSettings::stop, "early end", {.fallback = "{}"})
+            .check([](const ControlSettings& c, const Node& node, Problems& problems) {
+                try {
+                    startingTime(c.startFrom);
+                } catch (const std::invalid_argument& fault) {
+                    if (const Node* given = node.find("startFrom")) problems.add(given->mark, given->path, fault.what());
+                }
+            });
     return s;
 }
 
@@ -70,8 +94,8 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                     {.fallback = "0.3 dx", .range = positive})
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",
                      {.fallback = "10", .range = nonNegative})
-            .quantity("safety", &NumericsSettings::safety, unit::none, "fraction of the smallest limit that a time step takes",
-                      {.fallback = "0.9", .range = between(0.01, 1)});
+            .quantity("safety", &NumericsSettings::safety, unit::none, "fraction of the viscous and the spring limit that a time step may take",
+                      {.fallback = "0.95", .range = between(0.01, 1)});
     return s;
 }
 
@@ -94,8 +118,8 @@ const Schema<CellSettings>& CellSettings::schema() {
             .vector("centre", &CellSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
             .vector("axis", &CellSettings::axis, unit::none, "direction of its symmetry axis", {.fallback = "[0, 0, 1]"})
             .check([](const CellSettings& c, const Node& node, Problems& problems) {
-                if (c.axis.norm() == 0)
-                    problems.add(node.mark, node.path + ".axis", "found the zero vector; a direction is needed, such as [0, 0, 1]");
+                if (const Node* axis = node.find("axis"); axis && c.axis.norm() == 0)
+                    problems.add(axis->mark, axis->path, "found the zero vector; a direction is needed, such as [0, 0, 1]");
             });
     return s;
 }

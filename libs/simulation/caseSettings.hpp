@@ -32,6 +32,8 @@ struct StopSettings {
 struct ControlSettings {
     std::string application;
     std::string startFrom = "latestTime";
+    // The time that `startFrom` (or -restart) means [s]; nothing for latestTime. Throws std::invalid_argument that says what is allowed.
+    static std::optional<double> startingTime(const std::string& startFrom);
     std::optional<double> endTime, endStrain;
     WriteSettings write;
     CheckpointSettings checkpoint;
@@ -47,7 +49,7 @@ struct NumericsSettings {
     std::optional<sph::ShiftingSettings> shifting;
     Length skin;
     long guard = 10;     // steps between two looks of the leakage guard; 0: none
-    double safety = 0.9; // fraction of each limit that the step takes
+    double safety = 0.95; // fraction of each limit that the step takes
     static const Schema<NumericsSettings>& schema();
 };
 

@@ -1,6 +1,7 @@
 #include "simulation/checkpoint.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "io/checkpointFile.hpp"
 #include "simulation/resultsWriter.hpp"
@@ -39,6 +40,7 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("step", static_cast<std::int64_t>(time.step));
     file.attribute("dt", state.integrator.dt);
     file.attribute("viscousRate", state.integrator.viscousRate);
+    file.attribute("springRate2", state.integrator.springRate2);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     file.attribute("spacing", scene.spacing);
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
@@ -79,7 +81,7 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
     time.t = file.attribute<double>("time");
     time.step = file.attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("dt")};
+    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("springRate2"), file.attribute<double>("dt")};
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;
@@ -119,24 +121,19 @@ void restoreCoupling(const std::filesystem::path& path, Scene& scene) {
 }
 
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log) {
-    if (startFrom == "firstTime") return {};
-    if (startFrom == "latestTime") {
+    std::optional<double> wanted;
+    try {
+        wanted = ControlSettings::startingTime(startFrom);
+    } catch (const std::invalid_argument& fault) {  // the case's own word was checked when it was read
+        throw Failure(ExitCode::usage, std::string("-restart: ") + fault.what());
+    }
+    if (!wanted) {
         const io::CheckpointSearch found = io::latestCheckpoint(comm, input.directory);
         for (const std::string& warning : found.warnings) log.warning("{}", warning);
         return found.path;
     }
-    Quantity wanted;
-    try {
-        wanted = parseQuantity(startFrom);
-    } catch (const std::invalid_argument&) {
-        wanted.hasUnit = false;
-    }
-    if (!wanted.hasUnit || wanted.dimension != unit::second)
-        throw CaseError({{{"system/control.yaml", 0, 0}, "startFrom",
-                          "found '" + startFrom + "'; allowed are latestTime, firstTime, or a time with its unit (1.2e-3 s)." +
-                              didYouMean(startFrom, {"latestTime", "firstTime"})}});
-    if (wanted.value == 0) return {};
-    return io::findCheckpoint(input.directory, wanted.value);
+    if (*wanted == 0) return {};
+    return io::findCheckpoint(input.directory, *wanted);
 }
 
 }  // namespace corpuscle::simulation

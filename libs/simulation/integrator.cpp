@@ -10,8 +10,8 @@ using coupling::Scene;
 namespace {
 constexpr int powerIterations = 25;
 constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
-constexpr long stepsPerViscousEstimate = 5000;
-constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25, springFactor = 0.4;
+constexpr long stepsPerEstimate = 1000;
+constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25;
 constexpr double largestDensityChange = 0.5;
 }  // namespace
 
@@ -26,13 +26,14 @@ Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(
 
 void Integrator::start(Time& time) {
     scheme_->start();
-    viscousRate_ = scene_.forces->viscousRate(*scene_.system, powerIterations);
+    estimateRates();
     updateLimits(time);
 }
 
 void Integrator::resume(const State& state, Time& time) {
     scheme_->resume();
     viscousRate_ = state.viscousRate;
+    springRate2_ = state.springRate2;
     updateLimits(time);
     time.dt = state.dt;
 }
@@ -41,11 +42,16 @@ void Integrator::advance(Scene& scene, Time& time) {
     scheme_->advance(time.dt);
     if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system);
     time.advance(time.dt);
-    if (time.step % stepsPerViscousEstimate == 0) viscousRate_ = scene.forces->viscousRate(*scene.system, powerIterations);
+    if (time.step % stepsPerEstimate == 0) estimateRates();
     if (scene.system->rebuilds() != rebuilds_) {
         checkState(time);
         updateLimits(time);
     }
+}
+
+void Integrator::estimateRates() {
+    viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
+    if (scene_.coupling) springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
 }
 
 void Integrator::updateLimits(Time& time) {
@@ -57,14 +63,11 @@ void Integrator::updateLimits(Time& time) {
 
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
     limits_.all.clear();
-    if (viscousRate_ > 0) limits_.add("viscous", safety / (powerReserve * viscousRate_));
-    limits_.add("acoustic", safety * acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
-    if (!model.bodyForce.isZero()) limits_.add("body force", safety * bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
-    if (scene_.coupling) {
-        const auto stiffest = scene_.coupling->stiffest(*scene_.system);
-        limits_.add("spring", safety * springFactor * std::sqrt(stiffest.leastMass / stiffest.stiffness));
-        limits_.add("drag", safety * model.viscosity * scene_.spacing / stiffest.stiffness);
-    }
+    if (viscousRate_ > 0) limits_.add("viscous", safety / viscousRate_);
+    limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
+    if (!model.bodyForce.isZero()) limits_.add("body force", bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
+    if (springRate2_ > 0)
+        limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(viscousRate_ * viscousRate_ + springRate2_) - viscousRate_));
     time.dt = limits_.binding().seconds;
     rebuilds_ = scene_.system->rebuilds();
 }

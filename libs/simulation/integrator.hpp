@@ -1,7 +1,7 @@
 // Advances a scene by time steps as large as every limit allows (sph/stepLimits.hpp).
 //
-// The viscous limit comes from power iterations, at the start and every 5,000 steps; acoustic, spring and drag limits are taken
-// anew when lists are rebuilt. Steps do not depend on what is written when.
+// The viscous and spring limits come from power iterations, at the start and every 1,000 steps; the acoustic limit is taken anew
+// when lists are rebuilt. Steps do not depend on what is written when.
 #pragma once
 #include <memory>
 
@@ -20,9 +20,9 @@ class Integrator {
 
     void start(Time& time);   // forces at the initial state, first step
     struct State {
-        double viscousRate = 0, dt = 0;
+        double viscousRate = 0, springRate2 = 0, dt = 0;
     };
-    State state(const Time& time) const { return {viscousRate_, time.dt}; }
+    State state(const Time& time) const { return {viscousRate_, springRate2_, time.dt}; }
     void resume(const State& state, Time& time);  // after a restart
 
     // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics) when the state is
@@ -32,13 +32,14 @@ class Integrator {
     const sph::StepLimits& limits() const { return limits_; }
 
   private:
+    void estimateRates();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
     std::unique_ptr<sph::VelocityVerlet> scheme_;
     sph::StepLimits limits_;
-    double viscousRate_ = 0;
+    double viscousRate_ = 0, springRate2_ = 0;
     long rebuilds_ = -1;
 };
 

@@ -11,6 +11,12 @@ using coupling::Scene;
 using particles::Kind;
 using particles::ParticleStore;
 
+std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double spacing) {
+    std::vector<double> volumes;
+    for (const double area : vertexAreas) volumes.push_back(area * spacing);
+    return volumes;
+}
+
 namespace {
 
 std::filesystem::path startFile(const Case& input, const std::string& name, const char* writer) {
@@ -30,9 +36,10 @@ std::vector<Cell> readCells(const Case& input) {
         const double a = settings.shape->radius();
         Cell cell{membrane::Membrane(settings.name, static_cast<int>(cells.size()) + 1, mesh.points, mesh.triangles,
                                      input.membraneOf(settings), a),
-                  settings.type(), a, input.membraneOf(settings).interior.viscosityRatio, firstNode, 0, 0, true};
+                  settings.type(), a, input.membraneOf(settings).interior.viscosityRatio, firstNode, 0, 0, {}, true};
         cell.initialArea = cell.membrane.area();
         cell.initialVolume = cell.membrane.volume();
+        for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing())) cell.nodeMass.push_back(input.flow.density * volume);
         firstNode += cell.nodeCount();
         cells.push_back(std::move(cell));
     }
@@ -52,12 +59,6 @@ void forShare(std::size_t total, MPI_Comm comm, F&& f) {
 }
 
 }  // namespace
-
-std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double spacing) {
-    std::vector<double> volumes;
-    for (const double area : vertexAreas) volumes.push_back(area * spacing);
-    return volumes;
-}
 
 Scene emptyScene(const Case& input, MPI_Comm comm) {
     const bool hasCells = !input.mesh.cells.empty();
@@ -122,12 +123,11 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
     }
 
     for (Cell& cell : scene.cells) {
-        const std::vector<double> volumes = nodeVolumes(cell.membrane.vertexAreas(), input.spacing());
-        for (std::size_t k = 0; k < volumes.size(); ++k) cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
-        forShare(volumes.size(), comm, [&](std::size_t k) {
+        for (std::size_t k = 0; k < cell.nodeMass.size(); ++k) cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
+        forShare(cell.nodeMass.size(), comm, [&](std::size_t k) {
             const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k), cell.membrane.position[k],
                                       cell.membrane.velocity[k], model.density);
-            s.mass[i] = model.density * volumes[k];
+            s.mass[i] = cell.nodeMass[k];
             s.side[i] = cell.membrane.cell;
             s.node[i] = cell.firstNode + static_cast<std::int64_t>(k);
             if (s.optional().viscosity) s.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);

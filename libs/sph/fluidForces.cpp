@@ -33,7 +33,7 @@ FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) 
 }
 
 template <class Velocity, class Pressure>
-void FluidForces::pack(const ParticleStore& store, Velocity&& velocity, Pressure&& pressure) {
+void FluidForces::pack(const ParticleStore& store, const RealArray& density, Velocity&& velocity, Pressure&& pressure) {
     const int fields = variant_.fields(), n = static_cast<int>(store.size());
     const bool varyingMass = variant_.varyingMass, varyingViscosity = variant_.varyingViscosity;
     const double viscous = varyingViscosity ? 1.0 : std::sqrt(2 * model_.viscosity);
@@ -42,10 +42,11 @@ void FluidForces::pack(const ParticleStore& store, Velocity&& velocity, Pressure
         r[0] = store.x[i], r[1] = store.y[i], r[2] = store.z[i];
         velocity(i, r + 3);
         r[6] = pressure(i);
-        r[7] = viscous / store.density[i];
+        r[7] = viscous / density[i];
         if (varyingMass) r[8] = store.mass[i];
         if (varyingViscosity) r[fields - 1] = store.viscosity[i];
     }
+    for (const int i : wallParticles_) records_[static_cast<std::size_t>(i) * static_cast<std::size_t>(fields) + 7] *= -1;
 }
 
 void FluidForces::run(ParticleSystem& system, double* const results[4]) {
@@ -61,10 +62,12 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     const auto n = static_cast<std::size_t>(system.owned());
     records_.resize((n + static_cast<std::size_t>(system.ghosts())) * static_cast<std::size_t>(variant_.fields()));
     pressure_.resize(n);
-    model_.equationOfState->specificPressure(s.density.data(), pressure_.data(), system.owned(), model_.density, model_.soundSpeed);
+    density_.resize(n);
     const double e = extrapolation;
+    for (std::size_t i = 0; i < n; ++i) density_[i] = s.density[i] + e * s.densityRate[i];
+    model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density, model_.soundSpeed);
     pack(
-        s,
+        s, density_,
         [&](int i, double* velocity) {
             velocity[0] = s.u[i] + e * s.fx[i];
             velocity[1] = s.v[i] + e * s.fy[i];
@@ -122,7 +125,7 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
         if (length == 0) return 0;
         for (auto& component : vector)
             for (double& a : component) a /= length;
-        pack(s, [&](int i, double* v) { for (int k = 0; k < 3; ++k) v[k] = vector[k][i]; }, [](int) { return 0.0; });
+        pack(s, s.density, [&](int i, double* v) { for (int k = 0; k < 3; ++k) v[k] = vector[k][i]; }, [](int) { return 0.0; });
         double* const results[4] = {image[0].data(), image[1].data(), image[2].data(), unused.data()};
         run(system, results);
         std::swap(vector, image);

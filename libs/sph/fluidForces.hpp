@@ -2,7 +2,7 @@
 //
 // Pressure and viscosity act between all particles; a membrane's node counts as fluid here (dual identity). The velocity that
 // enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a with e = dt/2 and a the last
-// acceleration.
+// acceleration; density is extrapolated likewise, rho* + e rhodot (velocityVerlet.hpp says why).
 #pragma once
 #include <memory>
 
@@ -47,14 +47,14 @@ class FluidForces {
 
   private:
     template <class Velocity, class Pressure>
-    void pack(const particles::ParticleStore& store, Velocity&& velocity, Pressure&& pressure);
+    void pack(const particles::ParticleStore& store, const particles::RealArray& density, Velocity&& velocity, Pressure&& pressure);
     void run(particles::ParticleSystem& system, double* const results[4]);
 
     FluidModel model_;
     FluidVariant variant_;
     FluidConstants constants_;
     PairKernels::Fluid kernel_[2];  // away from walls, at walls
-    particles::RealArray records_, pressure_;
+    particles::RealArray records_, density_, pressure_;
     std::vector<int> wallParticles_;
     Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
 };

@@ -9,7 +9,8 @@
 //     beta = min(betaMax, 1 + depth_wall/distance_fluid)
 //
 // record | x y z | velocity (3) | p/rho^2 | e | mass, if it varies | viscosity, if it varies
-//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies
+//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do not act
+//          on each other (the list leaves such pairs out only where a whole block is wall)
 // What is uniform in the scene is a constant of the law, applied once to the sums.
 #pragma once
 #include "particles/simd.hpp"
@@ -37,6 +38,7 @@ struct FluidPair {
         const V r = sqrt(dx * dx + dy * dy + dz * dz);
         V F = Kernel::template slope<V>(r * V(c.inverseSupport));
         if constexpr (varyingMass) F = F * V(j[8]);
+        if constexpr (atWall) F = whereNegative(max(i[7], V(j[7])), V(0.0), F);
 
         const V du = i[3] - V(j[3]), dv = i[4] - V(j[4]), dw = i[5] - V(j[5]);
         const V pressure = F * (i[6] + V(j[6]));
@@ -45,7 +47,7 @@ struct FluidPair {
             constexpr int at = varyingMass ? 9 : 8;
             viscous = viscous * (i[at] * V(4 * j[at])) / (i[at] + V(j[at]));
         }
-        if constexpr (atWall) viscous = viscous * beta<V>(i, j);
+        if constexpr (atWall) viscous = max(viscous, V(0.0) - viscous) * beta<V>(i, j);
 
         sum[0] += pressure * dx;
         sum[1] += pressure * dy;

@@ -4,8 +4,13 @@
 //                  forward Euler's limit, because the scheme uses the extrapolated velocity
 //     acoustic     0.25 h/(c0 + |u|),  h = H_s/2
 //     body force   0.25 sqrt(h/|f|)
-//     spring       0.4 sqrt(m/k) for the stiffest node (k: largest eigenvalue of the network's stiffness)
-//     drag         mu dx/k, for an overdamped node
+//     spring       (omega dt/2)^2 + lambda dt = 1, omega^2 the largest eigenvalue of M^-1 K of the nodes on their network (power
+//                  iterations)
+//
+// The last one is exact for a node with spring and viscous drag: with u* and x as above the scheme's characteristic equation is
+//     (z - 1)^2 + omega^2 dt^2 z + lambda dt (z - 1)(1 + (z - 1)/(2z)) = 0,
+// which leaves the unit circle at z = -1. Without springs it gives the viscous limit, without drag the well-known 2/omega.
+// Viscous and spring limits are multiplied by `safety`; taking both largest eigenvalues for one mode errs on the safe side.
 #pragma once
 #include <limits>
 #include <string>

@@ -1,6 +1,8 @@
 #include "sph/velocityVerlet.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace corpuscle::sph {
 
@@ -24,7 +26,7 @@ void VelocityVerlet::resume() {
 void VelocityVerlet::advance(double dt) {
     ParticleStore& s = system_.store();
     const double half = 0.5 * dt;
-    double displacement2 = 0;
+    double displacement2 = 0, sum = 0;  // the sum tells what a maximum hides: NaN
     const int n = system_.owned();
     for (int i = 0; i < n; ++i) {
         s.u[i] += half * s.fx[i];  // Eq 12
@@ -35,8 +37,11 @@ void VelocityVerlet::advance(double dt) {
         s.y[i] += dt * s.v[i];
         s.z[i] += dt * s.w[i];
         const double dx = s.x[i] - s.xBuilt[i], dy = s.y[i] - s.yBuilt[i], dz = s.z[i] - s.zBuilt[i];
-        displacement2 = std::max(displacement2, dx * dx + dy * dy + dz * dz);
+        const double d2 = dx * dx + dy * dy + dz * dz;
+        displacement2 = std::max(displacement2, d2);
+        sum += d2;
     }
+    if (!std::isfinite(sum)) displacement2 = std::numeric_limits<double>::infinity();
     if (shifting_ && shifting_->due()) {
         shifting_->apply(system_, dt);
         displacement2 = system_.largestDisplacement2();

@@ -2,10 +2,12 @@
 //
 //     u* = u + dt/2 a,  rho* = rho + dt/2 rhodot,  ubar = u + dt a             (12, 13, 14)
 //     x <- x + dt u*                                                           (15)
-//     a, rhodot from x, ubar, rho*                                             (5, 6)
+//     a, rhodot from x, ubar, rhobar = rho* + dt/2 rhodot                      (5, 6)
 //     u <- u* + dt/2 a,  rho <- rho* + dt/2 rhodot                             (16, 17)
 //
-// ubar is u* + dt/2 a with the acceleration of the step's beginning, so that nothing is kept for it.
+// ubar is u* + dt/2 a with the acceleration of the step's beginning, so that nothing is kept for it; rhobar likewise. The paper
+// takes the pressure from rho*, half a step behind the positions: that is of first order in dt and feeds sound of angular
+// frequency omega at the rate omega^2 dt/4, which viscosity must then take away. With rhobar the scheme is of second order.
 // What else acts on particles joins as a Load; a scene without one pays nothing.
 #pragma once
 #include <vector>

@@ -105,7 +105,7 @@ TEST(Conservation, FluidWithoutCells) {
 
 TEST(Conservation, CellsAcrossAPeriodicFace) {
     Scene scene = sampleScene({.cells = {{"a", Vec3(8 * um, 0, 0)}, {"b", Vec3(0.3 * um, 0, 0)}}, .surface = &sphere()});
-    // The lattice was sided by positions outside of the box too: fluid on both sides of the face is in cell a.
+    // Cell a lies across the face; the lattice has fluid of its inside at both ends of the box.
     couple(scene);
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
     auto rows = observation->observe(scene, {});
@@ -117,11 +117,15 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), 0, 1e-30);
 
     particles::ParticleStore& s = scene.store();
-    long inside = 0;
+    long inside = 0, left = 0;
     for (std::size_t i = 0; i < s.size(); ++i)
-        if (s.side[i] == 1) s.side[i] = 0, ++inside;
-    inside = Communicator().sum(inside);
-    EXPECT_NEAR(static_cast<double>(inside), 113, 15);  // 4/3 pi 27
+        if (s.side[i] == 1) s.side[i] = 0, ++inside, left += s.x[i] > 0;
+    inside = Communicator().sum(inside), left = Communicator().sum(left);
+    // Lattice points about the centre: 88 with r^2 <= 6.75, 48 more with 8.75, which are so near the surface at r = 3 that chords may
+    // cut some off.
+    EXPECT_GE(inside, 88);
+    EXPECT_LE(inside, 136);
+    EXPECT_NEAR(static_cast<double>(left), 0.5 * static_cast<double>(inside), 8);
     scene.coupling->guard().restore(3);
     rows = observation->observe(scene, {});
     EXPECT_EQ(value(*observation, rows, "changedSide"), static_cast<double>(inside));
@@ -138,10 +142,14 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
 }
 
 TEST(Rupture, EventsHolesAndReleasedFluid) {
-    Scene scene = sampleScene({.cells = {{"a", Vec3(-4 * um, 0, 0)}, {"b", Vec3(4 * um, 0, 0)}},
+    Scene scene = sampleScene({.size = Vec3(20 * um, 12 * um, 12 * um),
+                               .cells = {{"a", Vec3(-5 * um, 0, 0)}, {"b", Vec3(5 * um, 0, 0)}},
                                .surface = &sphere(),
                                .rupture = "{type: bondStretch, limit: 1.05}"});
     couple(scene);
+    if (Communicator().size() > 1) {
+        EXPECT_TRUE(Communicator().anyTrue(!scene.cells[1].held));  // so that old copies would show
+    }
     const auto observation = begin("{type: rupture, every: 10 steps}", scene);
     ASSERT_TRUE(observation->watchesSteps());
     const Time time{.t = 0.25, .step = 7, .shearRate = 2};
@@ -154,7 +162,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     // One node of b pulled out by a tenth of the radius: its bonds break.
     const std::vector<Vec3> rest = scene.cells[1].membrane.network().stressFree();
     const Vec3 pulled = rest[5];
-    const Vec3 centre(4 * um, 0, 0);
+    const Vec3 centre(5 * um, 0, 0);
     deform(scene, 1, [&](const Vec3& x) { return x == pulled ? Vec3(x + 0.13 * (x - centre)) : x; });
     scene.broken = scene.coupling->endStep(*scene.system);
     const auto events = observation->afterStep(scene, time);
@@ -180,15 +188,16 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_EQ(value(*observation, rows, "firstBreak_strain", 1), 0.5);
     EXPECT_EQ(value(*observation, rows, "firstBreak_x_m", 1), events[0].values[3]);
     EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the others are at rest
-    EXPECT_EQ(value(*observation, rows, "released", 1), 0);
+    const double underTheCap = value(*observation, rows, "released", 1);  // beyond the fan that now closes the hole
+    EXPECT_LE(underTheCap, 6);
 
     // Three particles at a corner of the box, said to be b's.
     particles::ParticleStore& s = scene.store();
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.side[i] == 0 && s.kindOf(i) == particles::Kind::fluid && s.id[i] < 3) s.side[i] = 2;
     rows = observation->observe(scene, time);
-    EXPECT_EQ(value(*observation, rows, "released", 1), 3);
-    EXPECT_NEAR(value(*observation, rows, "releasedVolume_m3", 1), 3e-18, 1e-30);
+    EXPECT_EQ(value(*observation, rows, "released", 1), underTheCap + 3);
+    EXPECT_NEAR(value(*observation, rows, "releasedVolume_m3", 1), (underTheCap + 3) * 1e-18, 1e-30);
     EXPECT_EQ(value(*observation, rows, "released", 0), 0);
 
     const auto after = begin("{type: rupture, every: 10 steps}", scene);

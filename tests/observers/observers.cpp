@@ -51,6 +51,7 @@ TEST(Observers, FilesTimesAndNothingChanged) {
     Time time{.dt = 0.1, .shearRate = 1};
     Observers observers(names, scene, time, folder.path());
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "postProcessing"));  // a dry run writes nothing
+    Communicator().barrier();
     for (observers.run(scene, time); time.step < 10; observers.run(scene, time)) time.advance(0.1);
     EXPECT_EQ(bits(scene), before);
 

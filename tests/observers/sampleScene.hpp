@@ -1,5 +1,5 @@
-// Small scenes for the tests of observers: a lattice of fluid, walls across z if wanted, red cells or spheres made of node particles, spread
-// over the ranks in the way of a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
+// Small scenes for the tests of observers: a lattice of fluid, walls across z if wanted, red cells or spheres made of node
+// particles, spread over the ranks in the way of a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
 #pragma once
 #include "core/communicator.hpp"
 #include "coupling/scene.hpp"
@@ -56,8 +56,13 @@ inline Scene sampleScene(const SampleOptions& o) {
         geometry::TriangleMesh mesh = *o.surface;
         mesh.translate(centre);
         const int number = static_cast<int>(scene.cells.size()) + 1;
-        coupling::Cell cell{membrane::Membrane(name, number, mesh.nodes, mesh.triangles, laws, 4 * um), "cell", 4 * um, 1, nodes, mesh.area(),
-                            mesh.volume(), true};
+        coupling::Cell cell{.membrane = membrane::Membrane(name, number, mesh.nodes, mesh.triangles, laws, 4 * um),
+                            .type = "cell",
+                            .radius = 4 * um,
+                            .firstNode = nodes,
+                            .initialArea = mesh.area(),
+                            .initialVolume = mesh.volume(),
+                            .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx)};
         nodes += cell.nodeCount();
         scene.cells.push_back(std::move(cell));
     }

@@ -1,0 +1,189 @@
+// listModels: what can be chosen in a case: every family of models, every model with its settings, every dictionary.
+//
+// All of it comes from the declarations in the libraries; a model that is added there shows here without further work.
+//
+// Sample runs:
+//     listModels
+//     listModels kernel
+//     listModels kuchelFackerell
+//     listModels -markdown
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "core/application.hpp"
+#include "core/atomicFile.hpp"
+#include "core/reference.hpp"
+#include "core/schemaJson.hpp"
+#include "observers/observers.hpp"
+#include "simulation/caseSettings.hpp"
+
+using namespace corpuscle;
+using nlohmann::ordered_json;
+
+namespace {
+
+// constant/flow.yaml is one model: `type` with its settings beside it.
+SchemaInfo flowInfo() {
+    FieldInfo type;
+    type.key = "type";
+    type.type = "word";
+    type.text = "what drives the fluid; the settings of that [flow](#flow) stand beside it";
+    type.words = Registry<sph::Flow>::instance().names();
+    SchemaInfo info;
+    info.name = "flow";
+    info.text = "constant/flow.yaml: what drives the fluid";
+    info.fields.push_back(type);
+    return info;
+}
+
+ordered_json flowSchema() {
+    SchemaInfo holder;
+    FieldInfo flow;
+    flow.key = flow.type = "model";
+    flow.family = sph::Flow::familyName;
+    holder.fields.push_back(flow);
+    const ordered_json json = jsonSchema(holder);
+    return {{"$schema", json["$schema"]}, {"title", "flow"}, {"description", flowInfo().text},
+            {"allOf", {{{"$ref", json["properties"]["model"]["$ref"]}}}}, {"definitions", json["definitions"]}};
+}
+
+std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
+    using namespace simulation;
+    return {{"system/control.yaml", ControlSettings::schema().info()},
+            {"system/numerics.yaml", NumericsSettings::schema().info()},
+            {"system/mesh.yaml", MeshSettings::schema().info()},
+            {"system/observers.yaml", observers::ObserversSettings::schema().info()},
+            {"constant/fluid.yaml", FluidSettings::schema().info()},
+            {"constant/membranes.yaml", MembranesSettings::schema().info()},
+            {"constant/flow.yaml", flowInfo()}};
+}
+
+void writeSchemas(const std::filesystem::path& folder) {
+    for (const auto& [file, info] : dictionaries()) {
+        const ordered_json schema = info.name == "flow" ? flowSchema() : jsonSchema(info);
+        const std::filesystem::path path = folder / std::filesystem::path(file).filename().replace_extension(".json");
+        writeFileAtomically(path, schema.dump(2) + "\n");
+        std::cout << path.string() << '\n';
+    }
+}
+
+ordered_json toJson(const ModelInfo& model) {
+    ordered_json settings = ordered_json::array();
+    for (const FieldInfo& f : model.settings.fields) {
+        ordered_json field{{"key", f.key}, {"value", f.description()}, {"text", f.text}, {"required", f.required}};
+        if (!f.fallback.empty()) field["default"] = f.fallback;
+        settings.push_back(std::move(field));
+    }
+    return {{"text", model.text}, {"settings", settings}};
+}
+
+// "bond law", "bondLaw" and "bond-law" are the same.
+std::string plain(const std::string& name) {
+    std::string text;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c))) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string oneLinePerModel(const std::vector<ModelInfo>& models) {
+    std::size_t width = 0;
+    for (const ModelInfo& m : models) width = std::max(width, m.name.size());
+    std::string text;
+    for (const ModelInfo& m : models) text += fmt::format("  {:<{}}  {}\n", m.name, width, m.text);
+    return text;
+}
+
+void printTable(const SchemaInfo& info, const std::string& path, const std::string& indent) {
+    std::vector<std::vector<std::string>> rows;
+    for (const FieldInfo& f : info.fields)
+        rows.push_back({path + (f.key == "*" ? "<name>" : f.key), f.description(), !f.fallback.empty() ? f.fallback : f.required ? "required" : "", f.text});
+    if (rows.empty() && path.empty()) std::cout << indent << "no settings\n";
+    if (!rows.empty())
+        for (const std::string& line : alignedTable({"key", "value", "default", "meaning"}, rows)) std::cout << indent << line << '\n';
+    for (const auto& keys : info.exactlyOne) std::cout << indent << "exactly one of " << joinWords(keys) << '\n';
+    for (const auto& keys : info.atMostOne) std::cout << indent << "at most one of " << joinWords(keys) << '\n';
+    for (const FieldInfo& f : info.fields)
+        if (f.table) {
+            std::cout << '\n';
+            printTable(f.table(), path + (f.key == "*" ? "<name>" : f.key) + (f.type == "list" ? "[]." : "."), indent);
+        }
+}
+
+void printModel(const std::string& family, const ModelInfo& model) {
+    std::cout << model.name << " (" << family << "): " << model.text << '\n';
+    printTable(model.settings, "", "  ");
+}
+
+// The family or the models of that name; a dictionary file goes by its name too ("numerics").
+void show(const std::string& wanted, bool asJson) {
+    ordered_json json = ordered_json::object();
+    std::vector<std::string> known;
+    bool found = false;
+    for (const auto& [name, family] : families()) {
+        const bool all = plain(name) == plain(wanted);
+        known.push_back(name);
+        for (const ModelInfo& model : family.models()) {
+            known.push_back(model.name);
+            if (!all && plain(model.name) != plain(wanted)) continue;
+            if (asJson)
+                json[name][model.name] = toJson(model);
+            else {
+                if (found) std::cout << '\n';
+                printModel(name, model);
+            }
+            found = true;
+        }
+    }
+    for (const auto& [file, info] : dictionaries()) {
+        known.push_back(info.name);
+        if (found || plain(info.name) != plain(wanted)) continue;
+        found = true;
+        if (asJson)
+            json[file] = jsonSchema(info);
+        else {
+            std::cout << info.text << '\n';
+            printTable(info, "", "  ");
+        }
+    }
+    if (!found)
+        throw Failure(ExitCode::usage, "there is no family, model or dictionary '" + wanted + "'." + didYouMean(wanted, known) +
+                                           " Known: " + joinWords(known));
+    if (asJson) std::cout << json.dump(2) << '\n';
+}
+
+void showAll(bool asJson) {
+    ordered_json json = ordered_json::object();
+    for (const auto& [name, family] : families()) {
+        if (!asJson) std::cout << name << '\n' << oneLinePerModel(family.models()) << '\n';
+        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(model);
+    }
+    if (asJson)
+        std::cout << json.dump(2) << '\n';
+    else
+        std::cout << "listModels NAME shows the settings of a family, a model or a dictionary (control, numerics, ...).\n";
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+    Application app("listModels", "Shows the models that a case can choose, and their settings.", argc, argv,
+                    {.options = {{"markdown", "", "The whole dictionary reference, as docs/dictionaries.md has it."},
+                                 {"schema", "DIR", "Write a JSON schema for each dictionary into DIR."}},
+                     .arguments = {{"NAME", "", "A family (kernel, bondLaw), a model (wendlandC2) or a dictionary (numerics)."}},
+                     .optionalArguments = 1,
+                     .samples = {"listModels", "listModels kernel", "listModels kuchelFackerell", "listModels -markdown"}});
+    return app.run([&] {
+        if (!app.communicator().isRoot()) return ExitCode::done;
+        if (const auto folder = app.value("schema"))
+            writeSchemas(*folder);
+        else if (app.has("markdown"))
+            std::cout << referencePage(dictionaries());
+        else if (!app.arguments().empty())
+            show(app.arguments().front(), app.json());
+        else
+            showAll(app.json());
+        return ExitCode::done;
+    });
+}

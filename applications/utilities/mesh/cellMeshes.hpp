@@ -1,0 +1,38 @@
+// The cells' meshes as they stand in 0/: what membraneMesh, particleFill and checkMesh have in common.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+#include "geometry/latticeFill.hpp"
+#include "geometry/mesher.hpp"
+#include "membrane/moduli.hpp"
+#include "io/polyData.hpp"
+#include "simulation/case.hpp"
+
+namespace corpuscle::utilities {
+
+// These programs run alone: Failure(usage) under mpirun with more ranks than one.
+void requireSerial(const Application& app);
+
+std::filesystem::path startFile(const simulation::Case& input, const std::string& name);  // 0/<name>.vtp
+void writeStart(const simulation::Case& input, const std::string& name, io::PolyData data);       // at t = 0
+
+// From the shape's frame (axis along z, centre at the origin) to the cell's place, and back.
+void place(geometry::TriangleMesh& mesh, const simulation::CellSettings& cell);
+geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::CellSettings& cell);
+
+// All cells of the case, in its order. Throws Failure(io) when one is missing or holds no triangles.
+std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
+
+geometry::Period periodOf(const particles::Box& box);
+
+// Cells that lie in each other or reach out of the box, in plain words; empty: none.
+std::vector<std::string> misplacedCells(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& meshes);
+
+membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);
+
+nlohmann::ordered_json toJson(const geometry::MeshQuality& quality);
+nlohmann::ordered_json toJson(const membrane::NetworkModuli& moduli);
+
+std::string indented(const std::string& lines);
+
+}  // namespace corpuscle::utilities

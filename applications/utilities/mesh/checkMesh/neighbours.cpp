@@ -1,0 +1,57 @@
+#include "neighbours.hpp"
+
+#include <algorithm>
+
+namespace corpuscle::utilities {
+
+using particles::Kind;
+
+Shortest shortestDistances(const Members& members, const particles::Box& box, double reach, double spacing, MPI_Comm comm) {
+    particles::ParticleSystem system(comm, box, {.side = true}, reach, 0.01 * reach, spacing);
+    particles::ParticleStore& s = system.store();
+    std::size_t total = members.fluid.size() + members.walls.size(), next = 0;
+    for (const auto& nodes : members.cells) total += nodes.size();
+    s.resize(total);
+    const auto add = [&](const std::vector<Vec3>& points, Kind kind, std::int64_t cell) {
+        for (const Vec3& x : points) {
+            s.setPosition(next, x);
+            s.id[next] = static_cast<std::int64_t>(next);
+            s.kind[next] = static_cast<std::int64_t>(kind);
+            s.side[next++] = cell;
+        }
+    };
+    add(members.fluid, Kind::fluid, 0);
+    add(members.walls, Kind::wall, 0);
+    for (std::size_t c = 0; c < members.cells.size(); ++c) add(members.cells[c], Kind::membrane, static_cast<std::int64_t>(c) + 1);
+    system.start();
+
+    // record | x y z | -1 wall, 0 fluid, n node of cell n
+    constexpr std::size_t fields = 4;
+    const auto n = static_cast<std::size_t>(system.owned());
+    particles::RealArray records((n + static_cast<std::size_t>(system.ghosts())) * fields);
+    for (std::size_t i = 0; i < n; ++i) {
+        double* r = records.data() + fields * i;
+        r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
+        r[3] = s.kindOf(i) == Kind::wall ? -1 : static_cast<double>(s.side[i]);
+    }
+    Shortest shortest{reach, reach, reach, reach};
+    const auto lanes = static_cast<std::size_t>(particles::blockLanes());
+    system.forEachPair(records.data(), fields, [&](particles::PairList::Group group) {
+        const particles::PairView list = system.list().view();
+        for (const int block : system.list().blocks(group)) {
+            const std::size_t from = static_cast<std::size_t>(block) * lanes;
+            for (std::size_t i = from; i < std::min(from + lanes, n); ++i)
+                for (int k = list.first[block]; k < list.first[block + 1]; ++k) {
+                    const auto j = static_cast<std::size_t>(list.j[k]);
+                    if (i == j) continue;
+                    const double *a = records.data() + fields * i, *b = records.data() + fields * j;
+                    if (a[3] < 0 || (a[3] > 0 && (b[3] <= 0 || b[3] == a[3]))) continue;  // each kind of pair once
+                    double& least = a[3] > 0 ? shortest.cellCell : b[3] < 0 ? shortest.fluidWall : b[3] > 0 ? shortest.fluidNode : shortest.fluidFluid;
+                    least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+                }
+        }
+    });
+    return shortest;
+}
+
+}  // namespace corpuscle::utilities

@@ -1,0 +1,219 @@
+// particleFill: fills the box of a case with particles around the cells in 0/ and writes 0/fluid.vtp and 0/walls.vtp.
+//
+// A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing thick, so as
+// many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each cell stays filled to its
+// volume. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
+//
+// Sample runs:
+//     particleFill -case tutorials/rbcShear/Ca0.02
+//     particleFill -case tutorials/rbcShear/Ca0.02 -set system/mesh.yaml:/fill/relaxation=0
+#include <sys/resource.h>
+
+#include <chrono>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "../cellMeshes.hpp"
+#include "relaxation.hpp"
+#include "simulation/sceneBuilder.hpp"
+
+using namespace corpuscle;
+using geometry::TriangleMesh;
+using simulation::Case;
+
+namespace {
+
+struct Filling {
+    std::vector<Vec3> fluid, walls;
+    std::vector<int> side;     // of the fluid
+    double nodeVolume = 0;     // of all membranes [m^3]
+    std::size_t nodes = 0, carved = 0, putBack = 0;
+    double longestMove = 0;    // of the relaxation [m]
+    utilities::Evenness before, after;
+};
+
+// Takes out `carved` particles: on the inner side of each cell as many as leave its volume less the inner half of its nodes, the
+// rest outside, each time those nearest to the nodes.
+void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling& f) {
+    std::vector<std::vector<int>> members(cells.size() + 1);
+    for (std::size_t i = 0; i < f.side.size(); ++i) members[static_cast<std::size_t>(f.side[i])].push_back(static_cast<int>(i));
+    std::vector<char> kept(f.fluid.size(), 1);
+    const auto carve = [&](const std::vector<int>& from, const std::vector<Vec3>& nodes, std::size_t count) {
+        std::vector<Vec3> points;
+        for (const int i : from) points.push_back(f.fluid[static_cast<std::size_t>(i)]);
+        for (const int k : geometry::carve(points, nodes, count, utilities::periodOf(input.fluidBox())))
+            kept[static_cast<std::size_t>(from[static_cast<std::size_t>(k)])] = 0;
+    };
+    std::vector<Vec3> nodes;
+    std::size_t left = f.carved;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const std::vector<int>& inside = members[c + 1];
+        const double room = (cells[c].volume() - 0.5 * cells[c].area() * input.spacing()) / input.particleVolume();
+        const long surplus = static_cast<long>(inside.size()) - std::max(0L, std::lround(room));
+        const std::size_t count = std::min(left, static_cast<std::size_t>(std::max(0L, surplus)));
+        carve(inside, cells[c].nodes, count);
+        left -= count;
+        nodes.insert(nodes.end(), cells[c].nodes.begin(), cells[c].nodes.end());
+    }
+    carve(members[0], nodes, left);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < f.fluid.size(); ++i)
+        if (kept[i]) f.fluid[count] = f.fluid[i], f.side[count++] = f.side[i];
+    f.fluid.resize(count);
+    f.side.resize(count);
+}
+
+// Lattice, and what the nodes displace taken out.
+Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells) {
+    geometry::LatticeBox box;
+    box.size = input.mesh.domain.size;
+    box.spacing = input.spacing();
+    box.jitter = input.mesh.fill.jitter;
+    box.seed = static_cast<std::uint64_t>(input.mesh.fill.seed);
+    if (const int axis = input.flowModel->wallAxis(); axis >= 0) {
+        box.wallNormal = axis;
+        box.wallLayers = input.wallLayers();
+    }
+    const geometry::Lattice lattice = geometry::fillLattice(box);
+    Filling f;
+    for (std::size_t i = 0; i < lattice.points.size(); ++i)
+        if (lattice.kinds[i] == geometry::PointKind::fluid)
+            f.fluid.push_back(input.particleBox().wrap(lattice.points[i]));
+        else
+            f.walls.push_back(lattice.points[i]);
+
+    for (const TriangleMesh& cell : cells) {
+        for (const double volume : simulation::nodeVolumes(cell.vertexAreas(), input.spacing())) f.nodeVolume += volume;
+        f.nodes += cell.nodes.size();
+    }
+    f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
+    f.side = geometry::tagSides(f.fluid, cells, utilities::periodOf(input.fluidBox()));
+    takeOut(input, cells, f);
+    return f;
+}
+
+// A particle that would change its side or leave the fluid goes back to where it was.
+void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& cells, Filling& f) {
+    utilities::Relaxation relaxation(input, comm, f.fluid, f.walls, cells);
+    f.before = f.after = relaxation.evenness();
+    if (input.mesh.fill.relaxation == 0) return;
+    for (long k = 0; k < input.mesh.fill.relaxation; ++k) relaxation.sweep();
+    f.after = relaxation.evenness();
+    const auto moved = relaxation.moved();
+    std::vector<Vec3> places;
+    for (const auto& [i, x] : moved) places.push_back(x);
+    const std::vector<int> side = geometry::tagSides(places, cells, utilities::periodOf(input.fluidBox()));
+    const particles::Box fluidBox = input.fluidBox();
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+        const auto& [i, x] = moved[k];
+        if (side[k] != f.side[i] || particles::distanceSquared(x, fluidBox.low, fluidBox.high) > 0) {
+            ++f.putBack;
+            continue;
+        }
+        f.longestMove = std::max(f.longestMove, fluidBox.minimumImage(x - f.fluid[i]).norm());
+        f.fluid[i] = x;
+    }
+}
+
+io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const std::vector<int>& side, std::int64_t firstId,
+                       const std::function<Vec3(const Vec3&)>& velocity, const std::function<double(const Vec3&)>& pressure) {
+    const sph::FluidModel model = input.fluidModel();
+    io::PolyData data;
+    data.points = points;
+    auto& id = data.point.integers["id"];
+    id.resize(points.size());
+    std::iota(id.begin(), id.end(), firstId);
+    data.point.integers["side"].assign(side.begin(), side.end());
+    data.point.scalars["spacing"].assign(points.size(), input.spacing());
+    for (const Vec3& x : points) {
+        const double density = model.equationOfState->density(pressure(x), model.density, model.soundSpeed);
+        data.point.vectors["velocity"].push_back(velocity(x));
+        data.point.scalars["density"].push_back(density);
+        data.point.scalars["pressure"].push_back(model.equationOfState->pressure(density, model.density, model.soundSpeed));
+    }
+    return data;
+}
+
+void write(const Case& input, const Filling& f) {
+    utilities::writeStart(input, "fluid", withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
+    if (f.walls.empty()) {
+        std::filesystem::remove(utilities::startFile(input, "walls"));
+        return;
+    }
+    const sph::Walls& walls = input.flow.walls;
+    utilities::writeStart(
+        input, "walls",
+        withState(input, f.walls, std::vector<int>(f.walls.size(), 0), static_cast<std::int64_t>(f.fluid.size()),
+                  [&](const Vec3& x) { return walls.velocity[walls.isUpper(x)]; }, [](const Vec3&) { return 0.0; }));
+}
+
+double peakMemory() {  // of this program so far [MiB]
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::string text(const utilities::Spread& s) { return fmt::format("{:.4f} +- {:.4f}", s.mean, s.deviation); }
+
+void report(Application& app, const Case& input, const std::vector<TriangleMesh>& cells, const Filling& f, double seconds) {
+    Log& log = app.log();
+    const double V = input.particleVolume();
+    nlohmann::ordered_json json{{"fluid", f.fluid.size()}, {"walls", f.walls.size()}, {"nodes", f.nodes}, {"carved", f.carved}};
+    std::vector<long> inside(cells.size() + 1, 0);
+    for (const int side : f.side) ++inside[static_cast<std::size_t>(side)];
+    std::vector<std::vector<std::string>> rows{{"fluid, outside", std::to_string(inside[0]), ""}};
+    json["outside"] = inside[0];
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const double volume = cells[c].volume(), nodes = cells[c].area() * input.spacing();
+        const double filled = (static_cast<double>(inside[c + 1]) * V + 0.5 * nodes) / volume;
+        rows.push_back({"fluid, in " + input.mesh.cells[c].name, std::to_string(inside[c + 1]),
+                        fmt::format("with half the nodes {:.2f} % of the cell's volume", 100 * filled)});
+        json["inside"][input.mesh.cells[c].name] = {{"particles", inside[c + 1]}, {"filled", filled}};
+    }
+    rows.push_back({"walls", std::to_string(f.walls.size()), fmt::format("{} layers each", input.wallLayers())});
+    if (f.nodes > 0) {
+        const double mean = f.nodeVolume / static_cast<double>(f.nodes) / V;
+        rows.push_back({"membrane nodes", std::to_string(f.nodes), fmt::format("{:.3f} dx^3 each, in place of {} fluid particles", mean, f.carved)});
+        json["nodeVolume_dx3"] = mean;
+    }
+    rows.push_back({"all", std::to_string(f.fluid.size() + f.walls.size() + f.nodes), ""});
+    log.table({"particles", "number", ""}, rows);
+
+    if (f.nodes > 0) {
+        const long sweeps = input.mesh.fill.relaxation;
+        log.table({"sigma = sum V W of the fluid", "particles", "carved lattice", fmt::format("after {} sweeps", sweeps)},
+                  {{"nearer than 4 dx to a membrane", std::to_string(f.before.near.count), text(f.before.near), text(f.after.near)},
+                   {"beyond, up to H_s farther", std::to_string(f.before.beyond.count), text(f.before.beyond), text(f.after.beyond)}});
+        log.info("relaxation: moved at most {:.3f} dx; {} particles put back that would have changed side", f.longestMove / input.spacing(), f.putBack);
+        const auto spread = [](const utilities::Spread& s) { return nlohmann::ordered_json{{"mean", s.mean}, {"deviation", s.deviation}}; };
+        json["sigma"] = {{"nearBefore", spread(f.before.near)}, {"nearAfter", spread(f.after.near)},
+                         {"beyondBefore", spread(f.before.beyond)}, {"beyondAfter", spread(f.after.beyond)}};
+        json["putBack"] = f.putBack;
+    }
+    json["seconds"] = seconds;
+    json["memory_MiB"] = peakMemory();
+    log.info("0/fluid.vtp{} written in {:.2f} s with {:.0f} MiB", f.walls.empty() ? "" : " and 0/walls.vtp", seconds, peakMemory());
+    if (app.json()) std::cout << json.dump(2) << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+    Application app("particleFill", "Fills the box of a case with particles around its cells and writes them to 0/.", argc, argv,
+                    {.samples = {"particleFill -case tutorials/rbcShear/Ca0.02", "particleFill -set system/mesh.yaml:/fill/relaxation=0"}});
+    return app.run([&] {
+        utilities::requireSerial(app);
+        app.openLog();
+        const auto begin = std::chrono::steady_clock::now();
+        const Case input = Case::read(app);
+        const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
+        if (const auto faults = utilities::misplacedCells(input, cells); !faults.empty())
+            throw Failure(ExitCode::invalidCase, joinWords(faults, "\n") + "\nmove the cells in system/mesh.yaml, then run membraneMesh again");
+        Filling filling = placeParticles(input, cells);
+        if (!cells.empty()) relax(input, app.communicator().handle(), cells, filling);
+        write(input, filling);
+        report(app, input, cells, filling, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        return ExitCode::done;
+    });
+}

@@ -1,0 +1,39 @@
+# Shared by Allrun, Alltest and the scripts of tutorials and benchmarks. Sourced, with $root set to the repository's root.
+
+# Open MPI as root, and more ranks than cores, must be allowed by name.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+
+build=${CORPUSCLE_BUILD:-$root/build}
+
+# Installs the packages of etc/packages that are missing, through sudo when not root.
+install_packages() {
+    local missing=() package
+    while read -r package; do
+        case $package in '' | '#'*) continue ;; esac
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+    done <"$root/etc/packages"
+    [ ${#missing[@]} -eq 0 ] && return 0
+    echo "Installing: ${missing[*]}"
+    local sudo=
+    [ "$(id -u)" -eq 0 ] || sudo=sudo
+    $sudo apt-get update -qq
+    $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# configure_and_build [cmake options] -- [targets]
+configure_and_build() {
+    local options=()
+    while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
+    [ $# -gt 0 ] && shift
+    cmake -S "$root" -B "$build" -G Ninja "${options[@]}" >"$build.cmake.log" 2>&1 || { cat "$build.cmake.log"; return 1; }
+    cmake --build "$build" -- "$@" >"$build.log" 2>&1 || { grep -E 'error|FAILED' "$build.log" || tail -n 40 "$build.log"; return 1; }
+}
+
+# timed LABEL COMMAND...: runs and says how long it took.
+timed() {
+    local label=$1 start=$SECONDS status=0
+    shift
+    "$@" || status=$?
+    printf '%-28s %4d s   %s\n' "$label" $((SECONDS - start)) "$([ $status -eq 0 ] && echo done || echo "FAILED ($status)")"
+    return $status
+}

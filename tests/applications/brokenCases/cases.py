@@ -1,0 +1,231 @@
+"""What can be wrong in a case, and what checkCase has to say about it.
+
+A case: name, edits of the base case, the problems expected in the order of their files, extra arguments, exit code. A problem: file and
+key, the text that stands at the line and column named (None where no line is), words that the message must hold.
+"""
+from dataclasses import dataclass, field
+
+CONTROL, NUMERICS, MESH, OBSERVERS = (f"system/{name}.yaml" for name in ("control", "numerics", "mesh", "observers"))
+FLUID, MEMBRANES, FLOW = (f"constant/{name}.yaml" for name in ("fluid", "membranes", "flow"))
+
+
+@dataclass
+class Problem:
+    file: str
+    key: str
+    at: str | None
+    words: list
+
+
+@dataclass
+class Case:
+    name: str
+    edits: list
+    problems: list
+    arguments: list = field(default_factory=list)
+    code: int = 2
+
+
+def replace(file, old, new):
+    def edit(directory):
+        text = (directory / file).read_text()
+        assert text.count(old) == 1, f"{file} holds '{old}' {text.count(old)} times"
+        (directory / file).write_text(text.replace(old, new))
+    return edit
+
+
+def append(file, text):
+    return lambda directory: (directory / file).write_text((directory / file).read_text() + text)
+
+
+def rewrite(file, text):
+    return lambda directory: (directory / file).write_text(text)
+
+
+def remove(file):
+    return lambda directory: (directory / file).unlink()
+
+
+def case(name, edit, file, key, at, *words):
+    return Case(name, edit if isinstance(edit, list) else [edit], [Problem(file, key, at, list(words))])
+
+
+def setting(name, argument, file, key, *words, code=2):
+    return Case(name, [], [Problem(file, key, None, list(words))], ["-set", argument], code)
+
+
+NO_CELLS = [replace(MESH, """cells:
+  - name: rbc
+    shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}
+    edge: 0.8 um
+    centre: [0, 0, 0] um
+    axis: [0, 0, 1]
+""", ""), remove(MEMBRANES)]
+# A fluid alone in a box periodic along every axis: no cells, no walls, no shear rate.
+VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), replace(MESH, "[true, true, false]", "[true, true, true]"),
+                       rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
+                       replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
+
+CASES = [
+    # Form of a file
+    case("duplicateKey", append(FLUID, "density: 900 kg/m^3\n"), FLUID, "density", "density: 900", "twice", "line 1"),
+    case("tab", replace(MEMBRANES, "  rupture", "\trupture"), MEMBRANES, "", "\trupture", "tab", "blanks"),
+    case("anchor", replace(MEMBRANES, "5e-4 N/m", "&stiff 5e-4 N/m"), MEMBRANES, "", "&stiff", "anchor", "write the value out"),
+    case("alias", replace(CONTROL, "wallClock: 2 h", "wallClock: *limit"), CONTROL, "", "*limit", "alias", "write the value out"),
+    case("tag", replace(CONTROL, "endStrain: 6", "endStrain: !!float 6"), CONTROL, "", "!!float", "tag"),
+    case("mergeKey", append(FLUID, "<<: {gamma: 7}\n"), FLUID, "", "<<", "merge", "write the keys out"),
+    case("unclosedBracket", replace(MESH, "[true, true, false]", "[true, true, false"), MESH, "", "[true", "this '[' is not closed",
+         "a ']' is missing"),
+    case("unclosedBrace", replace(FLOW, "{Re: 0.1}", "{Re: 0.1"), FLOW, "", "{Re", "this '{' is not closed", "a '}' is missing"),
+    case("wrongClosingBracket", replace(MESH, "[true, true, false]", "[true, true, false}"), MESH, "", "[true", "this '[' is not closed"),
+    case("unclosedQuote", replace(CONTROL, "application: dmpFlow", 'application: "dmpFlow'), CONTROL, "", '"dmpFlow',
+         "quotation mark is not closed"),
+    case("missingColon", replace(FLUID, "viscosity: 1.0e-3", "viscosity 1.0e-3"), FLUID, "", ": {type", "is a ':' missing"),
+    case("wrongIndent", replace(MESH, "  periodic", "   periodic"), MESH, "", "periodic", "indented wrongly"),
+    case("emptyFile", rewrite(FLOW, ""), FLOW, "", "", "'type' is missing", "Known:", "shear"),
+    case("commentsOnly", rewrite(NUMERICS, "# spacing: 1 um\n"), NUMERICS, "spacing", "", "missing", "particle spacing"),
+    case("listAsFile", rewrite(FLUID, "- density: 1000 kg/m^3\n- viscosity: 1e-3 Pa s\n"), FLUID, "", "- density", "list of 2", "table"),
+    case("wordAsFile", rewrite(FLUID, "water\n"), FLUID, "", "water", "'water'", "table"),
+    case("twoDocuments", append(FLOW, "---\ntype: shear\n"), FLOW, "", "type", "---", "one dictionary"),
+    case("missingFile", remove(FLUID), FLUID, "", None, "no such file", "-case"),
+    case("missingMembranes", remove(MEMBRANES), MEMBRANES, "", None, "no such file"),
+
+    # Keys
+    case("unknownKey", replace(CONTROL, "startFrom", "startfrom"), CONTROL, "startfrom", "startfrom", "unknown key 'startfrom'",
+         "Did you mean 'startFrom'?", "Allowed:", "endStrain"),
+    case("unknownKeyInTable", replace(FLUID, "soundSpeed: auto", "speedOfSound: auto"), FLUID, "equationOfState.speedOfSound",
+         "speedOfSound", "unknown key", "Allowed: gamma, soundSpeed"),
+    case("misspeltRequiredKey", replace(FLUID, "density", "densty"), FLUID, "densty", "densty", "Did you mean 'density'?"),
+    case("missingKey", replace(FLUID, "viscosity: 1.0e-3 Pa s\n", ""), FLUID, "viscosity", "density", "missing", "dynamic viscosity",
+         "Pa s", "for example"),
+    case("missingKeyInCell", replace(MESH, "    edge: 0.8 um\n", ""), MESH, "cells[0].edge", "name: rbc", "missing", "a quantity in m"),
+    case("keyWithoutValue", replace(NUMERICS, "spacing: 1 um", "spacing:"), NUMERICS, "spacing", "spacing:", "found nothing", "in m"),
+    case("modelWithoutCoefficient", replace(MEMBRANES, "{type: harmonic, k: 5e-4 N/m}", "harmonic"), MEMBRANES, "rbc.bonds.k",
+         "bonds: harmonic", "missing", "spring constant", "N/m"),
+    case("modelWithoutType", replace(MEMBRANES, "{type: harmonic, k: 5e-4 N/m}", "{k: 5e-4 N/m}"), MEMBRANES, "rbc.bonds", "bonds",
+         "'type' is missing", "bond law", "harmonic"),
+
+    # Units
+    case("missingUnit", replace(NUMERICS, "spacing: 1 um", "spacing: 1"), NUMERICS, "spacing", "1", "'1' has no unit",
+         "a quantity in m", "um"),
+    case("unitOnNumber", replace(FLOW, "Ca: 0.02", "Ca: 0.02 Pa"), FLOW, "Ca", "0.02 Pa", "has a unit", "number without one"),
+    case("wrongDimension", replace(FLUID, "1.0e-3 Pa s", "1.0e-3 Pa"), FLUID, "viscosity", "1.0e-3 Pa", "is in Pa", "in Pa s"),
+    case("unknownUnit", replace(MESH, "edge: 0.8 um", "edge: 0.8 mu"), MESH, "cells[0].edge", "0.8 mu", "unknown unit 'mu'",
+         "Did you mean 'um'?", "Known:"),
+    case("spacingsNotAllowed", replace(MESH, "d: 8 um", "d: 8 dx"), MESH, "cells[0].shape.d", "8 dx", "particle spacings", "not allowed"),
+    case("listWithoutUnit", replace(MESH, "[20, 16, 16] um", "[20, 16, 16]"), MESH, "domain.size[0]", "20", "no unit"),
+
+    # Values
+    case("negative", replace(FLUID, "1000 kg/m^3", "-1000 kg/m^3"), FLUID, "density", "-1000", "'-1000 kg/m^3'", "greater than 0"),
+    case("zero", replace(NUMERICS, "spacing: 1 um", "spacing: 0 um"), NUMERICS, "spacing", "0 um", "'0 um'", "greater than 0"),
+    case("textForNumber", replace(FLOW, "Ca: 0.02", "Ca: small"), FLOW, "Ca", "small", "'small'", "number"),
+    case("numberForWord", replace(CONTROL, "application: dmpFlow", "application: 3"), CONTROL, "application", "3", "'3'",
+         "dmpFlow, sphFlow"),
+    case("fractionForInteger", replace(CONTROL, "keep: 2", "keep: 2.5"), CONTROL, "checkpoint.keep", "2.5", "'2.5'", "whole number"),
+    case("twoComponents", replace(MESH, "[0, 0, 0] um", "[0, 0] um"), MESH, "cells[0].centre", "[0, 0] um", "a list of 2", "vector"),
+    case("tableForNumber", replace(NUMERICS, "spacing: 1 um", "spacing: {dx: 1 um}"), NUMERICS, "spacing", "{dx", "a table", "in m"),
+    case("wordForBoolean", replace(MESH, "[true, true, false]", "[yes, true, false]"), MESH, "domain.periodic[0]", "yes", "'yes'",
+         "true or false"),
+    case("tableForList", replace(MESH, "  - name: rbc\n    shape", "    name: rbc\n    shape"), MESH, "cells", "cells", "a table", "a list"),
+    case("beyondDouble", replace(FLUID, "1000 kg/m^3", "1e999 kg/m^3"), FLUID, "density", "1e999", "1e999"),
+    case("notANumber", replace(FLUID, "1000 kg/m^3", ".nan kg/m^3"), FLUID, "density", ".n", "number"),
+    case("nameNotAName", replace(MESH, "name: rbc", "name: rbc 1"), MESH, "cells[0].name", "rbc 1", "'rbc 1'", "letter"),
+
+    # Models
+    case("unknownModel", replace(NUMERICS, "wendlandC2", "wendland"), NUMERICS, "kernel.type", "wendland", "unknown kernel 'wendland'",
+         "Did you mean 'wendlandC2'?", "Known:", "lucy"),
+    case("unknownIntegrator", replace(NUMERICS, "velocityVerlet", "verlet"), NUMERICS, "integrator", "verlet", "'verlet' is not allowed",
+         "velocityVerlet"),
+    case("unknownShape", replace(MESH, "kuchelFackerell", "discocyte"), MESH, "cells[0].shape.type", "discocyte", "unknown cell shape 'discocyte'",
+         "Known:", "kuchelFackerell", "evansFung"),
+    case("unknownObserver", replace(OBSERVERS, "type: shape", "type: shapes"), OBSERVERS, "deformation.type", "shapes",
+         "unknown observer 'shapes'", "Did you mean 'shape'?", "wallStress"),
+    case("observerWithoutEvery", replace(OBSERVERS, "{type: shape, every: 0.02 strain}", "shape"), OBSERVERS, "deformation.every",
+         "deformation", "missing", "strain"),
+    case("observerEveryWithoutUnit", replace(OBSERVERS, "0.02 strain", "0.02"), OBSERVERS, "deformation.every", "0.02", "'0.02'",
+         "0.1 strain", "steps"),
+    case("bendingTwice", replace(MEMBRANES, "Eb: 0.01", "Eb: 0.01, kappa: 2.8e-19 J"), MEMBRANES, "rbc.bending.kappa", "kappa",
+         "exactly one", "'Eb', 'kappa', 'k'"),
+    case("bendingWithoutStiffness", replace(MEMBRANES, "{type: dihedral, Eb: 0.01}", "dihedral"), MEMBRANES, "rbc.bending", "bending",
+         "one of 'Eb', 'kappa', 'k' is missing"),
+    case("ruptureLimitBelowOne", replace(MEMBRANES, "rupture: none", "rupture: {type: bondStretch, limit: 0.95}"), MEMBRANES,
+         "rbc.rupture.limit", "0.95", "'0.95'", "greater than 1"),
+    case("viscosityRatioZero", replace(MEMBRANES, "viscosityRatio: 1", "viscosityRatio: 0"), MEMBRANES,
+         "rbc.interior.viscosityRatio", "0", "'0'", "greater than 0"),
+    case("kernelSupportTooSmall", replace(NUMERICS, "3.0 dx", "0.9 dx"), NUMERICS, "kernel.support", "0.9 dx", "found 0.9 dx", "at least 1.2 dx"),
+    case("kernelSupportInMetresTooSmall", replace(NUMERICS, "3.0 dx", "0.5 um"), NUMERICS, "kernel.support", "0.5 um", "found 0.5 dx"),
+
+    # What excludes or needs another
+    case("CaAndShearRate", append(FLOW, "shearRate: 100 1/s\n"), FLOW, "shearRate", "shearRate", "exactly one", "'Ca', 'shearRate'"),
+    case("neitherCaNorShearRate", replace(FLOW, "Ca: 0.02\n", ""), FLOW, "", "type", "'Ca', 'shearRate'", "missing", "exactly one"),
+    case("endTimeAndEndStrain", append(CONTROL, "endTime: 1 ms\n"), CONTROL, "endTime", "endTime", "exactly one", "'endTime', 'endStrain'"),
+    case("noEnd", replace(CONTROL, "endStrain: 6\n", ""), CONTROL, "", "application", "'endTime', 'endStrain'", "missing"),
+    case("twoWriteIntervals", replace(CONTROL, "strain: 0.5", "strain: 0.5, steps: 100"), CONTROL, "write.steps", "steps", "at most one"),
+    Case("CaWithoutCells", NO_CELLS + [remove(OBSERVERS), replace(FLOW, "inertia: {Re: 0.1}\n", "")],
+         [Problem(FLOW, "Ca", "0.02", ["needs a membrane", "shearRate", "system/mesh.yaml"])]),
+    Case("ReWithoutCells", NO_CELLS + [remove(OBSERVERS), replace(FLOW, "Ca: 0.02", "shearRate: 100 1/s")],
+         [Problem(FLOW, "inertia", "{Re", ["radius", "physical", "constant/fluid.yaml"])]),
+    case("boxDoesNotFit", replace(MESH, "[20, 16, 16] um", "[20.3, 16, 16] um"), MESH, "domain.size", "[20.3", "along x", "20.3 um",
+         "20 um, 21 um"),
+    case("periodicAcrossWalls", replace(MESH, "[true, true, false]", "[true, true, true]"), MESH, "domain.periodic", "[true", "axis z",
+         "walls", "write false"),
+    case("openAxisWithoutWalls", replace(MESH, "[true, true, false]", "[true, false, false]"), MESH, "domain.periodic", "[true", "axis y",
+         "write true"),
+    case("wallsAlongFlow", [replace(FLOW, "normal: z", "normal: x"), replace(MESH, "[true, true, false]", "[false, true, true]")], FLOW,
+         "walls.normal", "x", "found x", "allowed are y, z"),
+    case("cellWithoutLaws", replace(MEMBRANES, "rbc:", "rcb:"), MEMBRANES, "rbc", "rcb:", "'rbc'", "system/mesh.yaml", "Did you mean 'rcb'?"),
+    case("cellNameTwice", append(MESH, "  - {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [7, 0, 0] um}\n"), MESH,
+         "cells[1].name", "rbc", "'rbc' is taken"),
+    case("reservedCellName", [replace(MESH, "name: rbc", "name: fluid"), replace(MEMBRANES, "rbc:", "fluid:")], MESH, "cells[0].name", "fluid",
+         "'fluid'", "reserved"),
+    case("impossibleRedCell", replace(MESH, "b: 1 um", "b: 3 um"), MESH, "cells[0].shape", "{type", "b = 3 um", "h = 2.12 um", "less than"),
+    case("thickRedCell", replace(MESH, "d: 8 um", "d: 4 um"), MESH, "cells[0].shape", "{type", "d = 4 um", "too small", "greater than"),
+    case("surfaceFileMissing", replace(MESH, "{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}", "{type: file, file: cell.stl}"),
+         MESH, "cells[0].shape", "{type", "cell.stl"),
+    case("zeroAxis", replace(MESH, "axis: [0, 0, 1]", "axis: [0, 0, 0]"), MESH, "cells[0].axis", "[0, 0, 0]", "zero vector", "[0, 0, 1]"),
+    case("cellThroughWall", replace(MESH, "[0, 0, 0] um", "[0, 0, 7.5] um"), MESH, "cells[0].centre", "[0, 0, 7.5]", "through the wall", "along z"),
+    case("edgeTooLarge", replace(MESH, "edge: 0.8 um", "edge: 20 um"), MESH, "cells[0].edge", "20 um", "found 20 um", "radius 4 um",
+         "at most half the radius, 2 um"),
+    case("unknownStart", replace(CONTROL, "latestTime", "lastTime"), CONTROL, "startFrom", "lastTime", "'lastTime'",
+         "Did you mean 'latestTime'?", "firstTime"),
+    case("startWithoutUnit", replace(CONTROL, "latestTime", "0.5"), CONTROL, "startFrom", "0.5", "'0.5'", "unit"),
+    case("cellsForSphFlow", replace(CONTROL, "dmpFlow", "sphFlow"), CONTROL, "application", "sphFlow", "sphFlow", "dmpFlow"),
+    Case("writeStrainWithoutShear", VORTICES + [replace(CONTROL, "time: 0.1 ms", "strain: 0.5")],
+         [Problem(CONTROL, "write.strain", "0.5", ["taylorGreen", "no shear rate", "write.time"])]),
+    Case("endStrainWithoutShear", VORTICES + [replace(CONTROL, "endTime: 1 ms", "endStrain: 6")],
+         [Problem(CONTROL, "endStrain", "6", ["taylorGreen", "no shear rate", "endTime"])]),
+    Case("vorticesInLongBox", VORTICES + [replace(MESH, "[16, 16, 16] um", "[20, 16, 16] um")],
+         [Problem(FLOW, "type", "taylorGreen", ["as long along x as along z", "20 um", "16 um"])]),
+    Case("observerOfCellsWithoutCells", VORTICES + [rewrite(OBSERVERS, "deformation: {type: shape, every: 10 steps}\n")],
+         [Problem(OBSERVERS, "deformation", "deformation", ["shape", "the case has none", "system/mesh.yaml"])]),
+    Case("observerOfWallsWithoutWalls", VORTICES + [rewrite(OBSERVERS, "drag: {type: wallStress, every: 10 steps}\n")],
+         [Problem(OBSERVERS, "drag", "drag", ["wallStress", "the flow has none", "constant/flow.yaml"])]),
+    Case("observerEveryStrainWithoutShear", VORTICES + [rewrite(OBSERVERS, "balance: {type: conservation, every: 0.1 strain}\n")],
+         [Problem(OBSERVERS, "balance", "balance", ["every", "no shear rate", "in s or in steps"])]),
+    case("observerLooksTooRarely", replace(OBSERVERS, "0.02 strain", "2 strain"), OBSERVERS, "deformation", "deformation", "1.5 strain"),
+
+    # All at once
+    Case("severalAtOnce", [replace(FLUID, "1000 kg/m^3", "1000"), replace(FLUID, "gamma: 7", "gama: 7"), replace(NUMERICS, "1 um", "1 kg"),
+                           replace(CONTROL, "keep: 2", "keep: two"), replace(MESH, "h: 2.12 um, b: 1 um", "h: 2.12 um")],
+         [Problem(FLUID, "density", "1000", ["no unit"]),
+          Problem(FLUID, "equationOfState.gama", "gama", ["Did you mean 'gamma'?"]),
+          Problem(CONTROL, "checkpoint.keep", "two", ["whole number"]),
+          Problem(MESH, "cells[0].shape.b", "shape", ["missing", "thickness"]),
+          Problem(NUMERICS, "spacing", "1 kg", ["is in kg"])]),
+    Case("severalBetweenFiles", [replace(MESH, "[true, true, false]", "[true, true, true]"), replace(MESH, "[20, 16, 16] um", "[20.3, 16, 16] um"),
+                                 replace(MEMBRANES, "rbc:", "red:")],
+         [Problem(MEMBRANES, "rbc", "red:", ["'rbc'", "red"]),
+          Problem(MESH, "domain.size", "[20.3", ["along x"]),
+          Problem(MESH, "domain.periodic", "[true", ["axis z"])]),
+
+    # -set
+    setting("setNegative", "system/mesh.yaml:/cells/0/edge=-1 um", "-set", "cells[0].edge", "'-1 um'", "greater than 0"),
+    setting("setUnknownKey", "constant/fluid.yaml:/viscossity=1 Pa s", "-set", "viscossity", "unknown key", "Did you mean 'viscosity'?"),
+    setting("setUnknownFile", "system/meshes.yaml:/cells/0/edge=1 um", "-set", "system/meshes.yaml", "no such file",
+            "Did you mean 'system/mesh.yaml'?"),
+    setting("setNoSuchItem", "system/mesh.yaml:/cells/3/edge=1 um", "-set", "system/mesh.yaml:/cells/3/edge", "'3'", "0 to 0"),
+    setting("setThroughNumber", "constant/fluid.yaml:/density/value=1 kg", "-set", "density", "found a table", "kg/m^3"),
+    setting("setBetweenFiles", "system/mesh.yaml:/domain/periodic=[true, true, true]", "-set", "domain.periodic", "axis z", "write false"),
+    setting("setBadYaml", "constant/flow.yaml:/walls={normal: z", "-set", "constant/flow.yaml:/walls", "cannot read the value"),
+    setting("setWithoutEquals", "constant/fluid.yaml:/density", "checkCase", "", "expected FILE:/path/to/key=value", code=1),
+]

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""The rules of docs/architecture.md that a machine can check.
+
+    architecture.py [repository]
+
+1. Libraries depend one way, by layers: every #include "library/file.hpp" in libs/ and every DEPENDS of a library's CMakeLists.txt
+   names a library of a lower layer, its own, or one of SAME_LAYER. What is included is reached through DEPENDS.
+2. Every library has its CMakeLists.txt, its tests in tests/<library> and its page docs/<library>.md.
+3. No file names a place of the machine that it was written on.
+"""
+import os
+import re
+import sys
+from pathlib import Path
+
+LAYERS = [{"core"}, {"particles", "geometry"}, {"sph", "membrane"}, {"coupling"}, {"observers", "io"}, {"simulation"}]
+SAME_LAYER = {"observers": {"io"}}  # observers write their tables through io
+
+LIBRARIES = set().union(*LAYERS)
+SOURCES = {".hpp", ".cpp", ".h"}
+# Written in two halves, so that this file does not name them itself.
+PLACES = re.compile("|".join(re.escape(a + b) for a, b in (("/wo", "rk/"), ("/ho", "me/"), ("/ro", "ot/"), ("../sha", "red"))))
+GENERATED = re.compile(r"build(-.*)?|install|__pycache__|\.git")
+GENERATED_IN_CASES = {"0", "results", "checkpoints", "postProcessing", "runs"}
+
+
+def allowed(library):
+    lower = set()
+    for layer in LAYERS:
+        if library in layer:
+            return lower | {library} | SAME_LAYER.get(library, set())
+        lower |= layer
+    raise KeyError(library)
+
+
+def declared(library, libs):
+    text = re.sub(r"#.*", "", (libs / library / "CMakeLists.txt").read_text())
+    call = re.search(r"corpuscle_library\(\s*%s\b([^)]*)\)" % library, text)
+    if not call:
+        return None
+    words, found, inside = call.group(1).split(), [], False
+    for word in words:
+        if word in {"SOURCES", "DEPENDS", "LINK", "PRIVATE_LINK"}:
+            inside = word == "DEPENDS"
+        elif inside:
+            found.append(word)
+    return found
+
+
+def check_dependencies(root, fail):
+    libs = root / "libs"
+    there = {p.name for p in libs.iterdir() if p.is_dir()}
+    for name in sorted(there - LIBRARIES):
+        fail(f"libs/{name}: no layer is known for it; add it to LAYERS here and to docs/architecture.md")
+    depends = {}
+    for library in sorted(there & LIBRARIES):
+        if not (libs / library / "CMakeLists.txt").is_file():
+            fail(f"libs/{library}/CMakeLists.txt is missing")
+            continue
+        found = declared(library, libs)
+        if found is None:
+            fail(f"libs/{library}/CMakeLists.txt: no corpuscle_library({library} ...)")
+            continue
+        depends[library] = set(found)
+        for other in found:
+            if other not in allowed(library) or other == library:
+                fail(f"libs/{library}/CMakeLists.txt: DEPENDS {other}; allowed: {', '.join(sorted(allowed(library) - {library}))}")
+
+    def reached(library):
+        seen, todo = {library}, [library]
+        while todo:
+            for other in depends.get(todo.pop(), ()):
+                if other not in seen:
+                    seen.add(other)
+                    todo.append(other)
+        return seen
+
+    for library in sorted(depends):
+        for path in sorted((libs / library).rglob("*")):
+            if path.suffix not in SOURCES:
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                include = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
+                if not include:
+                    continue
+                place = f"{path.relative_to(root)}:{number}: {include.group(0).strip()}"
+                other = include.group(1).split("/")[0]
+                if "/" not in include.group(1) or other not in LIBRARIES:
+                    fail(f'{place}; write "library/file.hpp"')
+                elif other not in allowed(library):
+                    fail(f"{place}; {library} may use {', '.join(sorted(allowed(library)))}")
+                elif other not in reached(library):
+                    fail(f"{place}; {other} is not reached through DEPENDS of libs/{library}/CMakeLists.txt")
+
+
+def check_companions(root, fail):
+    for library in sorted(LIBRARIES):
+        for path in (f"docs/{library}.md", f"tests/{library}/CMakeLists.txt"):
+            if not (root / path).is_file():
+                fail(f"{path} is missing: every library has a page and a folder of tests")
+
+
+def check_places(root, fail):
+    for folder, names, files in os.walk(root):
+        in_tutorial = "tutorials" in Path(folder).relative_to(root).parts
+        names[:] = [n for n in names if not GENERATED.fullmatch(n) and not (in_tutorial and n in GENERATED_IN_CASES)]
+        for name in files:
+            path = Path(folder) / name
+            if path.is_symlink() or (in_tutorial and (name.startswith("log.") or name in {"run.json", "used.yaml"})):
+                continue
+            content = path.read_bytes()
+            if b"\0" in content:
+                continue
+            for number, line in enumerate(content.decode(errors="replace").splitlines(), 1):
+                found = PLACES.search(line)
+                if found:
+                    fail(f"{path.relative_to(root)}:{number}: names '{found.group(0)}', a place of one machine")
+
+
+def main():
+    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]).resolve()
+    failures = []
+    for check in (check_dependencies, check_companions, check_places):
+        check(root, failures.append)
+    for failure in failures:
+        print(failure)
+    print(f"architecture: {len(failures)} fault{'' if len(failures) == 1 else 's'}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

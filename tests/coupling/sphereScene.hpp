@@ -1,0 +1,83 @@
+// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1.
+#pragma once
+#include "coupling/dualIdentity.hpp"
+#include "membrane/meshes.hpp"
+#include "sph/samples.hpp"
+
+namespace corpuscle::coupling::testing {
+
+using particles::Box;
+using particles::Kind;
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+inline constexpr double radius = 2.2, skin = 0.3;
+
+template <class Family>
+Choice<Family> choice(const std::string& text) {
+    Problems problems;
+    auto chosen = readChoice<Family>(parseValue(text, "test", problems), problems);
+    problems.throwIfAny();
+    return chosen;
+}
+
+struct SphereScene {
+    std::unique_ptr<ParticleSystem> system;
+    std::vector<Cell> cells;
+    std::vector<std::vector<Vec3>> start;  // nodes at first, by cell
+    int fluidCount = 0;
+
+    SphereScene(const Index3& size, const std::vector<Vec3>& centres) {
+        const Box box = sph::testing::cube(size);
+        system = std::make_unique<ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{true, false, true, true}, 2.3, skin, 1.0);
+        membrane::MembraneSettings laws;
+        laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
+        laws.bending = choice<membrane::BendingLaw>("{type: dihedral, kappa: 0.3 J}");
+        int first = 0;
+        for (const Vec3& centre : centres) {
+            auto mesh = membrane::testing::icosphere(2);
+            for (Vec3& x : mesh.nodes) x = radius * x + centre;
+            const int number = static_cast<int>(cells.size()) + 1;
+            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere", radius, 1, first, 0, 0, true});
+            start.push_back(mesh.nodes);
+            first += cells.back().nodeCount();
+        }
+        // The root holds everything at first; the system sends it to its owners.
+        int rank = 0;
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        ParticleStore& s = system->store();
+        const auto add = [&](const Vec3& x, Kind kind, int side, int node) {
+            const std::size_t i = s.size();
+            s.resize(i + 1);
+            s.setPosition(i, x);
+            s.density[i] = 1, s.mass[i] = kind == Kind::membrane ? 0.4 : 1;
+            s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side, s.node[i] = node;
+        };
+        if (rank == 0) {
+            for (const sph::testing::Particle& p : sph::testing::lattice(size, 0.1)) {
+                int side = 0;
+                for (std::size_t c = 0; c < centres.size(); ++c)
+                    if (box.minimumImage(p.x - centres[c]).norm() < radius) side = static_cast<int>(c) + 1;
+                add(p.x, Kind::fluid, side, -1);
+            }
+            for (const Cell& cell : cells)
+                for (int n = 0; n < cell.nodeCount(); ++n) add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
+        }
+        system->start();
+    }
+
+    // x <- f(x) for the fluid, node particles to f of where they began.
+    template <class F>
+    void moveNodes(F&& f) {
+        ParticleStore& s = system->store();
+        for (std::size_t i = 0; i < s.size(); ++i)
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                const std::int64_t n = s.node[i] - cells[c].firstNode;
+                if (s.node[i] < 0 || n < 0 || n >= cells[c].nodeCount()) continue;
+                // The image nearest to where the particle is: it moves continuously between builds.
+                s.setPosition(i, s.position(i) + system->box().minimumImage(f(start[c][static_cast<std::size_t>(n)]) - s.position(i)));
+            }
+    }
+};
+
+}  // namespace corpuscle::coupling::testing

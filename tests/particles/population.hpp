@@ -1,0 +1,63 @@
+// A population of particles that every rank knows whole, and its place in a ParticleSystem. Lengths in spacings.
+#pragma once
+#include <mpi.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::particles::testing {
+
+struct Population {
+    Box box;
+    std::vector<Vec3> position;  // of particle number id, wrapped
+    std::vector<bool> wall;
+
+    // Uniformly random; walls: those in the outer `layer` at both ends of z.
+    Population(const Box& inside, int count, unsigned seed, double layer = 0) : box(inside) {
+        std::mt19937_64 random(seed);
+        std::uniform_real_distribution<double> unit(0, 1);
+        for (int i = 0; i < count; ++i) {
+            const Vec3 share(unit(random), unit(random), unit(random));
+            position.push_back(box.wrap(box.low + share.cwiseProduct(box.size())));
+            wall.push_back(position.back()[2] < box.low[2] + layer || position.back()[2] >= box.high[2] - layer);
+        }
+    }
+
+    int count() const { return static_cast<int>(position.size()); }
+
+    // Dealt to ranks in turn, whatever brick they belong to.
+    void deal(ParticleStore& store, MPI_Comm comm = MPI_COMM_WORLD) const {
+        int rank = 0, size = 1;
+        MPI_Comm_rank(comm, &rank);
+        MPI_Comm_size(comm, &size);
+        for (int i = rank; i < count(); i += size) {
+            const std::size_t k = store.size();
+            store.resize(k + 1);
+            store.setPosition(k, position[i]);
+            store.id[k] = i;
+            store.kind[k] = static_cast<std::int64_t>(wall[i] ? Kind::wall : Kind::fluid);
+        }
+    }
+};
+
+inline Box box(const Vec3& size, bool x = true, bool y = true, bool z = true) { return {-0.3 * size, 0.7 * size, {x, y, z}}; }
+
+// Records of id and kind behind the position: owned filled, ghosts through the halo.
+inline constexpr int tagFields = 5;
+inline RealArray taggedRecords(ParticleSystem& system) {
+    const ParticleStore& s = system.store();
+    const auto total = static_cast<std::size_t>(system.owned() + system.ghosts());
+    RealArray records(total * tagFields);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        double* r = records.data() + tagFields * i;
+        r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
+        r[3] = static_cast<double>(s.id[i]), r[4] = static_cast<double>(s.kind[i]);
+    }
+    system.forEachPair(records.data(), tagFields, [](PairList::Group) {});
+    return records;
+}
+
+}  // namespace corpuscle::particles::testing

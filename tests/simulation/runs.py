@@ -1,0 +1,246 @@
+#!/usr/bin/env python3
+"""Whole runs of small cases: restart, kill, ranks, stopping, exit codes, skipping, rupture.
+
+    runs.py BIN TEST    BIN: directory of the applications
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+BIN = pathlib.Path(sys.argv[1])
+
+CELL_CASE = {
+    "system/control.yaml": """application: dmpFlow
+endStrain: 0.12
+write: {strain: 0.05}
+checkpoint: {wallClock: never, keep: 5}
+""",
+    "system/numerics.yaml": """spacing: 1 um
+kernel: {type: wendlandC2, support: 2.4 dx}
+shifting: {coefficient: 0.5, steps: 7}
+""",
+    "system/mesh.yaml": """domain: {size: [12, 11, 10] um, periodic: [true, true, false]}
+cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, centre: [5, 0, 0] um, axis: [0.3, 0, 1]}]
+""",
+    "system/observers.yaml": """deformation: {type: shape, every: 0.01 strain}
+balance: {type: conservation, every: 0.01 strain}
+""",
+    "constant/fluid.yaml": """density: 1000 kg/m^3
+viscosity: 1.0e-3 Pa s
+""",
+    "constant/membranes.yaml": """rbc:
+  bonds: {type: harmonic, k: 5e-4 N/m}
+  bending: {type: dihedral, Eb: 0.01}
+""",
+    "constant/flow.yaml": """type: shear
+Ca: 0.1
+inertia: {Re: 0.5}
+""",
+}
+FLUID_CASE = {
+    "system/control.yaml": "application: sphFlow\nendTime: 1 s\n",
+    "system/numerics.yaml": "spacing: 62.5 um\n",
+    "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
+    "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n",
+    "constant/flow.yaml": "type: shear\nshearRate: 0.025 1/s\n",
+}
+
+
+def make(folder, files, **changes):
+    for name, text in {**files, **changes}.items():
+        path = pathlib.Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return pathlib.Path(folder)
+
+
+def run(case, application, *options, ranks=1, code=0, env=None):
+    command = [str(BIN / application), "-case", str(case), "-quiet", *options]
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(env or {})})
+    assert done.returncode == code, f"{' '.join(command)}: exit code {done.returncode}, expected {code}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+def prepared(folder, files=CELL_CASE, **changes):
+    case = make(folder, files, **changes)
+    if "constant/membranes.yaml" in files:
+        run(case, "membraneMesh")
+    run(case, "particleFill")
+    return case
+
+
+def series(case, observer):
+    """All rows of an observer, start times joined."""
+    rows = []
+    for folder in sorted((case / "postProcessing" / observer).iterdir(), key=lambda p: float(p.name)):
+        (table,) = folder.glob("*.csv")
+        with open(table) as file:
+            rows += [row for row in csv.reader(file)][1:]
+    return rows
+
+
+def last_checkpoint(case):
+    return max((case / "checkpoints").glob("*.h5"))
+
+
+def same_checkpoint(a, b):
+    done = subprocess.run(["h5diff", str(a), str(b)], capture_output=True, text=True)
+    assert done.returncode == 0, f"{a} and {b} differ:\n{done.stdout[:2000]}{done.stderr[:500]}"
+
+
+def test_restart(folder):
+    """A run in two parts ends with the bits of a run in one, on 1 and 2 ranks; the observers' rows join without a seam."""
+    start = prepared(folder / "start")
+    for ranks in (1, 2):
+        whole, parts = folder / f"whole{ranks}", folder / f"parts{ranks}"
+        shutil.copytree(start, whole)
+        shutil.copytree(start, parts)
+        run(whole, "dmpFlow", ranks=ranks)
+        run(parts, "dmpFlow", "-steps", "37", ranks=ranks)
+        run(parts, "dmpFlow", ranks=ranks)
+        same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+        for observer in ("deformation", "balance"):
+            assert series(whole, observer) == series(parts, observer), observer
+            assert len(series(whole, observer)) >= 12
+    # On another number of ranks: the same to rounding.
+    other = folder / "other"
+    shutil.copytree(start, other)
+    run(other, "dmpFlow", "-steps", "37", ranks=1)
+    run(other, "dmpFlow", ranks=2)
+    close(series(folder / "whole1", "balance"), series(other, "balance"), 1e-7)
+
+
+def close(a, b, tolerance):
+    assert len(a) == len(b), (len(a), len(b))
+    scale = [max(abs(float(row[k])) for row in a) or 1.0 for k in range(len(a[0]))]
+    worst = max(abs(float(x) - float(y)) / s for p, q in zip(a, b) for x, y, s in zip(p, q, scale))
+    assert worst <= tolerance, f"largest relative difference {worst:.3g}, allowed {tolerance}"
+
+
+def test_kill(folder):
+    """A run killed by SIGKILL goes on from its last checkpoint to the same bits."""
+    control = CELL_CASE["system/control.yaml"].replace("wallClock: never", "wallClock: 0.3 s")
+    case = prepared(folder / "killed", **{"system/control.yaml": control.replace("0.12", "1.0")})
+    whole = folder / "whole"
+    shutil.copytree(case, whole)
+    process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), "-quiet"])
+    deadline = time.time() + 60
+    while time.time() < deadline and not list((case / "checkpoints").glob("*.h5")) and process.poll() is None:
+        time.sleep(0.02)
+    assert process.poll() is None, "the run ended before it could be killed: make it longer"
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    run(case, "dmpFlow")
+    run(whole, "dmpFlow")
+    same_checkpoint(last_checkpoint(whole), last_checkpoint(case))
+
+
+def test_ranks(folder):
+    """The same result to rounding on 1, 2 and 4 ranks."""
+    start = prepared(folder / "start")
+    results = {}
+    for ranks in (1, 2, 4):
+        case = folder / f"np{ranks}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", ranks=ranks)
+        results[ranks] = (series(case, "balance"), series(case, "deformation"))
+    for ranks in (2, 4):
+        for one, other in zip(results[1], results[ranks]):
+            close([row[:6] + row[13:] for row in one], [row[:6] + row[13:] for row in other], 1e-8)
+
+
+def test_stop(folder):
+    """A stop file and the wall-clock limit end a run with exit code 5 and a checkpoint."""
+    case = prepared(folder / "case", **{"system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "50")})
+    process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), "-quiet"])
+    time.sleep(1.5)
+    (case / "stop").touch()
+    assert process.wait(timeout=60) == 5
+    assert json.loads((case / "run.json").read_text())["status"] == "stopped"
+    assert list((case / "checkpoints").glob("*.h5")) and not (case / "stop").exists()
+    run(case, "dmpFlow", "-set", "system/control.yaml:/stop/wallClock=1 s", code=5)
+
+
+def test_endings(folder):
+    """Exit codes: wrong usage 1, invalid case 2, diverged 3, missing files 4; a dry run writes nothing."""
+    case = make(folder / "case", CELL_CASE)
+    assert "membraneMesh" in run(case, "dmpFlow", code=4).stderr
+    run(case, "membraneMesh")
+    assert "particleFill" in run(case, "dmpFlow", code=4).stderr
+    run(case, "particleFill")
+    assert "-steps" in run(case, "dmpFlow", "-step", "3", code=1).stderr
+    assert "viscosity" in run(case, "dmpFlow", "-set", "constant/fluid.yaml:/viscosty=1 Pa s", code=2).stderr
+    assert "diverged" in run(case, "dmpFlow", "-set", "constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}",
+                             "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", code=3).stderr
+    before = sorted(case.rglob("*"))
+    for extra in ("results", "postProcessing", "checkpoints"):
+        shutil.rmtree(case / extra, ignore_errors=True)
+    before = sorted(p for p in case.rglob("*") if "log" not in p.name)
+    run(case, "dmpFlow", "-dry-run")
+    assert sorted(p for p in case.rglob("*") if "log" not in p.name) == before
+    assert "run dmpFlow" in run(case, "sphFlow", code=2).stderr
+
+
+def instructions(folder, case, application, steps):
+    out = folder / f"{application}.{steps}.callgrind"
+    command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", str(BIN / application), "-case", str(case), "-quiet",
+               "-steps", str(steps), "-set", "system/control.yaml:/startFrom=firstTime"]
+    subprocess.run(command, check=True, capture_output=True)
+    for line in out.read_text().splitlines():
+        if line.startswith(("summary:", "totals:")):
+            return int(line.split()[1])
+    raise AssertionError("no total in " + str(out))
+
+
+def test_skipping(folder):
+    """A fluid alone costs the same instructions per step under dmpFlow as under sphFlow, and stores nothing for cells."""
+    case = prepared(folder / "case", FLUID_CASE)
+    perStep = {}
+    for application in ("sphFlow", "dmpFlow"):
+        perStep[application] = (instructions(folder, case, application, 30) - instructions(folder, case, application, 10)) / 20
+    ratio = perStep["dmpFlow"] / perStep["sphFlow"]
+    print(f"instructions per step: {perStep}, ratio {ratio:.5f}")
+    assert abs(ratio - 1) < 0.01
+    names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/particles"], capture_output=True, text=True, check=True).stdout
+    stored = {line.split()[0] for line in names.splitlines()}
+    assert not stored & {"mass", "viscosity", "side", "node"}, stored
+
+
+def test_rupture(folder):
+    """At Ca 2 bonds break at a limit of 1.05, the same ones on 1 and 2 ranks; without a limit none does."""
+    changes = {"system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.8"),
+               "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.5}\n",
+               "system/observers.yaml": "tear: {type: rupture, every: 0.05 strain}\n"}
+    laws = CELL_CASE["constant/membranes.yaml"]
+    start = prepared(folder / "start", **changes, **{"constant/membranes.yaml": laws + "  rupture: {type: bondStretch, limit: 1.05}\n"})
+    ends = {}
+    for ranks in (1, 2):
+        case = folder / f"np{ranks}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", ranks=ranks)
+        tables = {p.stem: list(csv.DictReader(open(p))) for p in case.glob("postProcessing/tear/0/*.csv")}
+        ends[ranks] = tables["rbc"][-1]
+        assert len(tables["events"]) > 0
+    broken = [float(value) for key, value in ends[1].items() if "roken" in key or "bonds" in key.lower()][0]
+    assert broken > 0
+    assert all(math.isclose(float(ends[1][k]), float(ends[2][k]), rel_tol=1e-6, abs_tol=1e-18) for k in ends[1])
+    intact = folder / "intact"
+    shutil.copytree(start, intact)
+    run(intact, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none")
+    assert json.loads((intact / "run.json").read_text())["result"]["brokenBonds"] == 0
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as temporary:
+        globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
+    print("passed")

@@ -1,0 +1,89 @@
+// Fluids for the tests: particles that every rank knows whole, in lengths of a spacing and densities of about 1.
+#pragma once
+#include <mpi.h>
+
+#include <random>
+#include <vector>
+
+#include "core/registry.hpp"
+#include "sph/fluidForces.hpp"
+
+namespace corpuscle::sph::testing {
+
+using particles::Box;
+using particles::Kind;
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+template <class Family>
+std::shared_ptr<const Family> choose(const std::string& text) {
+    Problems problems;
+    auto choice = readChoice<Family>(parseValue(text, "test", problems), problems);
+    problems.throwIfAny();
+    return choice.model;
+}
+
+struct Particle {
+    Vec3 x, u;
+    double density = 1, mass = 1, viscosity = 1;
+    bool wall = false;
+};
+
+inline Box cube(const Index3& n, bool walls = false) {
+    return {Vec3::Zero(), Vec3(n[0], n[1], n[2]), {true, true, !walls}};
+}
+
+// A lattice with everything off its place by up to `disorder`.
+inline std::vector<Particle> lattice(const Index3& n, double disorder, unsigned seed = 1) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> d(-disorder, disorder);
+    std::vector<Particle> all;
+    for (int a = 0; a < n[0]; ++a)
+        for (int b = 0; b < n[1]; ++b)
+            for (int c = 0; c < n[2]; ++c) {
+                Particle p;
+                p.x = Vec3(a + 0.5 + d(random), b + 0.5 + d(random), c + 0.5 + d(random));
+                p.u = 3 * Vec3(d(random), d(random), d(random));
+                p.density = 1 + 0.3 * d(random);
+                p.mass = 1 + d(random);
+                p.viscosity = 1 + 2 * d(random);
+                all.push_back(p);
+            }
+    return all;
+}
+
+inline void deal(const std::vector<Particle>& all, ParticleSystem& system) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    ParticleStore& s = system.store();
+    for (std::size_t i = static_cast<std::size_t>(rank); i < all.size(); i += static_cast<std::size_t>(size)) {
+        const std::size_t k = s.size();
+        s.resize(k + 1);
+        s.setPosition(k, all[i].x), s.setVelocity(k, all[i].u);
+        s.density[k] = all[i].density;
+        s.id[k] = static_cast<std::int64_t>(i);
+        s.kind[k] = static_cast<std::int64_t>(all[i].wall ? Kind::wall : Kind::fluid);
+        if (s.optional().mass) s.mass[k] = all[i].mass;
+        if (s.optional().viscosity) s.viscosity[k] = all[i].viscosity;
+    }
+    system.start();
+}
+
+inline FluidModel model(const std::string& kernel, const std::string& equationOfState = "tait") {
+    FluidModel m;
+    m.kernel = choose<Kernel>(kernel);
+    m.equationOfState = choose<EquationOfState>(equationOfState);
+    m.density = 1;
+    m.viscosity = 0.7;
+    m.soundSpeed = 3;
+    m.mass = 1;
+    return m;
+}
+
+inline double sumOverRanks(double value) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+}  // namespace corpuscle::sph::testing
