@@ -56,7 +56,7 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
     EXPECT_EQ(scene.moves(), 0) << "nobody is on the wrong side yet";
 
     const int i = scene.nearest(side);
-    Vec3 n;
+    Vec3 n = Vec3::Zero();
     if (i >= 0) {
         n = scene.outward(i);
         s.setPosition(i, s.position(i) + (radius - own * 0.4 - scene.distance(i)) * n);
@@ -69,7 +69,7 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
     ASSERT_EQ(report.size(), i >= 0 ? 1u : 0u);
     EXPECT_TRUE(scene.guard.takeReport().empty());
     for (std::size_t k = 0; k < s.size(); ++k)
-        if (static_cast<int>(k) != i) ASSERT_TRUE(s.position(k) == before.position(k) && s.velocity(k) == before.velocity(k));
+        EXPECT_TRUE(static_cast<int>(k) == i || (s.position(k) == before.position(k) && s.velocity(k) == before.velocity(k)));
     if (i >= 0) {
         // Facets of the icosphere lie up to 0.06 within the sphere.
         EXPECT_NEAR(own * (scene.distance(i) - radius), 0.1, 0.07);

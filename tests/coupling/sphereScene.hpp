@@ -11,7 +11,7 @@ using particles::Kind;
 using particles::ParticleStore;
 using particles::ParticleSystem;
 
-inline constexpr double radius = 2.2, skin = 0.3;
+inline constexpr double radius = 2.2, skin = 0.3, nodeMass = 0.4;
 
 template <class Family>
 Choice<Family> choice(const std::string& text) {
@@ -38,7 +38,8 @@ struct SphereScene {
             auto mesh = membrane::testing::icosphere(2);
             for (Vec3& x : mesh.nodes) x = radius * x + centre;
             const int number = static_cast<int>(cells.size()) + 1;
-            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere", radius, 1, first, 0, 0, true});
+            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere", radius, 1, first, 0, 0,
+                             std::vector<double>(mesh.nodes.size(), nodeMass), true});
             start.push_back(mesh.nodes);
             first += cells.back().nodeCount();
         }
@@ -50,7 +51,7 @@ struct SphereScene {
             const std::size_t i = s.size();
             s.resize(i + 1);
             s.setPosition(i, x);
-            s.density[i] = 1, s.mass[i] = kind == Kind::membrane ? 0.4 : 1;
+            s.density[i] = 1, s.mass[i] = kind == Kind::membrane ? nodeMass : 1;
             s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side, s.node[i] = node;
         };
         if (rank == 0) {

@@ -211,7 +211,7 @@ def test_skipping(folder):
     ratio = perStep["dmpFlow"] / perStep["sphFlow"]
     print(f"instructions per step: {perStep}, ratio {ratio:.5f}")
     assert abs(ratio - 1) < 0.01
-    names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/particles"], capture_output=True, text=True, check=True).stdout
+    names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/data/particles"], capture_output=True, text=True, check=True).stdout
     stored = {line.split()[0] for line in names.splitlines()}
     assert not stored & {"mass", "viscosity", "side", "node"}, stored
 

@@ -14,7 +14,7 @@ import sys
 
 NU, L, U = 1.0e-6, 1.0e-3, 6.25e-6  # constant/fluid.yaml, system/mesh.yaml, constant/flow.yaml
 TIMES = (0.0225, 0.045, 0.1125, 0.225)  # s, of Morris, Fox and Zhu (1997)
-TOLERANCE = 0.01  # of the finest case, at every one of these times
+TOLERANCE = 0.002  # of the finest case, at every one of these times
 
 
 def series(z, t):

@@ -14,7 +14,7 @@ import sys
 
 NU, L, F = 1.0e-6, 1.0e-3, 1.0e-4  # constant/fluid.yaml, system/mesh.yaml, constant/flow.yaml
 TIMES = (0.05, 0.1, 0.2, 0.5)  # s
-TOLERANCE = 0.01  # of the finest case, at every one of these times
+TOLERANCE = 0.002  # of the finest case, at every one of these times
 
 
 def series(z, t):

@@ -9,6 +9,6 @@ file = system("ls runs/64/postProcessing/profile/*/profile.csv")
 slabs = 64
 array look[4] = [1, 2, 4, 10]                    # multiples of 0.05 s
 set key right top; set xlabel 'u nu/(F L^2)'; set ylabel 'z/L'
-set parametric; set trange [-0.5:0.5]; set samples 400; set xrange [0:0.15]
-plot for [i=1:4] file using ($4*nu/(F*L**2)):($3/L) every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.2f s', 0.05*look[i]), \
+set parametric; set trange [-0.5:0.5]; set samples 400; set yrange [-0.5:0.5]; set xrange [0:0.15]
+plot for [i=1:4] file using ($4*nu/(F*L**2)):($3/L) skip 1 every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.2f s', 0.05*look[i]), \
      for [i=1:4] u(t*L, 0.05*look[i]), t with lines lc i notitle

@@ -15,7 +15,7 @@ import sys
 
 NU, L = 1.0e-6, 1.0e-3  # constant/fluid.yaml, system/mesh.yaml
 RATE = 4 * NU * (2 * math.pi / L) ** 2  # 1/s
-TOLERANCE = 0.01  # of the finest case, of E(0)
+TOLERANCE = 0.005  # of the finest case, of E(0)
 
 
 def decay(case):

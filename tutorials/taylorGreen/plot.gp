@@ -6,5 +6,5 @@ nu = 1e-6; k = 2*pi/1e-3
 file(N) = system("ls runs/" . N . "/postProcessing/balance/*/conservation.csv")
 first(N) = real(system("sed -n 2p " . file(N) . " | cut -d, -f6"))
 set xlabel '4 nu k^2 t'; set ylabel 'E/E(0)'; set logscale y; set xrange [0:3.2]; set yrange [0.03:1.2]
-plot for [N in "16 32 64"] E = first(N) file(N) using (4*nu*k**2*$1):($6/E) every ::1 with points title N . ' along a wavelength', \
+plot for [N in "16 32 64"] E = first(N) file(N) using (4*nu*k**2*$1):($6/E) skip 1 with points title N . ' along a wavelength', \
      exp(-x) with lines lc 'black' title 'exact'

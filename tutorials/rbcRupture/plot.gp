@@ -1,0 +1,14 @@
+# Bonds broken, area of the holes and fluid released over strain. Writes postProcessing/rupture.png.
+set terminal pngcairo size 1200,400 font ",11"
+set output 'postProcessing/rupture.png'
+set datafile separator comma
+files = system("ls -d postProcessing/rupture/*/rbc.csv | sort -t/ -k3 -g")
+set xlabel 'strain'; unset key
+set multiplot layout 1,3
+set ylabel 'bonds broken'
+plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1
+set ylabel 'area of the holes [um^2]'
+plot for [f in files] f using 2:($5*1e12) skip 1 with lines lw 2 lc 1
+set ylabel 'fluid released from inside [fL]'
+plot for [f in files] f using 2:($8*1e18) skip 1 with lines lw 2 lc 1
+unset multiplot

@@ -1,0 +1,29 @@
+# Deformation index and angle of the cell over strain.  gnuplot -c shape.gp OUT.png REFERENCE FILE.csv...
+# FILE: postProcessing/deformation/*/rbc.csv, oldest first. REFERENCE: strain,D12_extent,D12_inertia,angle_deg; or none.
+out = ARG1; reference = ARG2; files = ARG3
+do for [i=4:ARGC] { files = files . ' ' . value('ARG' . i) }
+set terminal pngcairo size 1200,500 font ",11"
+set output out
+set datafile separator comma
+set xlabel 'strain'
+set key below
+degrees = 180/pi
+# The main axis has no direction: its angle is followed from look to look.
+last = 0
+followed(angle) = (last = angle + 180*floor((last - angle)/180 + 0.5), last)
+shown = reference eq 'none' ? '' : reference
+# Rigid cell in unbounded Stokes flow, period 20.45: that of a spheroid of axis ratio r (Jeffery 1922).
+r = 0.3435
+rigid(t) = (phase = t*r/(1 + r*r), degrees*(atan(r*tan(phase)) + pi*floor(phase/pi + 0.5)))
+set multiplot layout 1,2
+set ylabel 'D12'
+plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1 title 'by extents', \
+     for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia', \
+     for [f in shown] f using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements', \
+     for [f in shown] f using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'
+set ylabel 'degrees, with the flow'
+plot for [f in files] f using 2:($6*degrees) skip 1 with lines lw 2 lc 1 title 'angle turned by the material', \
+     for [f in files] f using 2:(followed(-$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
+     for [f in shown] f using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements', \
+     rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded'
+unset multiplot

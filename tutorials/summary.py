@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Short table of a finished red-cell case, from its postProcessing/ and run.json.
+
+    summary.py [CASE...]             a table for people (default: this directory)
+    summary.py -csv CASE...          one row for each case, with a header
+
+Needs the observers shape and conservation under the names deformation and balance. Drift is the largest change since the start.
+"""
+import csv
+import glob
+import json
+import math
+import os
+import sys
+
+COLUMNS = {  # name in the CSV file: text in the table
+    "Ca": "Ca",
+    "strain": "strain reached",
+    "D12_extent_min": "D12 by extents, smallest",
+    "D12_extent_max": "D12 by extents, largest",
+    "D12_inertia_min": "D12 by inertia, smallest",
+    "D12_inertia_max": "D12 by inertia, largest",
+    "angleTurned_deg": "angle turned [degrees]",
+    "areaDrift": "largest change of area",
+    "volumeDrift": "largest change of volume",
+    "guardMoves": "moves of the leakage guard",
+    "changedSide": "particles on the wrong side, at most",
+    "wallClock_s": "run time [s]",
+}
+
+
+def series(case, observer, file):
+    """Rows of an observer. A restarted run adds a folder named by its start, which replaces later rows of earlier folders."""
+    rows = []
+    folders = glob.glob(os.path.join(case, "postProcessing", observer, "*", file))
+    for name in sorted(folders, key=lambda path: float(path.split(os.sep)[-2])):
+        start = float(name.split(os.sep)[-2])
+        rows = [row for row in rows if row["time_s"] < start]
+        with open(name) as text:
+            rows += [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    if not rows:
+        raise SystemExit(f"{case}: no {file} under postProcessing/{observer}: run the case, with this observer in system/observers.yaml")
+    return rows
+
+
+def summary(case):
+    with open(os.path.join(case, "run.json")) as text:
+        run = json.load(text)
+    shape = series(case, "deformation", "*.csv")
+    balance = series(case, "balance", "conservation.csv")
+    extremes = {f"{name}_{word}": pick(row[name] for row in shape) for name in ("D12_extent", "D12_inertia")
+                for word, pick in (("min", min), ("max", max))}
+    drift = lambda end: max((row[key] for row in balance for key in row if key.endswith(end)), key=abs)
+    return {
+        "Ca": run["groups"]["Ca"],
+        "strain": shape[-1]["strain"],
+        **extremes,
+        "angleTurned_deg": math.degrees(shape[-1]["angleTurned_rad"]),
+        "areaDrift": drift("_areaChange"),
+        "volumeDrift": drift("_volumeChange"),
+        "guardMoves": balance[-1]["guardMoves"],
+        "changedSide": max(row["changedSide"] for row in balance),
+        "wallClock_s": run["wallClock_s"] or math.nan,
+    }
+
+
+def shown(name, value):
+    if name.endswith("Drift"):
+        return f"{100 * value:+.3f} %"
+    if name.startswith("D12"):
+        return f"{value:.4f}"
+    return f"{value:.4g}" if name == "Ca" else f"{value:.6g}" if math.isfinite(value) and value == int(value) else f"{value:.2f}"
+
+
+def main(arguments):
+    asCsv = "-csv" in arguments
+    cases = [a for a in arguments if a != "-csv"] or ["."]
+    results = [summary(case) for case in cases]
+    if asCsv:
+        writer = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(results)
+        return
+    for case, result in zip(cases, results):
+        print(os.path.basename(os.path.abspath(case)))
+        for name, text in COLUMNS.items():
+            print(f"  {text:38s}{shown(name, result[name]):>12s}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
