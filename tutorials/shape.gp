@@ -19,11 +19,11 @@ set multiplot layout 1,2
 set ylabel 'D12'
 plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1 title 'by extents', \
      for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia', \
-     for [f in shown] f using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements', \
-     for [f in shown] f using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'
+     for [i=1:words(shown)] word(shown, i) using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements', \
+     for [i=1:words(shown)] word(shown, i) using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'
 set ylabel 'degrees, with the flow'
 plot for [f in files] f using 2:($6*degrees) skip 1 with lines lw 2 lc 1 title 'angle turned by the material', \
      for [f in files] f using 2:(followed(-$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
-     for [f in shown] f using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements', \
+     for [i=1:words(shown)] word(shown, i) using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements', \
      rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded'
 unset multiplot

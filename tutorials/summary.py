@@ -52,7 +52,7 @@ def summary(case):
                 for word, pick in (("min", min), ("max", max))}
     drift = lambda end: max((row[key] for row in balance for key in row if key.endswith(end)), key=abs)
     return {
-        "Ca": run["groups"]["Ca"],
+        "Ca": float(f"{run['groups']['Ca']:.6g}"),
         "strain": shape[-1]["strain"],
         **extremes,
         "angleTurned_deg": math.degrees(shape[-1]["angleTurned_rad"]),

@@ -69,10 +69,10 @@ std::string nearestWord(const std::string& word, const std::vector<std::string>&
     for (const std::string& candidate : allowed) {
         // A word that differs only in capitals is always near.
         const std::size_t distance = lowered(candidate) == lowered(word) ? 0 : editDistance(word, candidate);
+        // Of two as near, the one with the same letters: they are swapped more often than lost.
+        const bool swapped = std::is_permutation(word.begin(), word.end(), candidate.begin(), candidate.end());
+        const bool nearer = distance < bestDistance || (distance == bestDistance && !best.empty() && swapped);
         // A distance of the whole word would call any two short words alike.
-        // Of two as near, the one of the same length: letters are swapped more often than lost.
-        const bool nearer = distance < bestDistance || (distance == bestDistance && !best.empty() &&
-                                                        best.size() != word.size() && candidate.size() == word.size());
         if (nearer && distance < std::max(word.size(), candidate.size())) {
             bestDistance = distance;
             best = candidate;

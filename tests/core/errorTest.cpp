@@ -12,6 +12,7 @@ TEST(NearestWord, findsTypingErrorsAndNothingElse) {
     EXPECT_EQ(nearestWord("SOUNDSPEED", words), "soundSpeed");
     EXPECT_EQ(nearestWord("pressure", words), "");
     EXPECT_EQ(nearestWord("b", {"a"}), "");
+    EXPECT_EQ(nearestWord("mu", {"m", "mm", "um"}), "um");  // of words as near, the one with the same letters
     EXPECT_EQ(didYouMean("densty", words), " Did you mean 'density'?");
     EXPECT_EQ(didYouMean("walls", words), "");
 }

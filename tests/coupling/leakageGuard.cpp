@@ -66,11 +66,11 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
     scene.guard.putBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 1);
     const auto report = scene.guard.takeReport();
-    ASSERT_EQ(report.size(), i >= 0 ? 1u : 0u);
+    EXPECT_EQ(report.size(), i >= 0 ? 1u : 0u);
     EXPECT_TRUE(scene.guard.takeReport().empty());
     for (std::size_t k = 0; k < s.size(); ++k)
         EXPECT_TRUE(static_cast<int>(k) == i || (s.position(k) == before.position(k) && s.velocity(k) == before.velocity(k)));
-    if (i >= 0) {
+    if (i >= 0 && report.size() == 1) {
         // Facets of the icosphere lie up to 0.06 within the sphere.
         EXPECT_NEAR(own * (scene.distance(i) - radius), 0.1, 0.07);
         EXPECT_LT((s.position(i) - before.position(i)).norm(), 0.7) << "no jump to another image";
@@ -94,7 +94,7 @@ TEST_P(Guard, leavesARupturedCellAlone) {
     std::vector<char> alive(scene.cells[0].membrane.network().allBonds().size(), 1);
     alive[3] = 0;
     scene.cells[0].membrane.restore(alive);
-    ASSERT_TRUE(scene.cells[0].membrane.network().isOpen());
+    EXPECT_TRUE(scene.cells[0].membrane.network().isOpen());
     scene.guard.putBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 0);
 }

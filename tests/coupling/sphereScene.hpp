@@ -57,9 +57,13 @@ struct SphereScene {
         if (rank == 0) {
             for (const sph::testing::Particle& p : sph::testing::lattice(size, 0.1)) {
                 int side = 0;
-                for (std::size_t c = 0; c < centres.size(); ++c)
-                    if (box.minimumImage(p.x - centres[c]).norm() < radius) side = static_cast<int>(c) + 1;
-                add(p.x, Kind::fluid, side, -1);
+                bool free = true;  // not where the membrane's nodes and facets are
+                for (std::size_t c = 0; c < centres.size(); ++c) {
+                    const double distance = box.minimumImage(p.x - centres[c]).norm();
+                    if (distance < radius) side = static_cast<int>(c) + 1;
+                    free &= std::abs(distance - radius) > 0.15;
+                }
+                if (free) add(p.x, Kind::fluid, side, -1);
             }
             for (const Cell& cell : cells)
                 for (int n = 0; n < cell.nodeCount(); ++n) add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);

@@ -122,19 +122,16 @@ Evenness Relaxation::evenness() {
     return {near.spread(), beyond.spread()};
 }
 
-double Relaxation::sweep() {
+void Relaxation::sweep() {
     sums();
     particles::ParticleStore& s = system_.store();
     const double factor = strength * input_.support() * input_.support(), bound = largestInSpacings * input_.spacing();
-    double largest = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (zoneOf(i) != Zone::near) continue;
         Vec3 move = factor * Vec3(disorder_[0][i], disorder_[1][i], disorder_[2][i]);
         if (const double length = move.norm(); length > bound) move *= bound / length;
-        largest = std::max(largest, move.norm());
         s.setPosition(i, s.position(i) + move);
     }
-    return largest;
 }
 
 std::vector<std::pair<std::size_t, Vec3>> Relaxation::moved() const {

@@ -31,10 +31,9 @@ class Relaxation {
                const std::vector<geometry::TriangleMesh>& cells);
 
     Evenness evenness();
-    double sweep();  // the largest move [m]
+    void sweep();
     // Numbers of the fluid particles that may have moved, and where they are now.
     std::vector<std::pair<std::size_t, Vec3>> moved() const;
-    int particles() const { return system_.owned(); }
 
   private:
     enum class Zone : char { near, beyond, rim, fixed };  // the rim only completes the sums of the others
