@@ -11,19 +11,19 @@ degrees = 180/pi
 # The main axis has no direction: its angle is followed from look to look.
 last = 0
 followed(angle) = (last = angle + 180*floor((last - angle)/180 + 0.5), last)
-shown = reference eq 'none' ? '' : reference
+given = reference ne 'none'
+D12ofReference = !given ? '' : ", reference using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements'" \
+                             . ", reference using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'"
+angleOfReference = !given ? '' : ", reference using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements'"
 # Rigid cell in unbounded Stokes flow, period 20.45: that of a spheroid of axis ratio r (Jeffery 1922).
 r = 0.3435
 rigid(t) = (phase = t*r/(1 + r*r), degrees*(atan(r*tan(phase)) + pi*floor(phase/pi + 0.5)))
 set multiplot layout 1,2
 set ylabel 'D12'
 plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1 title 'by extents', \
-     for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia', \
-     for [i=1:words(shown)] word(shown, i) using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements', \
-     for [i=1:words(shown)] word(shown, i) using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'
+     for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia' @D12ofReference
 set ylabel 'degrees, with the flow'
 plot for [f in files] f using 2:($6*degrees) skip 1 with lines lw 2 lc 1 title 'angle turned by the material', \
      for [f in files] f using 2:(followed(-$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
-     for [i=1:words(shown)] word(shown, i) using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements', \
-     rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded'
+     rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded' @angleOfReference
 unset multiplot

@@ -16,8 +16,7 @@
 namespace corpuscle::particles {
 
 // 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would put them all at the same
-// place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the cache (an integrator's
-// loop took four times as long).
+// place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the cache.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;

@@ -1,4 +1,4 @@
-// Results for ParaView and renderCase: one stream for the fluid, one for the walls at the start, one for each cell.
+// Results for ParaView and renderCase: one stream for the fluid, one for each cell. Walls stand in 0/walls.vtp.
 #pragma once
 #include <memory>
 #include <vector>

@@ -138,23 +138,26 @@ void Schedule::begin(const Scene& scene, const Time& time) {
 void Schedule::afterStep(const Scene& scene, const Time& time) {
     smallestDt_ = std::min(smallestDt_, time.dt);
     largestDt_ = std::max(largestDt_, time.dt);
-    if (!scene.broken.empty()) reportRupture(scene, time);
     observers_.run(scene, time);
     if (results_.due(time)) {
         results_.write(scene, time);
         reportGuard(scene, time);
+        reportRupture(scene, time);
     }
     if (checkpoints_.due(stop_)) saveCheckpoint(scene, time);
     progress_.report(time);
 }
 
 void Schedule::reportRupture(const Scene& scene, const Time& time) {
-    for (const coupling::RuptureEvent& event : scene.broken) {
-        if (brokenBonds_ == 0)
-            app_.log().info("first break: cell {}, t = {}, strain {:.4f}, stretch {:.4f}", event.cell, formatQuantity(time.t, unit::second),
-                            time.strain(), event.bonds.front().stretch);
-        brokenBonds_ += static_cast<long>(event.bonds.size());
+    // Holders of a cell agree; the root need not be one.
+    long broken = 0;
+    for (const coupling::Cell& cell : scene.cells) {
+        long ofCell = cell.held ? cell.membrane.network().brokenBonds() : 0;
+        MPI_Allreduce(MPI_IN_PLACE, &ofCell, 1, MPI_LONG, MPI_MAX, scene.system->comm());
+        broken += ofCell;
     }
+    if (broken > brokenBonds_) app_.log().info("rupture: {} bonds broken until strain {:.3f}", broken, time.strain());
+    brokenBonds_ = broken;
 }
 
 void Schedule::reportGuard(const Scene& scene, const Time& time) {
@@ -175,6 +178,7 @@ double Schedule::particleSteps(const Time& time) const {
 
 ExitCode Schedule::end(const Scene& scene, const Time& time) {
     reportGuard(scene, time);
+    reportRupture(scene, time);
     saveCheckpoint(scene, time);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     const long steps = time.step - start_.step;

@@ -3,7 +3,7 @@ set terminal pngcairo size 1200,400 font ",11"
 set output 'postProcessing/rupture.png'
 set datafile separator comma
 files = system("ls -d postProcessing/rupture/*/rbc.csv | sort -t/ -k3 -g")
-set xlabel 'strain'; unset key
+set xlabel 'strain'; unset key; set yrange [0:*]; set offsets 0, 0, graph 0.05, 0
 set multiplot layout 1,3
 set ylabel 'bonds broken'
 plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1

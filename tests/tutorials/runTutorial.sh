@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# runTutorial.sh BIN TUTORIAL [options]: copies the tutorials, runs one with its own Allrun, and removes the copy.
+set -euo pipefail
+bin=$1 tutorial=$2
+shift 2
+copy=$(mktemp -d)
+trap 'rm -rf "$copy"' EXIT
+cp -r "$(dirname "$0")/../../tutorials" "$copy/tutorials"
+cd "$copy/tutorials/$tutorial"
+CORPUSCLE_BIN=$bin CORPUSCLE_TUTORIALS=$copy/tutorials ./Allrun "$@"
+[ -s run.json ] || ls runs/*/run.json >/dev/null
