@@ -25,8 +25,9 @@ configure_and_build() {
     local options=()
     while [ $# -gt 0 ] && [ "$1" != -- ]; do options+=("$1"); shift; done
     [ $# -gt 0 ] && shift
-    cmake -S "$root" -B "$build" -G Ninja "${options[@]}" >"$build.cmake.log" 2>&1 || { cat "$build.cmake.log"; return 1; }
-    cmake --build "$build" -- "$@" >"$build.log" 2>&1 || { grep -E 'error|FAILED' "$build.log" || tail -n 40 "$build.log"; return 1; }
+    mkdir -p "$build"
+    cmake -S "$root" -B "$build" -G Ninja "${options[@]}" >"$build/cmake.log" 2>&1 || { cat "$build/cmake.log"; return 1; }
+    cmake --build "$build" -- "$@" >"$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" || tail -n 40 "$build/build.log"; return 1; }
 }
 
 # timed LABEL COMMAND...: runs and says how long it took.
