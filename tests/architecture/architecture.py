@@ -67,12 +67,12 @@ def check_dependencies(root, fail):
                 fail(f"libs/{library}/CMakeLists.txt: DEPENDS {other}; allowed: {', '.join(sorted(allowed(library) - {library}))}")
 
     def reached(library):
-        seen, todo = {library}, [library]
-        while todo:
-            for other in depends.get(todo.pop(), ()):
+        seen, pending = {library}, [library]
+        while pending:
+            for other in depends.get(pending.pop(), ()):
                 if other not in seen:
                     seen.add(other)
-                    todo.append(other)
+                    pending.append(other)
         return seen
 
     for library in sorted(depends):
