@@ -2,7 +2,7 @@
 //
 // A periodic cube of n^3 particles jittered by 0.1 dx; pressure, Morris viscosity and continuity with Tait's equation of state,
 // velocity Verlet, skin 0.3 dx; sorted and listed every 10 steps. Warm-up of 10 steps, then `steps`.
-//     pairEngine [n] [support in dx] [steps] [kernel]        default: 80 2.5 50 lucy
+//     pairEngine [n] [support in dx] [steps] [kernel] [double|mixed]        default: 80 2.5 50 lucy double
 //     mpirun -np 2 pairEngine 80
 #include <mpi.h>
 #include <sys/resource.h>
@@ -96,6 +96,8 @@ int main(int argc, char* argv[]) {
     fluid.equationOfState = choose<sph::EquationOfState>("tait");
     fluid.density = fluid.mass = fluid.soundSpeed = 1;
     fluid.viscosity = 0.1;
+    const std::string precision = argc > 5 ? argv[5] : "double";
+    fluid.precision = precision == "mixed" ? sph::Precision::mixed : sph::Precision::full;
     sph::FluidForces forces(fluid, system);
     sph::VelocityVerlet integrator(system, forces, nullptr, {});
     integrator.start();
@@ -127,8 +129,8 @@ int main(int argc, char* argv[]) {
     const double ghosts = sum(system.ghosts());
     if (rank == 0) {
         const auto ns = [&](double seconds) { return 1e9 * seconds / work; };
-        std::printf("%s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n", kernel.c_str(),
-                    instructionSetName().c_str(), support, total, size, steps, entries / total, 100 * ghosts / total);
+        std::printf("%s, %s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n", kernel.c_str(),
+                    instructionSetName().c_str(), precision.c_str(), support, total, size, steps, entries / total, 100 * ghosts / total);
         std::printf("million particle-steps: %.2f per core-second, %.2f per second\n", 1e-6 * work / cpu, 1e-6 * work / wall);
         std::printf("ns per particle-step: forces %.1f, sort and list %.1f (%.0f per build), integrator %.1f\n", ns(forceTime), ns(list),
                     ns(list) * stepsPerList, ns(cpu - list - forceTime));

@@ -12,6 +12,7 @@ struct Box {
     std::array<bool, 3> periodic{false, false, false};
 
     Vec3 size() const { return high - low; }
+    Vec3 middle() const { return 0.5 * (low + high); }
     double volume() const { return size().prod(); }
 
     // The image of p inside the box, along periodic axes only.

@@ -80,41 +80,50 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
     std::iota(slot_.begin(), slot_.end(), 0);
 }
 
-void Halo::begin(double* records, int owned, int fields) {
-    const auto width = static_cast<std::size_t>(fields);
-    sendBuffer_.resize(sendIndex_.size() * width);
-    receiveBuffer_.resize(static_cast<std::size_t>(ghosts_) * width);
+template <class Real>
+void Halo::begin(Real* records, int owned, int fields, double scale) {
+    const auto width = static_cast<std::size_t>(fields), bytes = width * sizeof(Real);
+    sendBuffer_.resize(sendIndex_.size() * bytes);
+    receiveBuffer_.resize(static_cast<std::size_t>(ghosts_) * bytes);
     requests_.clear();
+    const MPI_Datatype type = sizeof(Real) == sizeof(double) ? MPI_DOUBLE : MPI_FLOAT;
     for (const Message& m : receives_) {
         requests_.emplace_back();
-        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, MPI_DOUBLE, m.rank, 0,
-                  comm_, &requests_.back());
+        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * bytes, (m.end - m.begin) * fields, type, m.rank, 0, comm_,
+                  &requests_.back());
     }
-    const auto pack = [&](int k, double* to) {
-        const double* from = records + static_cast<std::size_t>(sendIndex_[k]) * width;
+    const auto pack = [&](int k, Real* to) {
+        const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * width;
         for (std::size_t f = 0; f < width; ++f) to[f] = from[f];
-        for (std::size_t f = 0; f < 3; ++f) to[f] += sendShift_[k][static_cast<int>(f)];
+        for (std::size_t f = 0; f < 3; ++f)
+            to[f] = static_cast<Real>(static_cast<double>(to[f]) + scale * sendShift_[k][static_cast<int>(f)]);
     };
     for (const Message& m : sends_) {
-        for (int k = m.begin; k < m.end; ++k) pack(k, sendBuffer_.data() + static_cast<std::size_t>(k) * width);
+        Real* buffer = reinterpret_cast<Real*>(sendBuffer_.data());
+        for (int k = m.begin; k < m.end; ++k) pack(k, buffer + static_cast<std::size_t>(k) * width);
         requests_.emplace_back();
-        MPI_Isend(sendBuffer_.data() + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, MPI_DOUBLE, m.rank, 0, comm_,
-                  &requests_.back());
+        MPI_Isend(buffer + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, type, m.rank, 0, comm_, &requests_.back());
     }
     for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k)
         pack(selfSend_.begin + k, records + static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]) * width);
 }
 
-void Halo::finish(double* records, int owned, int fields) {
+template <class Real>
+void Halo::finish(Real* records, int owned, int fields) {
     const auto width = static_cast<std::size_t>(fields);
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (const Message& m : receives_)
         for (int k = m.begin; k < m.end; ++k) {
-            const double* from = receiveBuffer_.data() + static_cast<std::size_t>(k) * width;
+            const Real* from = reinterpret_cast<const Real*>(receiveBuffer_.data()) + static_cast<std::size_t>(k) * width;
             std::copy(from, from + width, records + static_cast<std::size_t>(owned + slot_[k]) * width);
         }
     requests_.clear();
 }
+
+template void Halo::begin(double*, int, int, double);
+template void Halo::begin(float*, int, int, double);
+template void Halo::finish(double*, int, int);
+template void Halo::finish(float*, int, int);
 
 void Halo::reorder(const std::vector<int>& order) {
     std::vector<int> place(order.size());

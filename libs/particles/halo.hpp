@@ -6,6 +6,7 @@
 #pragma once
 #include <mpi.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "particles/decomposition.hpp"
@@ -20,11 +21,13 @@ class Halo {
 
     int ghostCount() const { return ghosts_; }
 
-    // Fills records[owned .. owned + ghostCount) from records[0 .. owned), `fields` doubles each, in two halves so that
-    // work on interior particles can go on between them.
-    void begin(double* records, int owned, int fields);
-    void finish(double* records, int owned, int fields);
-    void exchange(double* records, int owned, int fields) { begin(records, owned, fields), finish(records, owned, fields); }
+    // Fills records[owned .. owned + ghostCount) from records[0 .. owned), `fields` numbers each (double or float), in two halves
+    // so that work on interior particles can go on between them. scale: what positions in records are, per metre.
+    template <class Real>
+    void begin(Real* records, int owned, int fields, double scale);
+    template <class Real>
+    void finish(Real* records, int owned, int fields);
+    void exchange(double* records, int owned, int fields) { begin(records, owned, fields, 1), finish(records, owned, fields); }
 
     // Puts ghosts into a new order: the ghost that was number order[k] becomes number k.
     void reorder(const std::vector<int>& order);
@@ -45,7 +48,7 @@ class Halo {
     std::vector<Message> sends_, receives_;
     Message selfSend_{}, selfReceive_{};
     std::vector<int> slot_;           // ghost number of the k-th received ghost
-    std::vector<double> sendBuffer_, receiveBuffer_;
+    std::vector<std::byte> sendBuffer_, receiveBuffer_;
     std::vector<MPI_Request> requests_;
 };
 

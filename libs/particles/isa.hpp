@@ -15,6 +15,6 @@ InstructionSet instructionSet();
 std::string instructionSetName();
 
 // Particles i per block of the neighbour list: the lanes of the loops above.
-inline int blockLanes() { return instructionSet() == InstructionSet::avx512 ? 8 : 4; }
+inline int blockLanes() { return instructionSet() == InstructionSet::baseline ? 4 : 8; }
 
 }  // namespace corpuscle::particles

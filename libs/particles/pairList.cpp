@@ -44,7 +44,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     owned_ = owned;
     const int lanes = blockLanes();
     const int count = (owned + lanes - 1) / lanes, total = owned + ghosts;
-    first_.assign(static_cast<std::size_t>(count) + 1, 0);
+    first_.assign(2 * static_cast<std::size_t>(count) + 1, 0);
     for (auto& group : blocks_) group.clear();
     const double *x = position[0], *y = position[1], *z = position[2];
 
@@ -86,7 +86,14 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             if (allWall) found = static_cast<int>(std::remove_if(out, out + found, [&](int j) { return wall[j] != 0; }) - out);
             used += static_cast<std::size_t>(found);
         };
-        forSpans(ownedColumns, z, bounds, reach, ownedSpans, [&](Columns::Span span) { append(span, 0); });
+        // The particles of later blocks, then those of this one.
+        const std::size_t start = used;
+        forSpans(ownedColumns, z, bounds, reach, ownedSpans, [&](Columns::Span span) {
+            span.begin = std::max(span.begin, slot + lanes);
+            if (span.begin < span.end) append(span, 0);
+        });
+        first_[2 * static_cast<std::size_t>(b) + 1] = static_cast<int>(used);
+        append({slot, slot + inBlock}, 0);
         const std::size_t interiorEntries = used;
         // Ghosts lie outside the brick.
         const bool inside = ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
@@ -94,10 +101,10 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             forSpans(ghostColumns, z + owned, bounds, reach, ghostSpans, [&](Columns::Span span) { append(span, owned); });
         if (used > static_cast<std::size_t>(INT32_MAX))
             throw Failure(ExitCode::numerics, "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
-        first_[static_cast<std::size_t>(b) + 1] = static_cast<int>(used);
+        first_[2 * static_cast<std::size_t>(b) + 2] = static_cast<int>(used);
 
         if (!wall.empty() && !anyWall)
-            for (auto k = static_cast<std::size_t>(first_[b]); k < used && !anyWall; ++k) anyWall = wall[j_[k]];
+            for (std::size_t k = start; k < used && !anyWall; ++k) anyWall = wall[j_[k]];
         blocks_[(used > interiorEntries ? boundary : interior) + (anyWall ? 1 : 0)].push_back(b);
     }
 }

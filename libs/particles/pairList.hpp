@@ -1,8 +1,9 @@
 // The neighbour list: one flat array of j for every block of consecutive particles i (as many as the pair loop has lanes).
 //
 // j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
-// the list holds as long as no particle has moved more than skin/2 since. A block of nothing but wall particles lists no wall
-// particles: walls do not act on walls.
+// the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet once: the earlier
+// one lists the particles of the later. Then come the block's own particles and ghosts, which get no reaction. A block of nothing
+// but wall particles lists no wall particles: walls do not act on walls.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
 // a wall need the wall's form of a law.
 #pragma once
@@ -27,7 +28,7 @@ class PairList {
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }
-    int blockCount() const { return static_cast<int>(first_.size()) - 1; }
+    int blockCount() const { return static_cast<int>(first_.size() / 2); }
     std::size_t entries() const { return j_.empty() ? 0 : static_cast<std::size_t>(first_.back()); }
     std::size_t bytes() const { return j_.capacity() * sizeof(int) + first_.capacity() * sizeof(int); }
 

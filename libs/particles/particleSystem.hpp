@@ -4,7 +4,7 @@
 //         ... move particles ...
 //         if (system.mustRebuild()) system.rebuild();
 //         ... pack records of the owned ...
-//         system.forEachPair(records, fields, [&](auto& blocks, bool atWall) { kernel(...); });
+//         sumOverPairs(system, kernel, ...);
 //     }
 #pragma once
 #include <mpi.h>
@@ -57,10 +57,10 @@ class ParticleSystem {
     void rebuild();
 
     // Runs work(group) on the four groups of blocks: those without ghosts while the halo is under way. `records` holds
-    // `fields` doubles per particle, owned ones filled, room for ghosts behind them. Collective.
-    template <class Work>
-    void forEachPair(double* records, int fields, Work&& work) {
-        halo_.begin(records, owned(), fields);
+    // `fields` numbers per particle, owned ones filled, room for ghosts behind them; scale: positions in them per metre. Collective.
+    template <class Real, class Work>
+    void forEachPair(Real* records, int fields, double scale, Work&& work) {
+        halo_.begin(records, owned(), fields, scale);
         work(PairList::interior), work(PairList::interiorAtWall);
         halo_.finish(records, owned(), fields);
         work(PairList::boundary), work(PairList::boundaryAtWall);

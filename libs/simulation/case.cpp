@@ -200,7 +200,7 @@ double Case::soundSpeed() const {
 
 sph::FluidModel Case::fluidModel() const {
     return {numerics.kernel.model, fluid.equationOfState.model, flow.density, fluid.viscosity, soundSpeed(), particleMass(),
-            flow.bodyForce, flow.walls};
+            flow.bodyForce, flow.walls, numerics.precision == "mixed" ? sph::Precision::mixed : sph::Precision::full};
 }
 
 bool Case::varyingViscosity() const {

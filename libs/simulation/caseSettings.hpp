@@ -45,7 +45,7 @@ struct ControlSettings {
 struct NumericsSettings {
     double spacing = 0;  // dx [m]
     Choice<sph::Kernel> kernel;
-    std::string integrator, coupling, operators;
+    std::string integrator, coupling, operators, precision;
     std::optional<sph::ShiftingSettings> shifting;
     Length skin;
     long guard = 10;     // steps between two looks of the leakage guard; 0: none

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "particles/sumOverPairs.hpp"
+
 namespace corpuscle::sph {
 
 using particles::Kind;
-using particles::PairList;
 using particles::ParticleStore;
 using particles::ParticleSystem;
 using particles::RealArray;
@@ -18,64 +19,74 @@ constexpr double smallestDistanceInSpacings = 0.25, betaMax = 10;
 FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) : model_(model) {
     const double H = system.support();
     variant_ = {model.kernel->kind(), system.store().optional().mass, system.store().optional().viscosity};
-    constants_.inverseSupport = 1 / H;
+    constants_.support = H;
     constants_.gradientNormalisation = model.kernel->gradientNormalisation(H);
     constants_.mass = model.mass;
-    if (model.walls.exist()) {
+    const bool walls = model.walls.exist();
+    if (walls) {
         constants_.normal[model.walls.axis] = 1;
-        constants_.middle = 0.5 * (model.walls.low + model.walls.high);
-        constants_.half = 0.5 * (model.walls.high - model.walls.low);
-        constants_.smallestDistance = smallestDistanceInSpacings * system.spacing();
+        constants_.middle = (0.5 * (model.walls.low + model.walls.high) - system.box().middle()[model.walls.axis]) / H;
+        constants_.half = 0.5 * (model.walls.high - model.walls.low) / H;
+        constants_.smallestDistance = smallestDistanceInSpacings * system.spacing() / H;
         constants_.betaMax = betaMax;
     }
-    kernel_[0] = pairKernels().fluid(variant_, false);
-    kernel_[1] = pairKernels().fluid(variant_, model.walls.exist());
+    if (model.precision == Precision::mixed)
+        float_.away = pairKernels().fluidFloat(variant_, false), float_.atWall = pairKernels().fluidFloat(variant_, walls);
+    else
+        double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, walls);
+}
+
+std::size_t FluidForces::bytes() const {
+    return (double_.records.capacity() + sums_.capacity()) * sizeof(double) + float_.records.capacity() * sizeof(float);
 }
 
 template <class Velocity, class Pressure>
-void FluidForces::pack(const ParticleStore& store, const RealArray& density, Velocity&& velocity, Pressure&& pressure) {
-    const int fields = variant_.fields(), n = static_cast<int>(store.size());
-    const bool varyingMass = variant_.varyingMass, varyingViscosity = variant_.varyingViscosity;
-    const double viscous = varyingViscosity ? 1.0 : std::sqrt(2 * model_.viscosity);
-    double* r = records_.data();
-    for (int i = 0; i < n; ++i, r += fields) {
-        r[0] = store.x[i], r[1] = store.y[i], r[2] = store.z[i];
-        velocity(i, r + 3);
-        r[6] = pressure(i);
-        r[7] = viscous / density[i];
-        if (varyingMass) r[8] = store.mass[i];
-        if (varyingViscosity) r[fields - 1] = store.viscosity[i];
-    }
-    for (const int i : wallParticles_) records_[static_cast<std::size_t>(i) * static_cast<std::size_t>(fields) + 7] *= -1;
+void FluidForces::run(ParticleSystem& system, const RealArray& density, Velocity&& velocity, Pressure&& pressure,
+                      double* const results[4]) {
+    if (model_.precision == Precision::mixed)
+        run(float_, system, density, velocity, pressure, results);
+    else
+        run(double_, system, density, velocity, pressure, results);
 }
 
-void FluidForces::run(ParticleSystem& system, double* const results[4]) {
-    system.forEachPair(records_.data(), variant_.fields(), [&](PairList::Group group) {
-        const std::vector<int>& blocks = system.list().blocks(group);
-        const bool atWall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
-        kernel_[atWall](constants_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records_.data(), results);
-    });
+template <class Real, class Velocity, class Pressure>
+void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArray& density, Velocity&& velocity, Pressure&& pressure,
+                      double* const results[4]) {
+    const ParticleStore& s = system.store();
+    const auto n = static_cast<std::size_t>(system.owned()), fields = static_cast<std::size_t>(variant_.fields());
+    pairs.records.resize((n + static_cast<std::size_t>(system.ghosts())) * fields);
+    const double viscous = variant_.varyingViscosity ? 1.0 : std::sqrt(2 * model_.viscosity);
+    const double support = constants_.support, inverseMass = 1 / constants_.mass;
+    Real* r = pairs.records.data();
+    for (std::size_t i = 0; i < n; ++i, r += fields) {
+        particles::recordPosition(system, i, r);
+        velocity(i, r + 3);
+        r[6] = static_cast<Real>(support * pressure(i));
+        r[7] = static_cast<Real>(viscous / density[i]);
+        if (variant_.varyingMass) r[8] = static_cast<Real>(s.mass[i] * inverseMass);
+        if (variant_.varyingViscosity) r[fields - 1] = static_cast<Real>(s.viscosity[i]);
+    }
+    for (const int i : wallParticles_) pairs.records[static_cast<std::size_t>(i) * fields + 7] *= -1;
+    particles::sumOverPairs(system, pairs.away, pairs.atWall, constants_, pairs.records, variant_.fields(), sums_, results);
 }
 
 void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned());
-    records_.resize((n + static_cast<std::size_t>(system.ghosts())) * static_cast<std::size_t>(variant_.fields()));
     pressure_.resize(n);
     density_.resize(n);
     const double e = extrapolation;
     for (std::size_t i = 0; i < n; ++i) density_[i] = s.density[i] + e * s.densityRate[i];
     model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density, model_.soundSpeed);
-    pack(
-        s, density_,
-        [&](int i, double* velocity) {
-            velocity[0] = s.u[i] + e * s.fx[i];
-            velocity[1] = s.v[i] + e * s.fy[i];
-            velocity[2] = s.w[i] + e * s.fz[i];
-        },
-        [&](int i) { return pressure_[i]; });
     double* const results[4] = {s.fx.data(), s.fy.data(), s.fz.data(), s.densityRate.data()};
-    run(system, results);
+    run(
+        system, density_,
+        [&]<class Real>(std::size_t i, Real* velocity) {
+            velocity[0] = static_cast<Real>(s.u[i] + e * s.fx[i]);
+            velocity[1] = static_cast<Real>(s.v[i] + e * s.fy[i]);
+            velocity[2] = static_cast<Real>(s.w[i] + e * s.fz[i]);
+        },
+        [&](std::size_t i) { return pressure_[i]; }, results);
 
     for (Vec3& f : wallForce_) f.setZero();
     for (const int i : wallParticles_) {
@@ -97,7 +108,6 @@ void FluidForces::findWalls(const ParticleSystem& system) {
 double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
     const ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned());
-    records_.resize((n + static_cast<std::size_t>(system.ghosts())) * static_cast<std::size_t>(variant_.fields()));
     RealArray vector[3], image[3], unused(n);
     for (int k = 0; k < 3; ++k) vector[k].resize(n), image[k].resize(n);
     const auto clearWalls = [&] {
@@ -125,9 +135,13 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
         if (length == 0) return 0;
         for (auto& component : vector)
             for (double& a : component) a /= length;
-        pack(s, s.density, [&](int i, double* v) { for (int k = 0; k < 3; ++k) v[k] = vector[k][i]; }, [](int) { return 0.0; });
         double* const results[4] = {image[0].data(), image[1].data(), image[2].data(), unused.data()};
-        run(system, results);
+        run(
+            system, s.density,
+            [&]<class Real>(std::size_t i, Real* v) {
+                for (int k = 0; k < 3; ++k) v[k] = static_cast<Real>(vector[k][i]);
+            },
+            [](std::size_t) { return 0.0; }, results);
         std::swap(vector, image);
         clearWalls();
         rate = norm(vector);

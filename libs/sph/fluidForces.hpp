@@ -13,6 +13,9 @@
 
 namespace corpuscle::sph {
 
+// Of records and pair terms: double, or float with state and sums in double.
+enum class Precision { full, mixed };
+
 struct FluidModel {
     std::shared_ptr<const Kernel> kernel;
     std::shared_ptr<const EquationOfState> equationOfState;
@@ -22,6 +25,7 @@ struct FluidModel {
     double mass = 0;       // of one fluid particle, rho0 dx^3 [kg]
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
     Walls walls;
+    Precision precision = Precision::full;
 };
 
 class FluidForces {
@@ -43,18 +47,29 @@ class FluidForces {
     // particle numbers only [1/s]. Collective. Leaves the state as it was.
     double viscousRate(particles::ParticleSystem& system, int iterations);
 
-    std::size_t bytes() const { return records_.capacity() * sizeof(double); }
+    std::size_t bytes() const;
 
   private:
+    // Records and kernels in one precision.
+    template <class Real>
+    struct Pairs {
+        particles::AlignedVector<Real> records;
+        PairKernels::Fluid<Real> away{}, atWall{};
+    };
+    // Packs the records and works out the sums over pairs. velocity(i, Real[3]); pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
-    void pack(const particles::ParticleStore& store, const particles::RealArray& density, Velocity&& velocity, Pressure&& pressure);
-    void run(particles::ParticleSystem& system, double* const results[4]);
+    void run(particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity, Pressure&& pressure,
+             double* const results[4]);
+    template <class Real, class Velocity, class Pressure>
+    void run(Pairs<Real>& pairs, particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity,
+             Pressure&& pressure, double* const results[4]);
 
     FluidModel model_;
     FluidVariant variant_;
     FluidConstants constants_;
-    PairKernels::Fluid kernel_[2];  // away from walls, at walls
-    particles::RealArray records_, density_, pressure_;
+    Pairs<double> double_;
+    Pairs<float> float_;
+    particles::RealArray sums_, density_, pressure_;
     std::vector<int> wallParticles_;
     Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
 };

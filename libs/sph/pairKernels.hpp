@@ -15,13 +15,11 @@ struct FluidVariant {
 };
 
 struct PairKernels {
-    // results: ax, ay, az, drho/dt
-    using Fluid = void (*)(const FluidConstants&, const particles::PairView&, const int* blocks, int blockCount,
-                           const double* records, double* const* results);
-    // results: Cx, Cy, Cz, sigma
-    using Disorder = void (*)(const DisorderConstants&, const particles::PairView&, const int* blocks, int blockCount,
-                              const double* records, double* const* results);
-    Fluid (*fluid)(FluidVariant, bool atWall);
+    template <class Real>
+    using Fluid = particles::PairKernel<FluidConstants, Real>;  // results: ax, ay, az, drho/dt
+    using Disorder = particles::PairKernel<DisorderConstants>;  // results: Cx, Cy, Cz, sigma
+    Fluid<double> (*fluid)(FluidVariant, bool atWall);
+    Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);
     Disorder (*disorder)(KernelKind);
 };
 

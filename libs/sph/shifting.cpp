@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "particles/sumOverPairs.hpp"
+
 namespace corpuscle::sph {
 
 namespace {
@@ -19,7 +21,7 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
 
 Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate, double particleMass)
     : settings_(settings),
-      constants_{1 / support, kernel.normalisation(support), kernel.gradientNormalisation(support)},
+      constants_{support, kernel.normalisation(support), kernel.gradientNormalisation(support)},
       kernel_(pairKernels().disorder(kernel.kind())),
       support_(support),
       rate_(rate),
@@ -35,14 +37,11 @@ void Shifting::apply(particles::ParticleSystem& system, double dt) {
     const bool varyingMass = s.optional().mass;
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records_.data() + 4 * i;
-        r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
+        particles::recordPosition(system, i, r);
         r[3] = (varyingMass ? s.mass[i] : mass_) / s.density[i];
     }
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
-    system.forEachPair(records_.data(), 4, [&](particles::PairList::Group group) {
-        const auto& blocks = system.list().blocks(group);
-        kernel_(constants_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records_.data(), results);
-    });
+    particles::sumOverPairs(system, kernel_, kernel_, constants_, records_, 4, sums_, results);
     const double factor = settings_.coefficient * support_ * support_ * rate_ * dt * static_cast<double>(settings_.steps);
     const double bound = largestInSpacings * system.spacing();
     largest_ = 0;

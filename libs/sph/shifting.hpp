@@ -35,7 +35,7 @@ class Shifting {
     PairKernels::Disorder kernel_;
     double support_, rate_, mass_, largest_ = 0;
     long count_ = 0;
-    particles::RealArray records_, disorder_[4];
+    particles::RealArray records_, sums_, disorder_[4];
 };
 
 }  // namespace corpuscle::sph

@@ -118,7 +118,7 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
         const double id = static_cast<double>(s.id[i]);
         std::copy_n(std::array<double, fields>{x[0], x[1], x[2], id, 1 / (id + 1), std::sin(id)}.begin(), fields, records.begin() + fields * i);
     }
-    system.forEachPair(records.data(), fields, [](PairList::Group) {});
+    system.forEachPair(records.data(), fields, 1, [](PairList::Group) {});
     const Brick& brick = system.decomposition().own();
     for (int g = system.owned(); g < system.owned() + system.ghosts(); ++g) {
         const double* r = records.data() + fields * g;

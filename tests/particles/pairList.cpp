@@ -57,19 +57,33 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     const double support = system.support();
     const auto isWall = [&](int j) { return records[static_cast<std::size_t>(j) * tagFields + 4] == static_cast<double>(Kind::wall); };
 
+    // What each block meets, by its own list and by the lists of earlier blocks.
+    std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
+    const auto image = [&](int j) { return imageOf(p, records.data() + static_cast<std::size_t>(j) * tagFields); };
+    for (int b = 0; b < list.blockCount(); ++b) {
+        for (int k = view.first[2 * b]; k < view.first[2 * b + 2]; ++k) {
+            const int j = view.j[k];
+            EXPECT_TRUE(met[b].insert(image(j)).second) << "listed twice";
+            const bool mutual = k < view.first[2 * b + 1];
+            EXPECT_EQ(mutual, j < view.owned && j / lanes != b);
+            if (!mutual) continue;
+            EXPECT_GT(j / lanes, b);
+            for (int i = b * lanes; i < std::min(view.owned, (b + 1) * lanes); ++i) met[j / lanes].insert(image(i));
+        }
+    }
+
     std::vector<int> seen(static_cast<std::size_t>(list.blockCount()), 0);
     for (const auto group : {PairList::interior, PairList::interiorAtWall, PairList::boundary, PairList::boundaryAtWall})
         for (const int b : list.blocks(group)) {
             ++seen[static_cast<std::size_t>(b)];
-            std::set<Image> listed;
+            const std::set<Image>& listed = met[b];
             const int last = std::min(view.owned, (b + 1) * lanes);
             bool meetsWall = false, meetsGhost = false, allWall = true;
             for (int i = b * lanes; i < last; ++i) meetsWall |= isWall(i), allWall &= isWall(i);
-            for (int k = view.first[b]; k < view.first[b + 1]; ++k) {
+            for (int k = view.first[2 * b]; k < view.first[2 * b + 2]; ++k) {
                 const int j = view.j[k];
                 meetsWall |= isWall(j), meetsGhost |= j >= view.owned;
                 EXPECT_FALSE(allWall && isWall(j));
-                EXPECT_TRUE(listed.insert(imageOf(p, records.data() + static_cast<std::size_t>(j) * tagFields)).second) << "listed twice";
             }
             EXPECT_EQ(meetsWall, group == PairList::interiorAtWall || group == PairList::boundaryAtWall);
             EXPECT_EQ(meetsGhost, group == PairList::boundary || group == PairList::boundaryAtWall);
@@ -79,7 +93,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             for (int i = b * lanes; i < last; ++i) {
                 const Vec3 at(records.data() + static_cast<std::size_t>(i) * tagFields);
                 for (int id = 0; id < p.count(); ++id) {
-                    if (allWall && p.wall[id]) continue;
+                    if (isWall(i) && p.wall[id]) continue;  // walls do not act on walls
                     for (int x = -images[0]; x <= images[0]; ++x)
                         for (int y = -images[1]; y <= images[1]; ++y)
                             for (int z = -images[2]; z <= images[2]; ++z) {

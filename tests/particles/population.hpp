@@ -56,7 +56,7 @@ inline RealArray taggedRecords(ParticleSystem& system) {
         r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
         r[3] = static_cast<double>(s.id[i]), r[4] = static_cast<double>(s.kind[i]);
     }
-    system.forEachPair(records.data(), tagFields, [](PairList::Group) {});
+    system.forEachPair(records.data(), tagFields, 1, [](PairList::Group) {});
     return records;
 }
 

@@ -77,6 +77,9 @@ class Forces : public ::testing::TestWithParam<Case> {
     static double earlierRate(int id) { return 0.2 * std::sin(2.0 * id); }
     static Vec3 earlier(int id, bool wall) { return wall ? Vec3::Zero().eval() : Vec3(std::sin(id), std::cos(id), 0.3); }
 
+    // Forces against the double loop, errors relative to the largest.
+    void compare(double tolerance);
+
     double beta(const Vec3& a, const Vec3& b) const {
         if (!fluid.walls.exist()) return 1;
         const auto gap = [&](const Vec3& p) { return std::min(p[2] - fluid.walls.low, fluid.walls.high - p[2]); };
@@ -124,9 +127,7 @@ class Forces : public ::testing::TestWithParam<Case> {
     }
 };
 
-}  // namespace
-
-TEST_P(Forces, equalThePlainDoubleLoop) {
+void Forces::compare(double tolerance) {
     const Case& c = GetParam();
     FluidForces forces(fluid, *system);
     forces.findWalls(*system);
@@ -156,12 +157,22 @@ TEST_P(Forces, equalThePlainDoubleLoop) {
     }
     MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, &rateSize, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    EXPECT_LT(error, 1e-12 * size);
-    EXPECT_LT(rateError, 1e-12 * rateSize);
-    for (int upper = 0; upper < 2; ++upper) EXPECT_LT((forces.wallForce(upper) - onWall[upper]).norm(), 1e-11 * size);
+    EXPECT_LT(error, tolerance * size);
+    EXPECT_LT(rateError, tolerance * rateSize);
+    for (int upper = 0; upper < 2; ++upper) EXPECT_LT((forces.wallForce(upper) - onWall[upper]).norm(), 10 * tolerance * size);
     if (c.walls) {
         EXPECT_GT(sumOverRanks(onWall[0].norm()), 0.1 * size);
     }
+}
+
+}  // namespace
+
+TEST_P(Forces, equalThePlainDoubleLoop) { compare(1e-12); }
+
+// Mixed precision: the rounding of float, 6e-8, of pressures that are large beside their differences.
+TEST_P(Forces, equalItToTheRoundingOfFloatInMixedPrecision) {
+    fluid.precision = Precision::mixed;
+    compare(2e-6);
 }
 
 TEST_P(Forces, conserveMomentum) {

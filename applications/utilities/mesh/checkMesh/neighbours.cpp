@@ -36,17 +36,18 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
     }
     Shortest shortest{reach, reach, reach, reach};
     const auto lanes = static_cast<std::size_t>(particles::blockLanes());
-    system.forEachPair(records.data(), fields, [&](particles::PairList::Group group) {
+    system.forEachPair(records.data(), fields, 1, [&](particles::PairList::Group group) {
         const particles::PairView list = system.list().view();
         for (const int block : system.list().blocks(group)) {
             const std::size_t from = static_cast<std::size_t>(block) * lanes;
             for (std::size_t i = from; i < std::min(from + lanes, n); ++i)
-                for (int k = list.first[block]; k < list.first[block + 1]; ++k) {
+                for (int k = list.first[2 * block]; k < list.first[2 * block + 2]; ++k) {
                     const auto j = static_cast<std::size_t>(list.j[k]);
                     if (i == j) continue;
                     const double *a = records.data() + fields * i, *b = records.data() + fields * j;
-                    if (a[3] < 0 || (a[3] > 0 && (b[3] <= 0 || b[3] == a[3]))) continue;  // each kind of pair once
-                    double& least = a[3] > 0 ? shortest.cellCell : b[3] < 0 ? shortest.fluidWall : b[3] > 0 ? shortest.fluidNode : shortest.fluidFluid;
+                    const auto [low, high] = std::minmax(a[3], b[3]);
+                    if ((low < 0 && high != 0) || (low > 0 && low == high)) continue;
+                    double& least = low < 0 ? shortest.fluidWall : low > 0 ? shortest.cellCell : high > 0 ? shortest.fluidNode : shortest.fluidFluid;
                     least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
                 }
         }

@@ -5,6 +5,7 @@
 
 #include "../cellMeshes.hpp"
 #include "geometry/triangleGrid.hpp"
+#include "particles/sumOverPairs.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 namespace corpuscle::utilities {
@@ -99,17 +100,15 @@ void Relaxation::sums() {
     for (auto& d : disorder_) d.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records_.data() + 4 * i;
-        r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i], r[3] = s.mass[i] / s.density[i];
+        particles::recordPosition(system_, i, r);
+        r[3] = s.mass[i] / s.density[i];
     }
     const sph::Kernel& kernel = *input_.numerics.kernel;
     const double support = input_.support();
-    const sph::DisorderConstants constants{1 / support, kernel.normalisation(support), kernel.gradientNormalisation(support)};
+    const sph::DisorderConstants constants{support, kernel.normalisation(support), kernel.gradientNormalisation(support)};
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
-    system_.forEachPair(records_.data(), 4, [&](particles::PairList::Group group) {
-        const auto& blocks = system_.list().blocks(group);
-        sph::pairKernels().disorder(kernel.kind())(constants, system_.list().view(), blocks.data(), static_cast<int>(blocks.size()),
-                                                   records_.data(), results);
-    });
+    const auto pairs = sph::pairKernels().disorder(kernel.kind());
+    particles::sumOverPairs(system_, pairs, pairs, constants, records_, 4, sums_, results);
 }
 
 Evenness Relaxation::evenness() {

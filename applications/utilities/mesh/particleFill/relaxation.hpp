@@ -45,7 +45,7 @@ class Relaxation {
     particles::ParticleSystem system_;
     std::vector<Zone> zone_;              // by id
     std::vector<std::size_t> fluidIndex_;  // by id, of the fluid particles, which come first
-    particles::RealArray records_, disorder_[4];
+    particles::RealArray records_, sums_, disorder_[4];
 };
 
 }  // namespace corpuscle::utilities
