@@ -30,6 +30,16 @@ configure_and_build() {
     cmake --build "$build" -- "$@" >"$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" || tail -n 40 "$build/build.log"; return 1; }
 }
 
+# machine [CPUINFO]: "2 cores, AMD EPYC, AVX-512": cores, family of the processor, best instruction set that the program can use.
+machine() {
+    local cpuinfo=${1:-/proc/cpuinfo} family flags flag vectors=baseline
+    family=$(sed -n 's/^model name[^:]*: *//p' "$cpuinfo" | head -n 1 | sed 's/([A-Za-z]*)//g' | awk '{print $1, $2}')
+    flags=" $(sed -n 's/^flags[^:]*: *//p' "$cpuinfo" | head -n 1) "
+    has() { for flag; do [[ $flags == *" $flag "* ]] || return 1; done; }
+    if has avx512f avx512dq avx512vl; then vectors=AVX-512; elif has avx2 fma; then vectors=AVX2; fi
+    echo "$(nproc) cores, ${family:-$(uname -m)}, $vectors"
+}
+
 # timed LABEL COMMAND...: runs and says how long it took.
 timed() {
     local label=$1 start=$SECONDS status=0

@@ -1,16 +1,18 @@
 # Deformation index and angle of the cell over strain.  gnuplot -c shape.gp OUT.png REFERENCE FILE.csv...
-# FILE: postProcessing/deformation/*/rbc.csv, oldest first. REFERENCE: strain,D12_extent,D12_inertia,angle_deg; or none.
+# FILE: postProcessing/deformation/*/rbc.csv, in any order. REFERENCE: strain,D12_extent,D12_inertia,angle_deg; or none.
 out = ARG1; reference = ARG2; files = ARG3
 do for [i=4:ARGC] { files = files . ' ' . value('ARG' . i) }
+# By start time, the name of their folder: a shell puts 0.001/ before 0/.
+files = system("printf '%s\\n' " . files . " | awk -F/ '{print $(NF-1) \"\\t\" $0}' | sort -s -g | cut -f2")
 set terminal pngcairo size 1200,500 font ",11"
 set output out
 set datafile separator comma
 set xlabel 'strain'
 set key below
 degrees = 180/pi
-# The main axis has no direction: its angle is followed from look to look.
+# The main axis has no direction: its angle is followed from look to look, on through restarts; at strain 0 it lies along the flow.
 last = 0
-followed(angle) = (last = angle + 180*floor((last - angle)/180 + 0.5), last)
+followed(strain, angle) = (last = strain > 0 ? last : 0, last = angle + 180*floor((last - angle)/180 + 0.5), last)
 given = reference ne 'none'
 D12ofReference = !given ? '' : ", reference using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements'" \
                              . ", reference using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'"
@@ -24,6 +26,6 @@ plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1 title 'by extents'
      for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia' @D12ofReference
 set ylabel 'degrees, with the flow'
 plot for [f in files] f using 2:($6*degrees) skip 1 with lines lw 2 lc 1 title 'angle turned by the material', \
-     for [f in files] f using 2:(followed(-$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
+     for [f in files] f using 2:(followed($2, -$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
      rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded' @angleOfReference
 unset multiplot

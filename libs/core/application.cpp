@@ -256,7 +256,7 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
     MPI_Iallreduce(send, receive, 2, MPI_INT, MPI_MIN, meeting_, &request);
     int met = 0;
     const auto start = std::chrono::steady_clock::now();
-    constexpr auto patience = std::chrono::seconds(5);
+    constexpr auto patience = std::chrono::seconds(1);
     while (true) {
         MPI_Test(&request, &met, MPI_STATUS_IGNORE);
         if (met) break;

@@ -9,7 +9,13 @@ namespace corpuscle {
 bool Range::contains(double v) const { return (lowOpen ? v > low : v >= low) && (highOpen ? v < high : v <= high); }
 
 std::string Range::text(Dimension dimension) const {
-    const auto shown = [&](double v) { return v == 0 ? std::string("0") : formatQuantity(v, dimension, 17); };
+    // As few digits as give the same number again.
+    const auto shown = [&](double v) {
+        if (v == 0 || dimension.isDimensionless()) return fmt::format("{}", v);
+        int digits = 4;
+        while (digits < 17 && parseQuantity(formatQuantity(v, dimension, digits)).value != v) ++digits;
+        return formatQuantity(v, dimension, digits);
+    };
     const bool hasLow = std::isfinite(low), hasHigh = std::isfinite(high);
     if (hasLow && hasHigh && !lowOpen && !highOpen) return shown(low) + " to " + shown(high);
     std::string text;

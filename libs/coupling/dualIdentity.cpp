@@ -7,8 +7,8 @@ namespace corpuscle::coupling {
 
 using particles::ParticleSystem;
 
-DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, long guardSteps)
-    : cells_(cells), guard_(spacing), margin_(LeakageGuard::reachInSpacings * spacing), guardSteps_(guardSteps) {}
+DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals)
+    : cells_(cells), guard_(spacing), balance_(balance), margin_(LeakageGuard::reachInSpacings * spacing), intervals_(intervals) {}
 
 void DualIdentity::moved(ParticleSystem& system, bool rebuilt) {
     if (rebuilt) exchange_.plan(system, cells_, margin_ + system.skin());
@@ -36,7 +36,9 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system) {
             std::vector<membrane::BrokenBond> broken = cell.membrane.applyRupture();
             if (!broken.empty()) events.push_back({cell.membrane.cell, std::move(broken)});
         }
-    if (guardSteps_ > 0 && steps_ % guardSteps_ == 0) guard_.putBack(system, cells_);
+    const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };
+    if (due(intervals_.guard)) guard_.putBack(system, cells_);
+    if (due(intervals_.densityBalance)) balance_.apply(system, cells_);
     return events;
 }
 

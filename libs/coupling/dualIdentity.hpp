@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "coupling/densityBalance.hpp"
 #include "coupling/leakageGuard.hpp"
 #include "coupling/nodeExchange.hpp"
 #include "sph/velocityVerlet.hpp"
@@ -24,17 +25,21 @@ struct RuptureEvent {
 
 class DualIdentity : public sph::Load {
   public:
-    // guardSteps: the guard looks every so many steps.
-    DualIdentity(std::vector<Cell>& cells, double spacing, long guardSteps);
+    // How often the guard looks and densities are balanced, in steps; 0: never.
+    struct Intervals {
+        long guard = 10, densityBalance = 10;
+    };
+    DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals);
 
     void moved(particles::ParticleSystem& system, bool rebuilt) override;
     void addAccelerations(particles::ParticleSystem& system) override;
 
-    // After each step: rupture and guard. Returns what broke. Collective.
+    // After each step: rupture, guard, density balance. Returns what broke. Collective.
     std::vector<RuptureEvent> endStep(particles::ParticleSystem& system);
 
     LeakageGuard& guard() { return guard_; }
     const LeakageGuard& guard() const { return guard_; }
+    const DensityBalance& densityBalance() const { return balance_; }
     long steps() const { return steps_; }
     void restore(long steps) { steps_ = steps; }
 
@@ -46,8 +51,10 @@ class DualIdentity : public sph::Load {
     std::vector<Cell>& cells_;
     NodeExchange exchange_;
     LeakageGuard guard_;
+    DensityBalance balance_;
     double margin_;
-    long guardSteps_, steps_ = 0;
+    Intervals intervals_;
+    long steps_ = 0;
 };
 
 }  // namespace corpuscle::coupling

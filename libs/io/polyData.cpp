@@ -7,6 +7,7 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -149,6 +150,12 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cel
         number->SetName(name.c_str());
         number->InsertNextValue(value);
         poly->GetFieldData()->AddArray(number);
+    }
+    for (const auto& [name, value] : data.texts) {
+        vtkNew<vtkStringArray> text;
+        text->SetName(name.c_str());
+        text->InsertNextValue(value);
+        poly->GetFieldData()->AddArray(text);
     }
 
     const auto temporary = temporaryName(path);

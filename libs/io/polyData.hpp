@@ -38,7 +38,8 @@ struct PolyData {
     std::vector<Vec3> points;       // [m]
     std::vector<Index3> triangles;  // indices into points
     Arrays point, cell;
-    std::map<std::string, double> field;  // one number each: TimeValue [s], strain
+    std::map<std::string, double> field;       // one number each: TimeValue [s], strain
+    std::map<std::string, std::string> texts;  // field data too, one text each
 };
 
 enum class Cells { vertices, triangles };

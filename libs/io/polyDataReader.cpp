@@ -6,6 +6,7 @@
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
@@ -157,6 +158,8 @@ PolyData readVtp(const std::filesystem::path& path) {
         vtkDataArray* array = field->GetArray(i);
         if (array && array->GetName() && array->GetNumberOfValues() == 1)
             data.field[array->GetName()] = array->GetComponent(0, 0);
+        auto* text = vtkStringArray::SafeDownCast(field->GetAbstractArray(i));
+        if (text && text->GetName() && text->GetNumberOfValues() == 1) data.texts[text->GetName()] = text->GetValue(0);
     }
     return data;
 }

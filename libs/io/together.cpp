@@ -1,10 +1,8 @@
 #include "io/together.hpp"
 
-#include "core/error.hpp"
-
 namespace corpuscle::io {
 
-void throwTogether(MPI_Comm comm, bool failed, const std::string& text) {
+void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode code) {
     int rank = 0, size = 1;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &size);
@@ -17,7 +15,7 @@ void throwTogether(MPI_Comm comm, bool failed, const std::string& text) {
     MPI_Bcast(&length, 1, MPI_INT, first, comm);
     message.resize(static_cast<std::size_t>(length));
     MPI_Bcast(message.data(), length, MPI_CHAR, first, comm);
-    throw Failure(ExitCode::io, message);
+    throw Failure(code, message);
 }
 
 }  // namespace corpuscle::io

@@ -5,10 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "core/error.hpp"
+
 namespace corpuscle::io {
 
-// Collective. If `failed` anywhere, every rank throws Failure(ExitCode::io) with the lowest failing rank's text.
-void throwTogether(MPI_Comm comm, bool failed, const std::string& text);
+// Collective. If `failed` anywhere, every rank throws Failure(code) with the lowest failing rank's text.
+void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode code = ExitCode::io);
 
 // Collective. Runs work() on every rank; if it throws anywhere, every rank throws.
 template <class Work>

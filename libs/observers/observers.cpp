@@ -32,18 +32,13 @@ std::string sharedFile(const Observation& observation) {
 
 }  // namespace
 
-Observers::Observers(const std::optional<Node>& dictionary, const Scene& scene, const Time& start, std::filesystem::path caseDir)
+Observers::Observers(const ObserversSettings& settings, const Scene& scene, const Time& start, std::filesystem::path caseDir)
     : caseDir_(std::move(caseDir)), startTime_(start.t) {
-    if (!dictionary) return;
     Problems problems;
-    const auto chosen = read<ObserversSettings>(*dictionary, problems);
-    problems.throwIfAny();
-    chosen.check(*dictionary, {!scene.cells.empty(), scene.flow.walls.exist(), start.shearRate}, problems);
-    problems.throwIfAny();
-    for (const auto& [name, choice] : chosen.models) {
+    for (const auto& [name, choice] : settings.models) {
         Running observer{name, choice.name, Ticker(choice->every, start), choice->begin(scene), {}};
         if (const std::string file = sharedFile(*observer.observation); !file.empty())
-            problems.add(dictionary->find(name)->place(), name, choice.name + ": two of its files would be called " + file +
+            problems.add({"system/observers.yaml", 0, 0}, name, choice.name + ": two of its files would be called " + file +
                                           ".csv; give the cell of this name another one in system/mesh.yaml");
         running_.push_back(std::move(observer));
     }

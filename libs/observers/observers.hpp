@@ -7,7 +7,7 @@
 // from t = 0 begins with a row at t = 0; after a restart the first row is that of the next due time, so that both together have each
 // row once. Observers may be added, removed or changed between a run and its restart.
 //
-//     Observers observers(dictionary, scene, time, caseDir);   // without the file, or Observers(): none, at no cost
+//     Observers observers(settings, scene, time, caseDir);     // settings without models, or Observers(): none, at no cost
 //     observers.restore(saved);                                // from a checkpoint
 //     observers.run(scene, time);                              // before the first step and after each
 #pragma once
@@ -30,8 +30,8 @@ struct ObserversSettings {
 class Observers {
   public:
     Observers() = default;
-    // The root of system/observers.yaml. Throws CaseError with all that is wrong in it, or does not suit the scene.
-    Observers(const std::optional<Node>& dictionary, const Scene& scene, const Time& start, std::filesystem::path caseDir);
+    // The settings suit the scene (check). Throws CaseError when two files of one observer would have the same name.
+    Observers(const ObserversSettings& settings, const Scene& scene, const Time& start, std::filesystem::path caseDir);
 
     bool empty() const { return running_.empty(); }
 

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace corpuscle::simulation {
 
 namespace {
 
-using Files = std::map<std::string, Node>;  // the dictionaries as they were read
-
 template <class T>
-T readFile(const Application& app, const std::string& file, Case& result, Files& files, Problems& problems) {
+T readFile(const Application& app, const std::string& file, Case& result, Problems& problems) {
     const std::size_t before = problems.count();
-    const Node& node = files[file] = app.dictionary(file, problems);
+    const Node& node = result.files[file] = app.dictionary(file, problems);
     if (problems.count() != before) return T{};  // the file itself is missing or malformed
     T settings = read<T>(node, problems);
     if (problems.count() == before) result.effective.emplace_back(file, write(settings));
@@ -32,20 +29,6 @@ const Mark& placeOf(const Node& node, const std::string& key) {
     for (const Node& child : node.items)
         if (holds(child)) return placeOf(child, key);
     return node.isNothing() ? node.place() : node.mark;
-}
-
-// Rules between files know a file and a key; the line and column follow from the dictionary.
-void throwIfAny(const Problems& problems, const Files& files) {
-    try {
-        problems.throwIfAny();
-    } catch (const CaseError& error) {
-        Problems placed;
-        for (const Problem& p : error.problems()) {
-            const auto file = files.find(p.mark.file);
-            placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key, p.message);
-        }
-        placed.throwIfAny();
-    }
 }
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
@@ -66,7 +49,7 @@ void checkTogether(const Case& c, Problems& problems) {
             problems.add(mesh, "domain.periodic", std::string("axis ") + axisName(k) + " is not periodic and has no walls; write true, "
                                                       "or give the flow walls with this normal in constant/flow.yaml");
         const double n = c.mesh.domain.size[k] / c.spacing();
-        if (std::abs(n - std::round(n)) > 1e-3 * n || std::round(n) < 1)
+        if (!(std::abs(c.latticeSpacing()[k] / c.spacing() - 1) <= 1e-3))
             problems.add(mesh, "domain.size", std::string("along ") + axisName(k) + " found " +
                                                   formatQuantity(c.mesh.domain.size[k], unit::metre) + ", which is no whole number of spacings (" +
                                                   formatQuantity(c.spacing(), unit::metre) + "); nearest that fit: " +
@@ -111,28 +94,38 @@ void checkTogether(const Case& c, Problems& problems) {
 
 }  // namespace
 
+// Rules between files know a file and a key; the line and column follow from the dictionary.
+void Case::throwIfAny(const Problems& problems) const {
+    try {
+        problems.throwIfAny();
+    } catch (const CaseError& error) {
+        Problems placed;
+        for (const Problem& p : error.problems()) {
+            const auto file = files.find(p.mark.file);
+            placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key, p.message);
+        }
+        placed.throwIfAny();
+    }
+}
+
 Case Case::read(const Application& app) {
     Problems problems;
-    Files files;
     Case c;
     c.directory = app.caseDirectory();
-    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, files, problems);
-    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, files, problems);
-    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, files, problems);
-    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, files, problems);
+    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
+    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
+    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, problems);
+    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
     if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
-        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, files, problems);
+        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
     {
         const std::size_t before = problems.count();
-        const Node& node = files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
+        const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
         if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
         if (problems.count() == before) c.effective.emplace_back("constant/flow.yaml", writeChoice(c.flowModel));
     }
-    observers::ObserversSettings observing;
-    if (app.hasDictionary("system/observers.yaml")) {
-        observing = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, files, problems);
-        c.observers = files["system/observers.yaml"];
-    }
+    if (app.hasDictionary("system/observers.yaml"))
+        c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
     problems.throwIfAny();
 
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
@@ -142,9 +135,9 @@ Case Case::read(const Application& app) {
             problems.add({"system/mesh.yaml", 0, 0}, "cells[" + std::to_string(i) + "].shape", fault.what());
         }
     }
-    throwIfAny(problems, files);
+    c.throwIfAny(problems);
     checkTogether(c, problems);
-    throwIfAny(problems, files);
+    c.throwIfAny(problems);
 
     sph::FlowContext context{c.fluidBox(), c.fluid.viscosity, c.fluid.density, 0, 0};
     if (!c.mesh.cells.empty()) {
@@ -153,14 +146,13 @@ Case Case::read(const Application& app) {
         context.shearModulus = c.membraneOf(first).bonds->hexagonalModuli(first.edge).shear;
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
-    throwIfAny(problems, files);
+    c.throwIfAny(problems);
     if (c.control.endStrain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "endStrain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
     if (c.control.write.strain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "write.strain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
-    if (c.observers)
-        observing.check(*c.observers, {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
-    throwIfAny(problems, files);
+    c.observers.check(c.files["system/observers.yaml"], {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
+    c.throwIfAny(problems);
     return c;
 }
 
@@ -173,17 +165,13 @@ particles::Box Case::fluidBox() const {
 particles::Box Case::particleBox() const {
     particles::Box box = fluidBox();
     if (const int k = flowModel->wallAxis(); k >= 0) {
-        box.low[k] -= wallLayers() * spacing();
-        box.high[k] += wallLayers() * spacing();
+        box.low[k] -= wallLayers() * latticeSpacing()[k];
+        box.high[k] += wallLayers() * latticeSpacing()[k];
     }
     return box;
 }
 
-double Case::particleVolume() const {
-    double volume = 1;
-    for (int k = 0; k < 3; ++k) volume *= mesh.domain.size[k] / std::round(mesh.domain.size[k] / spacing());
-    return volume;
-}
+Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.domain.size / spacing()).array().round(); }
 
 double Case::soundSpeed() const {
     if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;

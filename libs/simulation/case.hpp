@@ -1,5 +1,7 @@
 // A case, read and checked as a whole: every dictionary, and what follows from their combination. SI from here on.
 #pragma once
+#include <map>
+
 #include "core/application.hpp"
 #include "observers/observers.hpp"
 #include "simulation/caseSettings.hpp"
@@ -15,8 +17,9 @@ struct Case {
     FluidSettings fluid;
     MembranesSettings membranes;
     Choice<sph::Flow> flowModel;
+    observers::ObserversSettings observers;
+    std::map<std::string, Node> files;                    // the dictionaries as they were read
     std::vector<std::pair<std::string, Node>> effective;  // file and its full table: used.yaml
-    std::optional<Node> observers;                        // system/observers.yaml, checked; none when the case has none
 
     // What follows.
     sph::FlowState flow;
@@ -27,11 +30,15 @@ struct Case {
     int wallLayers() const;              // of particles behind each wall: as deep as the support reaches
     particles::Box fluidBox() const;     // between the walls
     particles::Box particleBox() const;  // with the walls' layers
-    double particleVolume() const;       // of the lattice, near dx^3 [m^3]
+    Vec3 latticeSpacing() const;         // that divides the fluid's box evenly, dx to 1e-3 of it [m]
+    double particleVolume() const { return latticeSpacing().prod(); }  // [m^3]
     double particleMass() const { return flow.density * particleVolume(); }
     double soundSpeed() const;
     const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const { return membranes.types.at(cell.type()); }
     bool varyingViscosity() const;
+
+    // Throws CaseError when there are problems, each at the line of its file where its key stands.
+    void throwIfAny(const Problems& problems) const;
 
     // Reads all files of the case; throws CaseError with every problem found. Collective.
     static Case read(const Application& app);

@@ -97,6 +97,9 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                     {.fallback = "0.3 dx", .range = positive})
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",
                      {.fallback = "10", .range = nonNegative})
+            .integer("densityBalance", &NumericsSettings::densityBalance,
+                     "steps between two balances of density against the volume of closed cells, 0 for none",
+                     {.fallback = "10", .range = nonNegative})
             .quantity("safety", &NumericsSettings::safety, unit::none, "fraction of the viscous and the spring limit that a time step may take",
                       {.fallback = "0.95", .range = between(0.01, 1)});
     return s;

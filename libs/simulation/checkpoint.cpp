@@ -30,6 +30,38 @@ long total(long mine, MPI_Comm comm) {
     return mine;
 }
 
+// What the particles of a checkpoint hold on to, whatever the case says now: spacing and box, and the densities and viscosities that
+// they carry.
+struct Fixed {
+    const char *file, *key;
+    double value;
+    Dimension dimension;
+};
+std::vector<Fixed> fixedSettings(const Case& input) {
+    const Vec3& size = input.mesh.domain.size;
+    return {{"system/numerics.yaml", "spacing", input.spacing(), unit::metre},
+            {"system/mesh.yaml", "domain.size", size[0], unit::metre},
+            {"system/mesh.yaml", "domain.size", size[1], unit::metre},
+            {"system/mesh.yaml", "domain.size", size[2], unit::metre},
+            input.flow.densityFromRe ? Fixed{"constant/flow.yaml", "inertia", input.flow.density, unit::kilogramPerMetre3}
+                                     : Fixed{"constant/fluid.yaml", "density", input.flow.density, unit::kilogramPerMetre3},
+            {"constant/fluid.yaml", "viscosity", input.varyingViscosity() ? input.fluid.viscosity : 0, unit::pascalSecond}};
+}
+
+void checkFixed(const std::filesystem::path& path, const Case& input, const std::vector<double>& written) {
+    const std::vector<Fixed> fixed = fixedSettings(input);
+    if (written.size() != fixed.size()) throw Failure(ExitCode::io, path.string() + ": 'fixed' has " + std::to_string(written.size()) + " numbers; start from firstTime");
+    Problems problems;
+    for (std::size_t i = 0; i < fixed.size(); ++i) {
+        const auto& [file, key, value, dimension] = fixed[i];
+        if (std::abs(written[i] - value) > 1e-9 * std::abs(value))
+            problems.add({file, 0, 0}, key, "the case now has " + formatQuantity(value, dimension, 6) + ", but " + path.string() +
+                                                " was written with " + formatQuantity(written[i], dimension, 6) +
+                                                "; start from firstTime, or give the old value");
+    }
+    input.throwIfAny(problems);
+}
+
 }  // namespace
 
 void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, const RunState& state) {
@@ -42,7 +74,6 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("viscousRate", state.integrator.viscousRate);
     file.attribute("springRate2", state.integrator.springRate2);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
-    file.attribute("spacing", scene.spacing);
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.coupling) {
         file.attribute("couplingSteps", static_cast<std::int64_t>(scene.coupling->steps()));
@@ -50,6 +81,9 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     }
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
+    std::vector<double> fixed;
+    for (const Fixed& f : fixedSettings(input)) fixed.push_back(f.value);
+    file.writeReplicated("fixed", fixed);
     scene.store().forEachField([&](std::string_view name, const auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
@@ -74,10 +108,7 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
 
 RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Scene& scene, Time& time) {
     io::CheckpointReader file(scene.system->comm(), path);
-    if (const auto spacing = file.attribute<double>("spacing"); std::abs(spacing - input.spacing()) > 1e-9 * spacing)
-        throw Failure(ExitCode::invalidCase, path.string() + " was written at a spacing of " + formatQuantity(spacing, unit::metre) +
-                                                 ", the case now has " + formatQuantity(input.spacing(), unit::metre) +
-                                                 "; start from firstTime, or give the old spacing");
+    checkFixed(path, input, file.readReplicated<double>("fixed"));
     time.t = file.attribute<double>("time");
     time.step = file.attribute<std::int64_t>("step");
     RunState state;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/together.hpp"
+
 namespace corpuscle::simulation {
 
 using coupling::Scene;
@@ -18,7 +20,9 @@ constexpr double largestDensityChange = 0.5;
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     std::vector<sph::Load*> loads;
     if (!scene.cells.empty()) {
-        scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, scene.spacing, input.numerics.guard);
+        const coupling::DensityBalance balance(scene.fluidBox.volume(), scene.model().density);
+        scene.coupling = std::make_unique<coupling::DualIdentity>(
+            scene.cells, scene.spacing, balance, coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
         loads.push_back(scene.coupling.get());
     }
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
@@ -75,16 +79,18 @@ void Integrator::updateLimits(Time& time) {
 void Integrator::checkState(const Time& time) const {
     const auto& s = scene_.store();
     const double rho0 = scene_.model().density;
+    std::string fault;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const double change = std::abs(s.density[i] / rho0 - 1);
         if (change < largestDensityChange && s.velocity(i).allFinite()) continue;
         const Vec3 x = s.position(i);
-        throw Failure(ExitCode::numerics,
-                      fmt::format("step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
-                                  "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
-                                  "last checkpoint with a smaller 'safety' in system/numerics.yaml",
-                                  time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]));
+        fault = fmt::format("step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
+                            "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
+                            "last checkpoint with a smaller 'safety' in system/numerics.yaml",
+                            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]);
+        break;
     }
+    io::throwTogether(scene_.system->comm(), !fault.empty(), fault, ExitCode::numerics);
 }
 
 }  // namespace corpuscle::simulation

@@ -1,8 +1,6 @@
 #include "simulation/sceneBuilder.hpp"
 
-#include <cmath>
-
-#include "io/polyData.hpp"
+#include "simulation/startFiles.hpp"
 
 namespace corpuscle::simulation {
 
@@ -19,20 +17,11 @@ std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double s
 
 namespace {
 
-std::filesystem::path startFile(const Case& input, const std::string& name, const char* writer) {
-    const std::filesystem::path path = input.directory / "0" / (name + ".vtp");
-    if (!std::filesystem::exists(path))
-        throw Failure(ExitCode::io, path.string() + " is missing: run " + writer + " first");
-    return path;
-}
-
 std::vector<Cell> readCells(const Case& input) {
     std::vector<Cell> cells;
     int firstNode = 0;
     for (const CellSettings& settings : input.mesh.cells) {
-        const io::PolyData mesh = io::readVtp(startFile(input, settings.name, "membraneMesh"));
-        if (mesh.triangles.empty())
-            throw Failure(ExitCode::io, "0/" + settings.name + ".vtp holds no triangles: run membraneMesh again");
+        const io::PolyData mesh = readStart(input, settings.name);
         const double a = settings.shape->radius();
         Cell cell{membrane::Membrane(settings.name, static_cast<int>(cells.size()) + 1, mesh.points, mesh.triangles,
                                      input.membraneOf(settings), a),
@@ -96,24 +85,19 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
         return i;
     };
 
-    const io::PolyData fluid = io::readVtp(startFile(input, "fluid", "particleFill"));
-    const auto& velocity = fluid.point.vector("velocity");
-    const auto& density = fluid.point.scalar("density");
+    const io::PolyData fluid = readStart(input, "fluid");
     const auto& side = fluid.point.integer("side");
-    if (const double spacing = fluid.point.scalar("spacing").empty() ? input.spacing() : fluid.point.scalar("spacing").front();
-        std::abs(spacing - input.spacing()) > 1e-6 * input.spacing())
-        throw Failure(ExitCode::io, "0/fluid.vtp was filled at a spacing of " + formatQuantity(spacing, unit::metre) +
-                                        ", but system/numerics.yaml says " + formatQuantity(input.spacing(), unit::metre) +
-                                        ": run particleFill again");
     forShare(fluid.points.size(), comm, [&](std::size_t k) {
-        const std::size_t i = add(Kind::fluid, static_cast<std::int64_t>(k), fluid.points[k], velocity[k], density[k]);
+        const Vec3& x = fluid.points[k];
+        const double density = model.equationOfState->density(input.flow.pressure(x), model.density, model.soundSpeed);
+        const std::size_t i = add(Kind::fluid, static_cast<std::int64_t>(k), x, input.flow.velocity(x), density);
         if (s.optional().side) s.side[i] = side[k];
         if (s.optional().viscosity && side[k] > 0) s.viscosity[i] *= scene.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
     });
     firstId += static_cast<std::int64_t>(fluid.points.size());
 
     if (model.walls.exist()) {
-        const io::PolyData walls = io::readVtp(startFile(input, "walls", "particleFill"));
+        const io::PolyData walls = readStart(input, "walls");
         forShare(walls.points.size(), comm, [&](std::size_t k) {
             const Vec3& x = walls.points[k];
             const std::size_t i = add(Kind::wall, firstId + static_cast<std::int64_t>(k), x, model.walls.velocity[model.walls.isUpper(x)], model.density);

@@ -113,9 +113,21 @@ TEST_F(Utilities, TheSameCaseGivesTheSameStart) {
 TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     run("membraneMesh");
     run("particleFill");
-    const Result other = run("checkMesh", "-set 'system/mesh.yaml:/cells/0/shape/d=7.5 um'");
-    EXPECT_EQ(other.code, 2);
-    EXPECT_TRUE(contains(other.err, "off the shape")) << other.err;
+    for (const char* program : {"checkMesh", "particleFill"}) {
+        const Result other = run(program, "-set 'system/mesh.yaml:/cells/0/shape/d=7.5 um'");
+        EXPECT_EQ(other.code, 2);
+        EXPECT_TRUE(contains(other.err, "cells[0].shape.d: the case says 7.5e-06 m, but 0/rbc.vtp was made for 8e-06 m; run membraneMesh")) << other.err;
+    }
+    EXPECT_EQ(run("checkMesh", "-set 'constant/flow.yaml:/Ca=0.3'").code, 0);
+
+    const io::PolyData mesh = io::readVtp(at("0/rbc.vtp"));
+    io::PolyData moved = mesh;
+    moved.points[0] *= 1.01;
+    io::writeVtp(at("0/rbc.vtp"), moved);
+    const Result off = run("checkMesh");
+    EXPECT_EQ(off.code, 2);
+    EXPECT_TRUE(contains(off.err, "off the shape")) << off.err;
+    io::writeVtp(at("0/rbc.vtp"), mesh);
 
     io::PolyData fluid = io::readVtp(at("0/fluid.vtp"));
     fluid.points[1] = fluid.points[0] + Vec3(1e-8, 0, 0);
@@ -126,6 +138,12 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     EXPECT_TRUE(contains(broken.err, "1 fluid particles have the wrong side")) << broken.err;
     EXPECT_TRUE(contains(broken.err, "overlap: two fluid particles are 0.010 dx apart")) << broken.err;
     EXPECT_TRUE(contains(broken.err, "2 checks failed.")) << broken.err;
+
+    fluid.texts.clear();
+    io::writeVtp(at("0/fluid.vtp"), fluid);
+    const Result silent = run("checkMesh");
+    EXPECT_EQ(silent.code, 2);
+    EXPECT_TRUE(contains(silent.err, "0/fluid.vtp: does not say for which settings it was made; run particleFill again")) << silent.err;
 }
 
 TEST_F(Utilities, CellsInEachOtherAreRefused) {

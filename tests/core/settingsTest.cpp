@@ -230,6 +230,14 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("shearRate: 3 1/s", "shearRate", {"exactly one of 'Ca', 'shearRate'"});
 }
 
+TEST(Settings, rangesShowAsFewDigitsAsGiveTheNumber) {
+    EXPECT_EQ(between(0, 0.45).text(unit::none), "0 to 0.45");
+    EXPECT_EQ(between(0.01, 1).text(unit::none), "0.01 to 1");
+    EXPECT_EQ(between(0.1e-6, 250e-6).text(unit::metre), "100 nm to 250 um");
+    EXPECT_EQ(atLeast(123456.5).text(unit::pascal), "at least 123.4565 kPa");
+    EXPECT_EQ(atLeast(1.0 / 3).text(unit::none), "at least 0.3333333333333333");
+}
+
 TEST(Settings, oneFaultOneMessage) {
     // A misspelt required key is not reported as missing as well.
     Outcome o = readText("viscosty: 1 Pa s\nCa: 1\n");

@@ -14,7 +14,7 @@ namespace {
 
 // Off centre and across a periodic corner, stretched.
 struct Stretched : SphereScene {
-    DualIdentity coupling{cells, 1, 10};
+    DualIdentity coupling{cells, 1, DensityBalance(12 * 8 * 8, 1), {10, 0}};
     Stretched() : SphereScene({12, 8, 8}, {Vec3(6, 0.2, 7.5)}) {
         coupling.moved(*system, true);
         moveNodes([](const Vec3& x) -> Vec3 { return x + Vec3(0.1 * (x[0] - 6), -0.08 * x[1], 0.05 * std::sin(x[0])); });

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <functional>
 #include <limits>
 #include <random>
 
@@ -34,12 +31,6 @@ std::vector<Vec3> randomPoints(int count, double half) {
     std::vector<Vec3> points;
     for (int n = 0; n < count; ++n) points.emplace_back(uniform(random), uniform(random), uniform(random));
     return points;
-}
-
-double seconds(const std::function<void()>& work) {
-    const std::clock_t start = std::clock();  // processor time: other work on the machine hardly counts
-    work();
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 TEST(InsideTest, agreesWithTheWindingNumber) {
@@ -127,38 +118,6 @@ TEST(TriangleGrid, followsTheMovedMesh) {
     EXPECT_FALSE(grid.nearest(x));
     grid.update(mesh.nodes);
     EXPECT_NEAR(grid.nearest(x).distance, 0, 1e-18);
-}
-
-// Printed for the record; the bounds are loose because tests share their machine.
-TEST(TriangleGrid, isQuick) {
-    const TriangleMesh mesh = meshSurface(redCell, 0.25e-6);
-    const double reach = 0.5e-6;
-    TriangleGrid grid(mesh, reach);
-    std::vector<Vec3> near, far;
-    for (const Vec3& x : randomPoints(100000, 6e-6)) (grid.nearest(x) ? near : far).push_back(x);
-    const double rebuild = seconds([&] { grid.update(mesh.nodes); });
-    double sum = 0;
-    const double inReach = seconds([&] {
-        for (const Vec3& x : near) sum += grid.nearest(x).distance;
-    });
-    const double outside = seconds([&] {
-        for (const Vec3& x : far) sum += grid.nearest(x).distance;
-    });
-    const InsideTest test(mesh);
-    int inside = 0;
-    const double tested = seconds([&] {
-        for (const Vec3& x : near) inside += test.inside(x);
-    });
-    std::printf(
-        "%zu triangles: rebuild %.2f ms; nearest %.0f ns within reach, %.0f ns beyond; inside %.0f ns (%d, %g)\n",
-        mesh.triangles.size(), rebuild * 1e3, inReach / static_cast<double>(near.size()) * 1e9,
-        outside / static_cast<double>(far.size()) * 1e9, tested / static_cast<double>(near.size()) * 1e9, inside, sum);
-#ifdef __SANITIZE_ADDRESS__
-    GTEST_SKIP() << "timing means nothing in an instrumented build";
-#endif
-    EXPECT_LT(inReach / static_cast<double>(near.size()), 10e-6);
-    EXPECT_LT(outside / static_cast<double>(far.size()), 2e-6);
-    EXPECT_LT(rebuild, 0.5);
 }
 
 }  // namespace

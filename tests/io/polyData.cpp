@@ -24,6 +24,7 @@ PolyData membrane() {
     data.cell.scalars["areaStrain"] = {0.1, 0.2};
     data.cell.integers["broken"] = {0, 1};
     data.field["strain"] = 2.5;
+    data.texts = {{"system/mesh.yaml:domain.size", "[1, 2, 3] um"}, {"empty", ""}, {"odd", "\"<a & b>\"\n\u00b5"}};
     return data;
 }
 
@@ -47,6 +48,7 @@ TEST(Vtp, MembraneComesBackToTheBit) {
     EXPECT_EQ(after.cell.scalars, before.cell.scalars);
     EXPECT_EQ(after.cell.integers, before.cell.integers);
     EXPECT_EQ(after.field, before.field);
+    EXPECT_EQ(after.texts, before.texts);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file remains";
 }
 

@@ -14,15 +14,19 @@ const geometry::TriangleMesh& sphere() {
     return mesh;
 }
 
-std::optional<Node> dictionary(const std::string& text) {
+ObserversSettings settings(const std::string& text, const Subject& subject = {true, true, 1}) {
     Problems problems;
-    Node node = parseDictionary(text, "system/observers.yaml", problems);
+    const Node dictionary = parseDictionary(text, "system/observers.yaml", problems);
+    const auto chosen = read<ObserversSettings>(dictionary, problems);
     problems.throwIfAny();
-    return node;
+    chosen.check(dictionary, subject, problems);
+    problems.throwIfAny();
+    return chosen;
 }
 
 std::string refusal(const std::string& text, const Scene& scene, double shearRate = 1) {
-    return messageOf<CaseError>([&] { Observers(dictionary(text), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
+    const Subject subject{!scene.cells.empty(), scene.flow.walls.exist(), shearRate};
+    return messageOf<CaseError>([&] { Observers(settings(text, subject), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
 }
 
 // All fields of the particles and of the membranes that are held, bit by bit.
@@ -43,10 +47,10 @@ TEST(Observers, FilesTimesAndNothingChanged) {
     Scene scene = sampleScene({.cells = {{"rbc", Vec3::Zero()}}, .surface = &sphere()});
     couple(scene);
     const TemporaryFolder folder;
-    const auto names = dictionary("deformation: {type: shape, every: 0.2 strain}\n"
-                                  "balance: {type: conservation, every: 3 steps}\n"
-                                  "breaks: {type: rupture, every: 0.5 s}\n"
-                                  "u: {type: profile, every: 5 steps, bins: 4}\n");
+    const auto names = settings("deformation: {type: shape, every: 0.2 strain}\n"
+                                "balance: {type: conservation, every: 3 steps}\n"
+                                "breaks: {type: rupture, every: 0.5 s}\n"
+                                "u: {type: profile, every: 5 steps, bins: 4}\n");
     const std::string before = bits(scene);
     Time time{.dt = 0.1, .shearRate = 1};
     Observers observers(names, scene, time, folder.path());
@@ -76,7 +80,7 @@ TEST(Observers, FilesTimesAndNothingChanged) {
 TEST(Observers, NoneCostNothing) {
     Scene scene = sampleScene({});
     const TemporaryFolder folder;
-    Observers none(std::nullopt, scene, {}, folder.path());
+    Observers none(ObserversSettings{}, scene, {}, folder.path());
     none.run(scene, {});
     EXPECT_TRUE(none.empty());
     EXPECT_TRUE(none.state().empty());
@@ -88,9 +92,9 @@ TEST(Observers, StateKnowsItsObservers) {
     couple(scene);
     const Time start{.dt = 0.1, .shearRate = 1};
     const std::string shape = "deformation: {type: shape, every: 0.1 strain}\n", rupture = "holes: {type: rupture, every: 0.1 strain}\n";
-    const auto state = Observers(dictionary(shape + rupture), scene, start, ".").state();
+    const auto state = Observers(settings(shape + rupture), scene, start, ".").state();
     EXPECT_FALSE(state.empty());
-    Observers other(dictionary(rupture + "more: {type: shape, every: 1 steps}\n"), scene, start, ".");  // one gone, one new
+    Observers other(settings(rupture + "more: {type: shape, every: 1 steps}\n"), scene, start, ".");  // one gone, one new
     EXPECT_NO_THROW(other.restore(state));
     EXPECT_THROW(other.restore({state.begin(), state.end() - 1}), Failure);
 }

@@ -109,7 +109,8 @@ inline Scene sampleScene(const SampleOptions& o) {
 
 // With its coupling, which refers to the scene's cells: made where the scene stays.
 inline void couple(Scene& scene) {
-    scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx, 0);
+    scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx, coupling::DensityBalance(scene.fluidBox.volume(), rho0),
+                                                              coupling::DualIdentity::Intervals{0, 0});
     scene.coupling->moved(*scene.system, true);
 }
 

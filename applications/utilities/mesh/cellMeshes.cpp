@@ -14,17 +14,6 @@ void requireSerial(const Application& app) {
         throw Failure(ExitCode::usage, fmt::format("runs on one rank, but {} were started: run it without mpirun", app.communicator().size()));
 }
 
-std::filesystem::path startFile(const Case& input, const std::string& name) { return input.directory / "0" / (name + ".vtp"); }
-
-void writeStart(const Case& input, const std::string& name, io::PolyData data) {
-    const std::filesystem::path file = startFile(input, name);
-    std::error_code fault;
-    std::filesystem::create_directories(file.parent_path(), fault);
-    if (fault) throw Failure(ExitCode::io, file.parent_path().string() + " cannot be made: " + fault.message());
-    data.field = {{"TimeValue", 0}, {"strain", 0}};
-    io::writeVtp(file, data);
-}
-
 void place(TriangleMesh& mesh, const CellSettings& cell) {
     mesh.rotate(geometry::rotationFromZ(cell.axis));
     mesh.translate(cell.centre);
@@ -39,10 +28,7 @@ TriangleMesh inShapeFrame(TriangleMesh mesh, const CellSettings& cell) {
 std::vector<TriangleMesh> readCellMeshes(const Case& input) {
     std::vector<TriangleMesh> meshes;
     for (const CellSettings& cell : input.mesh.cells) {
-        const std::filesystem::path file = startFile(input, cell.name);
-        if (!std::filesystem::exists(file)) throw Failure(ExitCode::io, file.string() + " is missing: run membraneMesh first");
-        io::PolyData data = io::readVtp(file);
-        if (data.triangles.empty()) throw Failure(ExitCode::io, file.string() + " holds no triangles: run membraneMesh again");
+        io::PolyData data = simulation::readStart(input, cell.name);
         meshes.push_back({std::move(data.points), std::move(data.triangles)});
     }
     return meshes;

@@ -5,22 +5,18 @@
 #include "geometry/latticeFill.hpp"
 #include "geometry/mesher.hpp"
 #include "membrane/moduli.hpp"
-#include "io/polyData.hpp"
-#include "simulation/case.hpp"
+#include "simulation/startFiles.hpp"
 
 namespace corpuscle::utilities {
 
 // These programs run alone: Failure(usage) under mpirun with more ranks than one.
 void requireSerial(const Application& app);
 
-std::filesystem::path startFile(const simulation::Case& input, const std::string& name);  // 0/<name>.vtp
-void writeStart(const simulation::Case& input, const std::string& name, io::PolyData data);       // at t = 0
-
 // From the shape's frame (axis along z, centre at the origin) to the cell's place, and back.
 void place(geometry::TriangleMesh& mesh, const simulation::CellSettings& cell);
 geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::CellSettings& cell);
 
-// All cells of the case, in its order. Throws Failure(io) when one is missing or holds no triangles.
+// All cells of the case, in its order. Throws as simulation::readStart.
 std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
 
 geometry::Period periodOf(const particles::Box& box);

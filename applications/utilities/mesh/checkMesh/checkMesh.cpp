@@ -130,17 +130,12 @@ int main(int argc, char* argv[]) {
         for (const TriangleMesh& mesh : meshes) members.cells.push_back(mesh.nodes);
         checkCells(app, input, meshes, json, faults);
 
-        const std::filesystem::path fluidFile = utilities::startFile(input, "fluid"), wallFile = utilities::startFile(input, "walls");
-        if (!std::filesystem::exists(fluidFile)) {
-            if (meshes.empty()) throw Failure(ExitCode::io, fluidFile.string() + " is missing: run particleFill first");
+        if (!meshes.empty() && !std::filesystem::exists(simulation::startFile(input, "fluid"))) {
             app.log().info("0/fluid.vtp is not there yet: only the meshes are checked; run particleFill, then checkMesh again");
         } else {
-            const io::PolyData fluid = io::readVtp(fluidFile);
+            const io::PolyData fluid = simulation::readStart(input, "fluid");
             members.fluid = fluid.points;
-            if (input.flow.walls.exist()) {
-                if (!std::filesystem::exists(wallFile)) throw Failure(ExitCode::io, wallFile.string() + " is missing: run particleFill again");
-                members.walls = io::readVtp(wallFile).points;
-            }
+            if (input.flow.walls.exist()) members.walls = simulation::readStart(input, "walls").points;
             checkLattice(app, input, meshes, members.fluid.size(), members.walls.size(), json, faults);
             checkSides(input, meshes, fluid, json, faults);
             checkDistances(app, input, members, json, faults);

@@ -23,12 +23,14 @@ namespace {
 std::string kindOf(const simulation::CellSettings& cell) { return emit(writeChoice(cell.shape)) + fmt::format("{:a}", cell.edge); }
 
 void writeCell(const simulation::Case& input, const std::string& name, const TriangleMesh& mesh) {
-    io::PolyData data{mesh.nodes, mesh.triangles, {}, {}, {}};
+    io::PolyData data;
+    data.points = mesh.nodes;
+    data.triangles = mesh.triangles;
     auto& id = data.point.integers["id"];
     id.resize(mesh.nodes.size());
     std::iota(id.begin(), id.end(), 0);
     data.point.scalars["spacing"].assign(mesh.nodes.size(), input.spacing());
-    utilities::writeStart(input, name, std::move(data));
+    simulation::writeStart(input, name, std::move(data));
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ int main(int argc, char* argv[]) {
         for (const std::string& fault : utilities::misplacedCells(input, placed)) app.log().warning("{}", fault);
         if (input.mesh.cells.empty()) app.log().info("system/mesh.yaml has no cells: nothing to mesh");
         app.log().info("Next: particleFill{}",
-                       std::filesystem::exists(utilities::startFile(input, "fluid")) ? "; 0/fluid.vtp stems from the meshes before these" : "");
+                       std::filesystem::exists(simulation::startFile(input, "fluid")) ? "; 0/fluid.vtp stems from the meshes before these" : "");
         if (app.json()) std::cout << json.dump(2) << '\n';
         return ExitCode::done;
     });

@@ -136,13 +136,13 @@ io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const
 }
 
 void write(const Case& input, const Filling& f) {
-    utilities::writeStart(input, "fluid", withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
+    simulation::writeStart(input, "fluid", withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
     if (f.walls.empty()) {
-        std::filesystem::remove(utilities::startFile(input, "walls"));
+        std::filesystem::remove(simulation::startFile(input, "walls"));
         return;
     }
     const sph::Walls& walls = input.flow.walls;
-    utilities::writeStart(
+    simulation::writeStart(
         input, "walls",
         withState(input, f.walls, std::vector<int>(f.walls.size(), 0), static_cast<std::int64_t>(f.fluid.size()),
                   [&](const Vec3& x) { return walls.velocity[walls.isUpper(x)]; }, [](const Vec3&) { return 0.0; }));

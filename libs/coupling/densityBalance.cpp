@@ -1,0 +1,66 @@
+#include "coupling/densityBalance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle::coupling {
+
+using particles::Kind;
+
+namespace {
+// Of one region, outside first.
+struct Region {
+    double fluid = 0;   // sum m/rho of the fluid particles
+    double nodes = 0;   // the nodes' share
+    double mass = 0;    // of both
+};
+static_assert(sizeof(Region) == 3 * sizeof(double));
+}  // namespace
+
+void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<Cell>& cells) {
+    particles::ParticleStore& s = system.store();
+    const auto n = static_cast<std::size_t>(system.owned());
+    std::vector<double> volume(cells.size(), -1);  // every holder has the same
+    std::vector<char> closed;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        if (cells[c].held) volume[c] = cells[c].membrane.network().isOpen() ? 0 : cells[c].membrane.volume();
+    MPI_Allreduce(MPI_IN_PLACE, volume.data(), static_cast<int>(volume.size()), MPI_DOUBLE, MPI_MAX, system.comm());
+    for (const double v : volume) closed.push_back(v > 0);
+
+    // Region 0 is the outside and all open cells. A node counts half to either side of its membrane.
+    const auto regionOfCell = [&](std::size_t number) { return number > 0 && closed[number - 1] ? number : 0; };
+    const auto regionOf = [&](std::size_t i) { return regionOfCell(static_cast<std::size_t>(s.side[i])); };
+    const auto cellOfNode = [&](std::int64_t node) {
+        const auto next = std::upper_bound(cells.begin(), cells.end(), node, [](std::int64_t n, const Cell& c) { return n < c.firstNode; });
+        return static_cast<std::size_t>(next - cells.begin());
+    };
+    std::vector<Region> regions(cells.size() + 1);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double mass = s.mass[i], space = mass / s.density[i];
+        if (s.kindOf(i) == Kind::fluid) {
+            Region& r = regions[regionOf(i)];
+            r.fluid += space, r.mass += mass;
+        } else if (s.kindOf(i) == Kind::membrane) {
+            for (const std::size_t r : {regionOfCell(cellOfNode(s.node[i])), std::size_t(0)})
+                regions[r].nodes += 0.5 * space, regions[r].mass += 0.5 * mass;
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(3 * regions.size()), MPI_DOUBLE, MPI_SUM, system.comm());
+
+    double outside = fluidVolume_, outsideAtStart = fluidVolume_;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        if (closed[c]) outside -= volume[c], outsideAtStart -= cells[c].initialVolume;
+    std::vector<double> factor(regions.size(), 1.0);
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+        if (regions[r].fluid <= 0) continue;
+        const double change = r == 0 ? outside / outsideAtStart : volume[r - 1] / cells[r - 1].initialVolume;
+        const double space = change * regions[r].mass / density_ - regions[r].nodes;
+        if (space <= 0) continue;
+        factor[r] = regions[r].fluid / space;
+        largest_ = std::max(largest_, std::abs(factor[r] - 1));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (s.kindOf(i) == Kind::fluid) s.density[i] *= factor[regionOf(i)];
+}
+
+}  // namespace corpuscle::coupling

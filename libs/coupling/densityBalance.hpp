@@ -1,0 +1,36 @@
+// Density against volume, cell by cell.
+//
+// The continuity equation is a sum over pairs whose divergence does not vanish exactly on sheared, disordered particles: over tens
+// of strains the density of a region wanders away from mass over volume, and the equation of state then moves the membrane
+// instead, by some per cent of a cell's volume. But a closed cell's volume is known from its mesh, and so is that of the fluid around.
+// Every few steps the densities of each region are multiplied by one factor, close to 1, so that
+//
+//     sum_fluid m_i/rho_i + 1/2 sum_nodes m_n/rho_n = V(t)/V(0) sum (m_i + m_n/2)/rho0       for the inside of each closed cell
+//
+// and likewise for the region outside all closed cells, V = fluid box - closed cells, where the nodes of open cells count whole. A
+// region's pressure follows its volume as the bulk modulus says; differences within a region, and momentum, are not touched. Pressure
+// waves are left to the continuity equation.
+#pragma once
+#include <vector>
+
+#include "coupling/cell.hpp"
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::coupling {
+
+class DensityBalance {
+  public:
+    // fluidVolume: of the box between the walls [m^3]; density: rho0.
+    DensityBalance(double fluidVolume, double density) : fluidVolume_(fluidVolume), density_(density) {}
+
+    // Collective.
+    void apply(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+
+    // Largest |factor - 1| of any application so far, the same on all ranks.
+    double largest() const { return largest_; }
+
+  private:
+    double fluidVolume_, density_, largest_ = 0;
+};
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,143 @@
+#include "simulation/startFiles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace corpuscle::simulation {
+
+namespace {
+
+using Settings = std::map<std::string, std::string>;
+
+// A number to ten digits, so that "11 um" and "0.011 mm" are the same; other words as they are.
+std::string rounded(const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return text;
+    return fmt::format("{:.10g}{}", number + 0.0, std::string(end, text.data() + text.size()));  // + 0.0: no "-0"
+}
+
+// Everything below a node by its full key, lists of values as one text.
+void flatten(const Node& node, const std::string& key, Settings& settings) {
+    if (node.kind == Node::Kind::table) {
+        for (const auto& [name, value] : node.entries) flatten(value, key + "." + name, settings);
+    } else if (node.kind == Node::Kind::list) {
+        std::vector<std::string> values;
+        for (const Node& item : node.items) values.push_back(rounded(item.scalar));
+        settings[key] = "[" + joinWords(values) + "]" + (node.unit.empty() ? "" : " " + node.unit);
+    } else {
+        settings[key] = node.quoted ? node.scalar : rounded(node.scalar);
+    }
+}
+
+void addCell(CellSettings cell, const std::string& key, Settings& settings) {
+    cell.membrane.reset();
+    cell.axis.normalize();
+    flatten(write(cell), key, settings);
+    // A file of the same name may hold another surface.
+    if (cell.shape->triangulation())
+        settings[key + ".shape.file"] +=
+            fmt::format(" with {:.10g} m^2 and {:.10g} m^3", cell.shape->area(), cell.shape->volume());
+}
+
+// Index of the cell of that name; the number of cells when there is none.
+std::size_t cellOf(const Case& input, const std::string& name) {
+    const auto& cells = input.mesh.cells;
+    return static_cast<std::size_t>(
+        std::find_if(cells.begin(), cells.end(), [&](const CellSettings& c) { return c.name == name; }) -
+        cells.begin());
+}
+
+bool isCell(const Case& input, const std::string& name) { return cellOf(input, name) < input.mesh.cells.size(); }
+
+// A cell that one side lacks altogether is named once, by its name.
+bool isDetailOfMissingCell(const std::string& key, const Settings& without) {
+    const std::size_t end = key.find("].");
+    return key.starts_with("mesh.cells[") && end != std::string::npos && !key.ends_with("].name") &&
+           !without.contains(key.substr(0, end) + "].name");
+}
+
+void compare(const Case& input, const std::string& name, const Settings& found, Problems& problems) {
+    const std::string file = "0/" + name + ".vtp";
+    const std::string cure = isCell(input, name) ? "run membraneMesh and particleFill again" : "run particleFill again";
+    const Settings wanted = startSettings(input, name);
+    if (found.empty()) {
+        problems.add({file, 0, 0}, "", "does not say for which settings it was made; " + cure);
+        return;
+    }
+    const auto valueIn = [](const Settings& settings, const std::string& key) {
+        const auto at = settings.find(key);
+        return at == settings.end() ? std::string("nothing") : at->second;
+    };
+    Settings all = wanted;
+    all.insert(found.begin(), found.end());
+    for (const auto& [key, ignored] : all) {
+        const std::string here = valueIn(wanted, key), there = valueIn(found, key);
+        if (here == there || isDetailOfMissingCell(key, wanted) || isDetailOfMissingCell(key, found)) continue;
+        const std::size_t dot = key.find('.');
+        const std::string dictionary = key.substr(0, dot), below = key.substr(dot + 1);
+        const bool ofCell = dictionary == "cell";
+        problems.add({"system/" + (ofCell ? "mesh" : dictionary) + ".yaml", 0, 0},
+                     ofCell ? fmt::format("cells[{}].{}", cellOf(input, name), below) : below,
+                     fmt::format("the case says {}, but {} was made for {}; {}", here, file, there, cure));
+    }
+}
+
+}  // namespace
+
+std::filesystem::path startFile(const Case& input, const std::string& name) {
+    return input.directory / "0" / (name + ".vtp");
+}
+
+std::map<std::string, std::string> startSettings(const Case& input, const std::string& name) {
+    Settings settings;
+    if (isCell(input, name)) {
+        addCell(input.mesh.cells[cellOf(input, name)], "cell", settings);
+        settings.erase("cell.name");
+        return settings;
+    }
+    const MeshSettings& mesh = input.mesh;
+    const Node fill = write(mesh.fill), numerics = write(input.numerics);
+    flatten(write(mesh.domain), "mesh.domain", settings);
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+        addCell(mesh.cells[i], fmt::format("mesh.cells[{}]", i), settings);
+    flatten(*fill.find("jitter"), "mesh.fill.jitter", settings);
+    if (mesh.fill.jitter > 0) flatten(*fill.find("seed"), "mesh.fill.seed", settings);
+    flatten(*numerics.find("spacing"), "numerics.spacing", settings);
+    if (!mesh.cells.empty()) flatten(*fill.find("relaxation"), "mesh.fill.relaxation", settings);
+    if (!mesh.cells.empty() && mesh.fill.relaxation > 0) {  // the kernel evens out the particles
+        settings["numerics.kernel.type"] = input.numerics.kernel.name;
+        settings["numerics.kernel.support"] = fmt::format("{:.10g} dx", input.support() / input.spacing());
+    } else if (input.wallLayers() > 0) {
+        settings["numerics.kernel.support"] = fmt::format("{} layers of wall particles", input.wallLayers());
+    }
+    return settings;
+}
+
+void writeStart(const Case& input, const std::string& name, io::PolyData data) {
+    const std::filesystem::path file = startFile(input, name);
+    std::error_code fault;
+    std::filesystem::create_directories(file.parent_path(), fault);
+    if (fault) throw Failure(ExitCode::io, file.parent_path().string() + " cannot be made: " + fault.message());
+    data.field = {{"TimeValue", 0}, {"strain", 0}};
+    data.texts = startSettings(input, name);
+    io::writeVtp(file, data);
+}
+
+io::PolyData readStart(const Case& input, const std::string& name) {
+    const std::filesystem::path file = startFile(input, name);
+    const std::string writer = isCell(input, name) ? "membraneMesh" : "particleFill";
+    if (!std::filesystem::exists(file))
+        throw Failure(ExitCode::io, file.string() + " is missing: run " + writer + " first");
+    io::PolyData data = io::readVtp(file);
+    if (isCell(input, name) && data.triangles.empty())
+        throw Failure(ExitCode::io, file.string() + " holds no triangles: run " + writer + " again");
+    Problems problems;
+    compare(input, name, data.texts, problems);
+    input.throwIfAny(problems);
+    return data;
+}
+
+}  // namespace corpuscle::simulation
