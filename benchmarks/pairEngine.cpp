@@ -28,7 +28,9 @@ constexpr double skin = 0.3, dt = 0.02;
 double cpuSeconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -45,7 +47,8 @@ void fill(ParticleStore& store, int n, int rank, int size) {
     const std::int64_t begin = total * rank / size, end = total * (rank + 1) / size;
     store.resize(static_cast<std::size_t>(end - begin));
     for (std::int64_t id = 0; id < total; ++id) {
-        const auto x = static_cast<double>(id % n), y = static_cast<double>(id / n % n), z = static_cast<double>(id / n / n);
+        const auto x = static_cast<double>(id % n), y = static_cast<double>(id / n % n),
+                   z = static_cast<double>(id / n / n);
         const Vec3 place(x + 0.37 + 0.1 * d(random), y + 0.37 + 0.1 * d(random), z + 0.37 + 0.1 * d(random));
         const Vec3 velocity(0.05 * std::sin(2 * std::numbers::pi * y / n), 0.005 * d(random), 0.005 * d(random));
         const double density = 1 + 0.005 * d(random);
@@ -129,12 +132,16 @@ int main(int argc, char* argv[]) {
     const double ghosts = sum(system.ghosts());
     if (rank == 0) {
         const auto ns = [&](double seconds) { return 1e9 * seconds / work; };
-        std::printf("%s, %s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n", kernel.c_str(),
-                    instructionSetName().c_str(), precision.c_str(), support, total, size, steps, entries / total, 100 * ghosts / total);
-        std::printf("million particle-steps: %.2f per core-second, %.2f per second\n", 1e-6 * work / cpu, 1e-6 * work / wall);
-        std::printf("ns per particle-step: forces %.1f, sort and list %.1f (%.0f per build), integrator %.1f\n", ns(forceTime), ns(list),
-                    ns(list) * stepsPerList, ns(cpu - list - forceTime));
-        if (rebuildsOfOwnAccord > 0) std::printf("attention: %ld lists were built between those of the schedule\n", rebuildsOfOwnAccord);
+        std::printf(
+            "%s, %s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n",
+            kernel.c_str(), instructionSetName().c_str(), precision.c_str(), support, total, size, steps,
+            entries / total, 100 * ghosts / total);
+        std::printf("million particle-steps: %.2f per core-second, %.2f per second\n", 1e-6 * work / cpu,
+                    1e-6 * work / wall);
+        std::printf("ns per particle-step: forces %.1f, sort and list %.1f (%.0f per build), integrator %.1f\n",
+                    ns(forceTime), ns(list), ns(list) * stepsPerList, ns(cpu - list - forceTime));
+        if (rebuildsOfOwnAccord > 0)
+            std::printf("attention: %ld lists were built between those of the schedule\n", rebuildsOfOwnAccord);
     }
     MPI_Finalize();
 }

@@ -10,9 +10,9 @@ using particles::Kind;
 namespace {
 // Of one region, outside first.
 struct Region {
-    double fluid = 0;   // sum m/rho of the fluid particles
-    double nodes = 0;   // the nodes' share
-    double mass = 0;    // of both
+    double fluid = 0;  // sum m/rho of the fluid particles
+    double nodes = 0;  // the nodes' share
+    double mass = 0;   // of both
 };
 static_assert(sizeof(Region) == 3 * sizeof(double));
 }  // namespace
@@ -31,7 +31,8 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
     const auto regionOfCell = [&](std::size_t number) { return number > 0 && closed[number - 1] ? number : 0; };
     const auto regionOf = [&](std::size_t i) { return regionOfCell(static_cast<std::size_t>(s.side[i])); };
     const auto cellOfNode = [&](std::int64_t node) {
-        const auto next = std::upper_bound(cells.begin(), cells.end(), node, [](std::int64_t n, const Cell& c) { return n < c.firstNode; });
+        const auto next = std::upper_bound(cells.begin(), cells.end(), node,
+                                           [](std::int64_t n, const Cell& c) { return n < c.firstNode; });
         return static_cast<std::size_t>(next - cells.begin());
     };
     std::vector<Region> regions(cells.size() + 1);
@@ -45,7 +46,8 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
                 regions[r].nodes += 0.5 * space, regions[r].mass += 0.5 * mass;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(3 * regions.size()), MPI_DOUBLE, MPI_SUM, system.comm());
+    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(3 * regions.size()), MPI_DOUBLE, MPI_SUM,
+                  system.comm());
 
     double outside = fluidVolume_, outsideAtStart = fluidVolume_;
     for (std::size_t c = 0; c < cells.size(); ++c)

@@ -8,7 +8,11 @@ namespace corpuscle::coupling {
 using particles::ParticleSystem;
 
 DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals)
-    : cells_(cells), guard_(spacing), balance_(balance), margin_(LeakageGuard::reachInSpacings * spacing), intervals_(intervals) {}
+    : cells_(cells),
+      guard_(spacing),
+      balance_(balance),
+      margin_(LeakageGuard::reachInSpacings * spacing),
+      intervals_(intervals) {}
 
 void DualIdentity::moved(ParticleSystem& system, bool rebuilt) {
     if (rebuilt) exchange_.plan(system, cells_, margin_ + system.skin());
@@ -21,7 +25,8 @@ void DualIdentity::addAccelerations(ParticleSystem& system) {
         if (cell.held) cell.membrane.computeForces();
     auto& s = system.store();
     for (const NodeExchange::OwnedNode& n : exchange_.owned()) {
-        const Vec3 a = cells_[static_cast<std::size_t>(n.cell)].membrane.force[static_cast<std::size_t>(n.node)] / s.mass[n.particle];
+        const Vec3 a = cells_[static_cast<std::size_t>(n.cell)].membrane.force[static_cast<std::size_t>(n.node)] /
+                       s.mass[n.particle];
         s.fx[n.particle] += a[0];
         s.fy[n.particle] += a[1];
         s.fz[n.particle] += a[2];
@@ -51,8 +56,9 @@ double DualIdentity::springRate2(const ParticleSystem& system, int iterations) {
         const double step = 1e-4 * m.network().meanBondLength();
         std::vector<Vec3> mode(rest.size());
         for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
-            mode[k] = Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
-                           std::sin(3 + 37.719 * static_cast<double>(k)));
+            mode[k] =
+                Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
+                     std::sin(3 + 37.719 * static_cast<double>(k)));
         double rate2 = 0;
         for (int it = 0; it < iterations; ++it) {
             double longest = 0;

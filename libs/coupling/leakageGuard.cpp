@@ -14,7 +14,9 @@ constexpr double restoredDistanceInSpacings = 0.1;
 constexpr std::size_t longestReport = 1000;
 
 // The image of a particle's position that is nearest to the cell.
-Vec3 imageNear(const particles::Box& box, const Vec3& x, const Vec3& middle) { return middle + box.minimumImage(x - middle); }
+Vec3 imageNear(const particles::Box& box, const Vec3& x, const Vec3& middle) {
+    return middle + box.minimumImage(x - middle);
+}
 
 Vec3 middleOf(const Cell& cell) {
     Vec3 low = cell.membrane.position.front(), high = low;
@@ -58,7 +60,8 @@ void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cell
             const Vec3 x = imageNear(system.box(), s.position(i), middle);
             const geometry::SurfacePoint at = surface.nearest(x);
             if (!at) continue;
-            const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
+            const double own =
+                s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
             if (own * at.distance >= 0) continue;
             const Index3& triangle = cell.membrane.network().triangles()[static_cast<std::size_t>(at.triangle)];
             const auto node = [&](int k) { return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]); };
@@ -76,7 +79,8 @@ void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cell
             if (approach < 0) s.setVelocity(static_cast<std::size_t>(i), u - own * approach * outward);
             ++moves_;
             deepest_ = std::max(deepest_, std::abs(at.distance));
-            if (report_.size() < longestReport) report_.push_back({s.id[i], cell.membrane.cell, std::abs(at.distance), x});
+            if (report_.size() < longestReport)
+                report_.push_back({s.id[i], cell.membrane.cell, std::abs(at.distance), x});
         }
     }
 }

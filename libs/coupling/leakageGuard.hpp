@@ -16,7 +16,7 @@ namespace corpuscle::coupling {
 struct GuardMove {
     std::int64_t particle;  // id
     int cell;
-    double depth;           // how far on the wrong side [m]
+    double depth;  // how far on the wrong side [m]
     Vec3 place;
 };
 

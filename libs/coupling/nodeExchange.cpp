@@ -26,7 +26,8 @@ bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles:
         }
         if (high[k] - low[k] >= size[k]) continue;
         bool meets = false;
-        const int nearest = static_cast<int>(std::floor((0.5 * (brick.low[k] + brick.high[k]) - 0.5 * (low[k] + high[k])) / size[k] + 0.5));
+        const int nearest = static_cast<int>(
+            std::floor((0.5 * (brick.low[k] + brick.high[k]) - 0.5 * (low[k] + high[k])) / size[k] + 0.5));
         for (int image = nearest - 1; image <= nearest + 1 && !meets; ++image)
             meets = low[k] + image * size[k] <= brick.high[k] && high[k] + image * size[k] >= brick.low[k];
         if (!meets) return false;
@@ -57,7 +58,8 @@ void NodeExchange::findHolders(const ParticleSystem& system, std::vector<Cell>& 
     }
 }
 
-void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cells, const std::vector<std::vector<char>>& before) {
+void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cells,
+                            const std::vector<std::vector<char>>& before) {
     const int self = system.decomposition().rank(), size = system.decomposition().size();
     const auto me = static_cast<std::size_t>(self);
     std::vector<MPI_Request> requests;
@@ -80,11 +82,13 @@ void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cel
                 }
                 message.insert(message.end(), alive.begin(), alive.end());
                 requests.emplace_back();
-                MPI_Isend(message.data(), static_cast<int>(length), MPI_DOUBLE, r, stateTag, system.comm(), &requests.back());
+                MPI_Isend(message.data(), static_cast<int>(length), MPI_DOUBLE, r, stateTag, system.comm(),
+                          &requests.back());
             }
         if (holds_[c][me] && !before[c][me]) {
             std::vector<double> message(length);
-            MPI_Recv(message.data(), static_cast<int>(length), MPI_DOUBLE, source, stateTag, system.comm(), MPI_STATUS_IGNORE);
+            MPI_Recv(message.data(), static_cast<int>(length), MPI_DOUBLE, source, stateTag, system.comm(),
+                     MPI_STATUS_IGNORE);
             for (std::size_t k = 0; k < m.position.size(); ++k) {
                 m.position[k] = Vec3(message.data() + nodeFields * k);
                 m.velocity[k] = Vec3(message.data() + nodeFields * k + 3);
@@ -107,7 +111,8 @@ void NodeExchange::plan(ParticleSystem& system, std::vector<Cell>& cells, double
     owned_.clear();
     const ParticleStore& store = system.store();
     std::vector<int> cellOfNode;
-    for (std::size_t c = 0; c < cells.size(); ++c) cellOfNode.insert(cellOfNode.end(), static_cast<std::size_t>(cells[c].nodeCount()), static_cast<int>(c));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        cellOfNode.insert(cellOfNode.end(), static_cast<std::size_t>(cells[c].nodeCount()), static_cast<int>(c));
     for (int i = 0; i < system.owned(); ++i)
         if (const auto node = store.node[i]; node >= 0) {
             const int c = cellOfNode[static_cast<std::size_t>(node)];
@@ -122,7 +127,8 @@ void NodeExchange::plan(ParticleSystem& system, std::vector<Cell>& cells, double
         for (int r = 0; r < size; ++r)
             if (r != self && holds_[static_cast<std::size_t>(owned_[k].cell)][static_cast<std::size_t>(r)]) {
                 entries[static_cast<std::size_t>(r)].push_back(static_cast<int>(k));
-                lists[static_cast<std::size_t>(r)].push_back(cells[static_cast<std::size_t>(owned_[k].cell)].firstNode + owned_[k].node);
+                lists[static_cast<std::size_t>(r)].push_back(cells[static_cast<std::size_t>(owned_[k].cell)].firstNode +
+                                                             owned_[k].node);
             }
     std::vector<int> sendCounts(static_cast<std::size_t>(size)), receiveCounts(static_cast<std::size_t>(size));
     for (std::size_t r = 0; r < lists.size(); ++r) sendCounts[r] = static_cast<int>(lists[r].size());
@@ -175,8 +181,8 @@ void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells
     for (Channel& channel : channels_) {
         if (!channel.receive.empty()) {
             requests_.emplace_back();
-            MPI_Irecv(channel.receiveBuffer.data(), static_cast<int>(channel.receiveBuffer.size()), MPI_DOUBLE, channel.rank, nodeTag,
-                      system.comm(), &requests_.back());
+            MPI_Irecv(channel.receiveBuffer.data(), static_cast<int>(channel.receiveBuffer.size()), MPI_DOUBLE,
+                      channel.rank, nodeTag, system.comm(), &requests_.back());
         }
         double* out = channel.sendBuffer.data();
         for (const int k : channel.send) {
@@ -185,12 +191,13 @@ void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells
         }
         if (!channel.send.empty()) {
             requests_.emplace_back();
-            MPI_Isend(channel.sendBuffer.data(), static_cast<int>(channel.sendBuffer.size()), MPI_DOUBLE, channel.rank, nodeTag,
-                      system.comm(), &requests_.back());
+            MPI_Isend(channel.sendBuffer.data(), static_cast<int>(channel.sendBuffer.size()), MPI_DOUBLE, channel.rank,
+                      nodeTag, system.comm(), &requests_.back());
         }
     }
     for (const OwnedNode& n : owned_)
-        place(system.box(), cells[static_cast<std::size_t>(n.cell)], n.node, store.position(n.particle), store.velocity(n.particle));
+        place(system.box(), cells[static_cast<std::size_t>(n.cell)], n.node, store.position(n.particle),
+              store.velocity(n.particle));
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (Channel& channel : channels_) {
         const double* in = channel.receiveBuffer.data();

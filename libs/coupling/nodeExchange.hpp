@@ -24,15 +24,16 @@ class NodeExchange {
 
   private:
     void findHolders(const particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
-    void handOver(const particles::ParticleSystem& system, std::vector<Cell>& cells, const std::vector<std::vector<char>>& before);
+    void handOver(const particles::ParticleSystem& system, std::vector<Cell>& cells,
+                  const std::vector<std::vector<char>>& before);
     static void place(const particles::Box& box, Cell& cell, int node, const Vec3& position, const Vec3& velocity);
 
     std::vector<OwnedNode> owned_;
     std::vector<std::vector<char>> holds_;  // [cell][rank]
     struct Channel {
         int rank;
-        std::vector<int> send;                    // entries of owned_
-        std::vector<std::pair<int, int>> receive; // (cell, node)
+        std::vector<int> send;                     // entries of owned_
+        std::vector<std::pair<int, int>> receive;  // (cell, node)
         std::vector<double> sendBuffer, receiveBuffer;
     };
     std::vector<Channel> channels_;

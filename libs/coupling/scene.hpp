@@ -14,12 +14,12 @@ struct Scene {
     std::unique_ptr<particles::ParticleSystem> system;  // its box holds the walls' layers too
     particles::Box fluidBox;                            // between the walls
     sph::FlowState flow;
-    std::unique_ptr<sph::FluidForces> forces;           // with the fluid's model
-    std::unique_ptr<sph::Shifting> shifting;            // none unless the case names it
-    std::vector<Cell> cells;                            // empty for a fluid alone
-    std::unique_ptr<DualIdentity> coupling;             // none without cells
-    std::vector<RuptureEvent> broken;                   // at the last step
-    double spacing = 0;                                 // dx [m]
+    std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
+    std::unique_ptr<sph::Shifting> shifting;   // none unless the case names it
+    std::vector<Cell> cells;                   // empty for a fluid alone
+    std::unique_ptr<DualIdentity> coupling;    // none without cells
+    std::vector<RuptureEvent> broken;          // at the last step
+    double spacing = 0;                        // dx [m]
 
     const sph::FluidModel& model() const { return forces->model(); }
     particles::ParticleStore& store() { return system->store(); }

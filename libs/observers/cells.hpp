@@ -16,8 +16,9 @@ std::vector<int> sourceRanks(const coupling::Scene& scene);
 
 // count numbers of each cell, [cell][number], on every rank; work(cell, index of the cell, out) runs on one rank per cell.
 // Collective.
-std::vector<std::vector<double>> ofEachCell(const coupling::Scene& scene, std::size_t count,
-                                            const std::function<void(const coupling::Cell&, std::size_t, double* out)>& work);
+std::vector<std::vector<double>> ofEachCell(
+    const coupling::Scene& scene, std::size_t count,
+    const std::function<void(const coupling::Cell&, std::size_t, double* out)>& work);
 
 // The surface of a held cell now, closed by a fan over the rim of each hole; without nodes that no whole triangle has. Empty
 // when every triangle is broken.

@@ -37,12 +37,16 @@ class ConservationObservation : public Observation {
 
   private:
     static std::vector<io::Column> columnsOf(const Scene& scene) {
-        std::vector<io::Column> columns{{"density_mean", ""}, {"density_min", ""}, {"density_max", ""}, {"kineticEnergy", "J"},
-                                        {"momentum_x", "Ns"}, {"momentum_y", "Ns"}, {"momentum_z", "Ns"}, {"particles", ""}};
-        if (!scene.cells.empty()) columns.insert(columns.end(), {{"membraneEnergy", "J"}, {"changedSide", ""}, {"guardMoves", ""}});
+        std::vector<io::Column> columns{{"density_mean", ""},   {"density_min", ""},  {"density_max", ""},
+                                        {"kineticEnergy", "J"}, {"momentum_x", "Ns"}, {"momentum_y", "Ns"},
+                                        {"momentum_z", "Ns"},   {"particles", ""}};
+        if (!scene.cells.empty())
+            columns.insert(columns.end(), {{"membraneEnergy", "J"}, {"changedSide", ""}, {"guardMoves", ""}});
         for (const coupling::Cell& cell : scene.cells) {
             const std::string& name = cell.membrane.name;
-            columns.insert(columns.end(), {{name + "_area", "m2"}, {name + "_areaChange", ""}, {name + "_volume", "m3"},
+            columns.insert(columns.end(), {{name + "_area", "m2"},
+                                           {name + "_areaChange", ""},
+                                           {name + "_volume", "m3"},
                                            {name + "_volumeChange", ""}});
         }
         return columns;
@@ -66,10 +70,17 @@ class ConservationObservation : public Observation {
             least = std::min(least, s.density[i]);
             most = std::max(most, s.density[i]);
         }
-        const auto sums = ranks.sum(std::vector<double>{density, static_cast<double>(fluid), energy, momentum[0], momentum[1],
-                                                         momentum[2], static_cast<double>(s.size())});
+        const auto sums = ranks.sum(std::vector<double>{density, static_cast<double>(fluid), energy, momentum[0],
+                                                        momentum[1], momentum[2], static_cast<double>(s.size())});
         const double rest = scene.model().density;
-        return {sums[0] / sums[1] / rest, ranks.min(least) / rest, ranks.max(most) / rest, sums[2], sums[3], sums[4], sums[5], sums[6]};
+        return {sums[0] / sums[1] / rest,
+                ranks.min(least) / rest,
+                ranks.max(most) / rest,
+                sums[2],
+                sums[3],
+                sums[4],
+                sums[5],
+                sums[6]};
     }
 
     static void addCells(const Scene& scene, std::vector<double>& row) {
@@ -98,10 +109,13 @@ class ConservationObservation : public Observation {
 struct ConservationObserver : Observer {
     static const Schema<ConservationObserver>& schema() {
         static const Schema<ConservationObserver> s =
-            Schema<ConservationObserver>("conservation", "density, energy, momentum, leak, area and volume").include<ObserverSettings>();
+            Schema<ConservationObserver>("conservation", "density, energy, momentum, leak, area and volume")
+                .include<ObserverSettings>();
         return s;
     }
-    std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<ConservationObservation>(scene); }
+    std::unique_ptr<Observation> begin(const Scene& scene) const override {
+        return std::make_unique<ConservationObservation>(scene);
+    }
 };
 
 CORPUSCLE_REGISTER(Observer, ConservationObserver, "conservation", "density, energy, momentum, leak, area and volume");

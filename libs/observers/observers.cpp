@@ -7,15 +7,17 @@ namespace corpuscle::observers {
 const Schema<ObserversSettings>& ObserversSettings::schema() {
     static const Schema<ObserversSettings> s =
         Schema<ObserversSettings>("observers", "system/observers.yaml: what is measured while the case runs")
-            .models("*", &ObserversSettings::models, "one observer; its name is that of its folder under postProcessing");
+            .models("*", &ObserversSettings::models,
+                    "one observer; its name is that of its folder under postProcessing");
     return s;
 }
 
 void ObserversSettings::check(const Node& dictionary, const Subject& subject, Problems& problems) const {
     for (const auto& [name, choice] : models) {
         const bool strainless = choice->every.kind == Interval::Kind::strain && subject.shearRate == 0;
-        const std::string text = strainless ? "'every' is given in strain, but the flow has no shear rate; give it in s or in steps"
-                                            : choice->obstacle(subject);
+        const std::string text =
+            strainless ? "'every' is given in strain, but the flow has no shear rate; give it in s or in steps"
+                       : choice->obstacle(subject);
         if (!text.empty()) problems.add(dictionary.find(name)->place(), name, choice.name + ": " + text);
     }
 }
@@ -32,14 +34,16 @@ std::string sharedFile(const Observation& observation) {
 
 }  // namespace
 
-Observers::Observers(const ObserversSettings& settings, const Scene& scene, const Time& start, std::filesystem::path caseDir)
+Observers::Observers(const ObserversSettings& settings, const Scene& scene, const Time& start,
+                     std::filesystem::path caseDir)
     : caseDir_(std::move(caseDir)), startTime_(start.t) {
     Problems problems;
     for (const auto& [name, choice] : settings.models) {
         Running observer{name, choice.name, Ticker(choice->every, start), choice->begin(scene), {}};
         if (const std::string file = sharedFile(*observer.observation); !file.empty())
-            problems.add({"system/observers.yaml", 0, 0}, name, choice.name + ": two of its files would be called " + file +
-                                          ".csv; give the cell of this name another one in system/mesh.yaml");
+            problems.add({"system/observers.yaml", 0, 0}, name,
+                         choice.name + ": two of its files would be called " + file +
+                             ".csv; give the cell of this name another one in system/mesh.yaml");
         running_.push_back(std::move(observer));
     }
     problems.throwIfAny();
@@ -92,7 +96,8 @@ void Observers::restore(const std::vector<double>& state) {
     const auto take = [&rest] {
         const auto count = rest.empty() ? rest.size() : static_cast<std::size_t>(rest[0]);
         if (rest.empty() || count > rest.size() - 1)
-            throw Failure(ExitCode::io, "the checkpoint's state of the observers is cut short; restart from another checkpoint");
+            throw Failure(ExitCode::io,
+                          "the checkpoint's state of the observers is cut short; restart from another checkpoint");
         const auto part = rest.subspan(1, count);
         rest = rest.subspan(1 + count);
         return part;

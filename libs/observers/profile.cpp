@@ -23,8 +23,9 @@ namespace {
 class ProfileObservation : public Observation {
   public:
     ProfileObservation(int axis, int bins)
-        : Observation({{"profile",
-                        {{"position", "m"}, {"u", "m_s"}, {"v", "m_s"}, {"w", "m_s"}, {"density", "kg_m3"}, {"count", ""}}}}),
+        : Observation(
+              {{"profile",
+                {{"position", "m"}, {"u", "m_s"}, {"v", "m_s"}, {"w", "m_s"}, {"density", "kg_m3"}, {"count", ""}}}}),
           axis_(axis),
           bins_(bins) {}
 
@@ -47,7 +48,8 @@ class ProfileObservation : public Observation {
         for (int b = 0; b < bins_; ++b) {
             const double* const sum = sums.data() + numbers * static_cast<std::size_t>(b);
             const double scale = sum[4] > 0 ? 1 / sum[4] : std::numeric_limits<double>::quiet_NaN();
-            rows.push_back({0, {low + (b + 0.5) * width, sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3] * scale, sum[4]}});
+            rows.push_back(
+                {0, {low + (b + 0.5) * width, sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3] * scale, sum[4]}});
         }
         return rows;
     }

@@ -74,7 +74,8 @@ class RuptureObservation : public Observation {
 
   protected:
     void setState(std::span<const double> saved) override {
-        for (std::size_t c = 0; c < first_.size(); ++c) std::copy_n(saved.data() + c * firstNumbers, firstNumbers, first_[c].begin());
+        for (std::size_t c = 0; c < first_.size(); ++c)
+            std::copy_n(saved.data() + c * firstNumbers, firstNumbers, first_[c].begin());
     }
 
   private:
@@ -82,16 +83,26 @@ class RuptureObservation : public Observation {
         std::vector<Table> tables;
         for (const coupling::Cell& cell : scene.cells)
             tables.push_back({cell.membrane.name,
-                              {{"bondsBroken", ""}, {"trianglesLost", ""}, {"holeArea", "m2"}, {"holeRestArea", "m2"}, {"released", ""},
-                               {"releasedVolume", "m3"}, {"maxBondStrain", ""}, {"firstBreak", "s"}, {"firstBreak_strain", ""},
-                               {"firstBreak_x", "m"}, {"firstBreak_y", "m"}, {"firstBreak_z", "m"}}});
+                              {{"bondsBroken", ""},
+                               {"trianglesLost", ""},
+                               {"holeArea", "m2"},
+                               {"holeRestArea", "m2"},
+                               {"released", ""},
+                               {"releasedVolume", "m3"},
+                               {"maxBondStrain", ""},
+                               {"firstBreak", "s"},
+                               {"firstBreak_strain", ""},
+                               {"firstBreak_x", "m"},
+                               {"firstBreak_y", "m"},
+                               {"firstBreak_z", "m"}}});
         tables.push_back({"events", {{"cell", ""}, {"bond", ""}, {"stretch", ""}, {"x", "m"}, {"y", "m"}, {"z", "m"}}});
         return tables;
     }
 
     static std::size_t indexOf(const Scene& scene, double number) {
-        const auto found = std::find_if(scene.cells.begin(), scene.cells.end(),
-                                        [&](const coupling::Cell& cell) { return cell.membrane.cell == static_cast<int>(number); });
+        const auto found = std::find_if(scene.cells.begin(), scene.cells.end(), [&](const coupling::Cell& cell) {
+            return cell.membrane.cell == static_cast<int>(number);
+        });
         return static_cast<std::size_t>(found - scene.cells.begin());
     }
 
@@ -104,8 +115,8 @@ class RuptureObservation : public Observation {
         for (const coupling::RuptureEvent& event : scene.broken) {
             if (sources[indexOf(scene, event.cell)] != ranks.rank()) continue;
             for (const membrane::BrokenBond& bond : event.bonds)
-                own.insert(own.end(), {static_cast<double>(event.cell), static_cast<double>(bond.bond), bond.stretch, bond.place[0],
-                                       bond.place[1], bond.place[2]});
+                own.insert(own.end(), {static_cast<double>(event.cell), static_cast<double>(bond.bond), bond.stretch,
+                                       bond.place[0], bond.place[1], bond.place[2]});
         }
         std::vector<int> lengths, starts;
         int total = 0;
@@ -115,8 +126,8 @@ class RuptureObservation : public Observation {
             total += lengths.back();
         }
         std::vector<double> all(static_cast<std::size_t>(total));
-        MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), lengths.data(), starts.data(), MPI_DOUBLE,
-                       ranks.handle());
+        MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), lengths.data(), starts.data(),
+                       MPI_DOUBLE, ranks.handle());
         std::vector<Row> rows;
         for (auto event = all.begin(); event != all.end(); event += eventNumbers)
             rows.push_back({scene.cells.size(), {event, event + eventNumbers}});
@@ -149,7 +160,9 @@ struct RuptureObserver : Observer {
         return s;
     }
     std::string obstacle(const Subject& subject) const override { return needsCells(subject); }
-    std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<RuptureObservation>(scene); }
+    std::unique_ptr<Observation> begin(const Scene& scene) const override {
+        return std::make_unique<RuptureObservation>(scene);
+    }
 };
 
 CORPUSCLE_REGISTER(Observer, RuptureObserver, "rupture", "broken bonds, holes and released fluid");

@@ -52,7 +52,8 @@ SectionShape sectionShape(const geometry::TriangleMesh& mesh, const ShearPlane& 
     shape.height = extents[1];
     shape.D12_extent = std::abs(shape.length - shape.height) / (shape.length + shape.height);
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& x : mesh.nodes) low = std::min(low, x[plane.vorticity()]), high = std::max(high, x[plane.vorticity()]);
+    for (const Vec3& x : mesh.nodes)
+        low = std::min(low, x[plane.vorticity()]), high = std::max(high, x[plane.vorticity()]);
     shape.width = high - low;
     return shape;
 }

@@ -34,9 +34,9 @@ struct ShearPlane {
 
 struct SectionShape {
     double D12_extent, D12_inertia;
-    double inclination;             // of the main axis against x, in (-pi/2, pi/2]
-    double length, height, width;   // m
-    Vec3 centroid;                  // m
+    double inclination;            // of the main axis against x, in (-pi/2, pi/2]
+    double length, height, width;  // m
+    Vec3 centroid;                 // m
 };
 // NaN throughout for a mesh without triangles.
 SectionShape sectionShape(const geometry::TriangleMesh& mesh, const ShearPlane& plane);

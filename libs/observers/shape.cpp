@@ -67,8 +67,8 @@ class ShapeObservation : public Observation {
             const SectionShape s = sectionShape(closedSurface(cell), plane_);
             const double turned = materialRotation(cell.membrane.network().stressFree(), x, plane_);
             const double phase = flowAngle(x[markers_[c]] - s.centroid, plane_) + s.inclination;
-            const double values[] = {s.D12_extent, s.D12_inertia, s.inclination, turned, phase, s.length, s.height, s.width,
-                                     s.centroid[0], s.centroid[1], s.centroid[2]};
+            const double values[] = {s.D12_extent, s.D12_inertia, s.inclination, turned,        phase,        s.length,
+                                     s.height,     s.width,       s.centroid[0], s.centroid[1], s.centroid[2]};
             std::copy(std::begin(values), std::end(values), out);
         });
         std::vector<Row> rows;
@@ -100,9 +100,17 @@ class ShapeObservation : public Observation {
         std::vector<Table> tables;
         for (const coupling::Cell& cell : scene.cells)
             tables.push_back({cell.membrane.name,
-                              {{"D12_extent", ""}, {"D12_inertia", ""}, {"inclination", "rad"}, {"angleTurned", "rad"},
-                               {"treadPhase", "rad"}, {"length", "m"}, {"height", "m"}, {"width", "m"}, {"centroid_x", "m"},
-                               {"centroid_y", "m"}, {"centroid_z", "m"}}});
+                              {{"D12_extent", ""},
+                               {"D12_inertia", ""},
+                               {"inclination", "rad"},
+                               {"angleTurned", "rad"},
+                               {"treadPhase", "rad"},
+                               {"length", "m"},
+                               {"height", "m"},
+                               {"width", "m"},
+                               {"centroid_x", "m"},
+                               {"centroid_y", "m"},
+                               {"centroid_z", "m"}}});
         return tables;
     }
 
@@ -117,7 +125,8 @@ class ShapeObservation : public Observation {
 struct ShapeObserver : Observer {
     static const Schema<ShapeObserver>& schema() {
         static const Schema<ShapeObserver> s =
-            Schema<ShapeObserver>("shape", "deformation, orientation and rotation of each cell").include<ObserverSettings>();
+            Schema<ShapeObserver>("shape", "deformation, orientation and rotation of each cell")
+                .include<ObserverSettings>();
         return s;
     }
     std::string obstacle(const Subject& subject) const override {
@@ -128,10 +137,13 @@ struct ShapeObserver : Observer {
             return "angles are followed from one look to the next: at most 1.5 strain may pass; give a smaller 'every'";
         return needsCells(subject);
     }
-    std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<ShapeObservation>(scene); }
+    std::unique_ptr<Observation> begin(const Scene& scene) const override {
+        return std::make_unique<ShapeObservation>(scene);
+    }
 };
 
-CORPUSCLE_REGISTER(Observer, ShapeObserver, "shape", "deformation, orientation, tumbling and tank-treading of each cell");
+CORPUSCLE_REGISTER(Observer, ShapeObserver, "shape",
+                   "deformation, orientation, tumbling and tank-treading of each cell");
 
 }  // namespace
 }  // namespace corpuscle::observers

@@ -25,7 +25,8 @@ class WallStressObservation : public Observation {
         const int axis = scene.flow.walls.axis;
         const double area = scene.fluidBox.volume() / scene.fluidBox.size()[axis];
         const Vec3 &lower = scene.forces->wallForce(0), &upper = scene.forces->wallForce(1);
-        const auto force = Communicator(scene.system->comm()).sum(std::vector<double>{lower[0], -upper[0], -lower[axis], upper[axis]});
+        const auto force =
+            Communicator(scene.system->comm()).sum(std::vector<double>{lower[0], -upper[0], -lower[axis], upper[axis]});
         std::vector<double> row;
         for (const double f : force) row.push_back(f / area);
         if (const double rate = scene.flow.shearRate; rate != 0)
@@ -35,8 +36,10 @@ class WallStressObservation : public Observation {
 
   private:
     static std::vector<io::Column> columnsOf(const Scene& scene) {
-        std::vector<io::Column> columns{
-            {"shearStress_lower", "Pa"}, {"shearStress_upper", "Pa"}, {"pressure_lower", "Pa"}, {"pressure_upper", "Pa"}};
+        std::vector<io::Column> columns{{"shearStress_lower", "Pa"},
+                                        {"shearStress_upper", "Pa"},
+                                        {"pressure_lower", "Pa"},
+                                        {"pressure_upper", "Pa"}};
         if (scene.flow.shearRate != 0) columns.push_back({"effectiveViscosity", ""});
         return columns;
     }
@@ -45,14 +48,18 @@ class WallStressObservation : public Observation {
 struct WallStressObserver : Observer {
     static const Schema<WallStressObserver>& schema() {
         static const Schema<WallStressObserver> s =
-            Schema<WallStressObserver>("wallStress", "stress on the walls and effective viscosity").include<ObserverSettings>();
+            Schema<WallStressObserver>("wallStress", "stress on the walls and effective viscosity")
+                .include<ObserverSettings>();
         return s;
     }
     std::string obstacle(const Subject& subject) const override {
         if (subject.walls) return {};
-        return "this observer looks at walls, and the flow has none; remove it, or choose a flow with walls in constant/flow.yaml";
+        return "this observer looks at walls, and the flow has none; remove it, or choose a flow with walls in "
+               "constant/flow.yaml";
     }
-    std::unique_ptr<Observation> begin(const Scene& scene) const override { return std::make_unique<WallStressObservation>(scene); }
+    std::unique_ptr<Observation> begin(const Scene& scene) const override {
+        return std::make_unique<WallStressObservation>(scene);
+    }
 };
 
 CORPUSCLE_REGISTER(Observer, WallStressObserver, "wallStress", "stress on the walls and effective viscosity");

@@ -43,8 +43,7 @@ std::vector<int> Columns::sort(const double* x, const double* y, const double* z
             first[k] = particle;
             moves += i - k;
         }
-        if (moves > limit)
-            std::stable_sort(first, first + m, [&](int a, int b) { return sign * z[a] < sign * z[b]; });
+        if (moves > limit) std::stable_sort(first, first + m, [&](int a, int b) { return sign * z[a] < sign * z[b]; });
     }
     return order;
 }

@@ -71,9 +71,14 @@ void Decomposition::balance(const ParticleStore& particles) {
     };
     const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(comm_));
     // The debug level first: every later setting would be told on the standard output.
-    for (auto [key, value] : {std::pair{"DEBUG_LEVEL", "0"}, {"LB_METHOD", "RCB"}, {"NUM_GID_ENTRIES", "1"},
-                              {"NUM_LID_ENTRIES", "1"}, {"KEEP_CUTS", "1"}, {"RCB_RECTILINEAR_BLOCKS", "1"},
-                              {"RETURN_LISTS", "NONE"}, {"OBJ_WEIGHT_DIM", "0"}})
+    for (auto [key, value] : {std::pair{"DEBUG_LEVEL", "0"},
+                              {"LB_METHOD", "RCB"},
+                              {"NUM_GID_ENTRIES", "1"},
+                              {"NUM_LID_ENTRIES", "1"},
+                              {"KEEP_CUTS", "1"},
+                              {"RCB_RECTILINEAR_BLOCKS", "1"},
+                              {"RETURN_LISTS", "NONE"},
+                              {"OBJ_WEIGHT_DIM", "0"}})
         require(Zoltan_Set_Param(zoltan.get(), key, value), key);
     void* data = const_cast<ParticleStore*>(&particles);
     require(Zoltan_Set_Num_Obj_Fn(zoltan.get(), objectCount, data), "objects");
@@ -84,8 +89,9 @@ void Decomposition::balance(const ParticleStore& particles) {
     int changed = 0, globalEntries = 0, localEntries = 0, imports = 0, exports = 0;
     ZOLTAN_ID_PTR importGlobal = nullptr, importLocal = nullptr, exportGlobal = nullptr, exportLocal = nullptr;
     int *importRanks = nullptr, *importParts = nullptr, *exportRanks = nullptr, *exportParts = nullptr;
-    require(Zoltan_LB_Partition(zoltan.get(), &changed, &globalEntries, &localEntries, &imports, &importGlobal, &importLocal,
-                                &importRanks, &importParts, &exports, &exportGlobal, &exportLocal, &exportRanks, &exportParts),
+    require(Zoltan_LB_Partition(zoltan.get(), &changed, &globalEntries, &localEntries, &imports, &importGlobal,
+                                &importLocal, &importRanks, &importParts, &exports, &exportGlobal, &exportLocal,
+                                &exportRanks, &exportParts),
             "recursive coordinate bisection");
     for (int r = 0; r < size_; ++r) {
         int axes = 0;
@@ -129,8 +135,9 @@ int Decomposition::owner(const Vec3& p) const {
     if (holds(rank_, p)) return rank_;
     for (int r = 0; r < size_; ++r)
         if (holds(r, p)) return r;
-    throw Failure(ExitCode::numerics, "a particle is lost: its position (" + std::to_string(p[0]) + ", " + std::to_string(p[1]) +
-                                          ", " + std::to_string(p[2]) + ") m belongs to no rank; the run has diverged");
+    throw Failure(ExitCode::numerics, "a particle is lost: its position (" + std::to_string(p[0]) + ", " +
+                                          std::to_string(p[1]) + ", " + std::to_string(p[2]) +
+                                          ") m belongs to no rank; the run has diverged");
 }
 
 double Decomposition::imbalance(std::size_t owned) const {
@@ -159,11 +166,13 @@ void migrate(ParticleStore& particles, const Decomposition& decomposition) {
     std::vector<int> sendStart(leaving.size() + 1, 0), receiveStart(leaving.size() + 1, 0);
     std::partial_sum(sendCounts.begin(), sendCounts.end(), sendStart.begin() + 1);
     std::partial_sum(receiveCounts.begin(), receiveCounts.end(), receiveStart.begin() + 1);
-    std::vector<double> sent(static_cast<std::size_t>(sendStart.back())), received(static_cast<std::size_t>(receiveStart.back()));
+    std::vector<double> sent(static_cast<std::size_t>(sendStart.back())),
+        received(static_cast<std::size_t>(receiveStart.back()));
     for (std::size_t r = 0; r < leaving.size(); ++r) {
         double* out = sent.data() + sendStart[r];
         for (const int i : leaving[r])
-            particles.forEachField([&](std::string_view, const auto& array) { *out++ = std::bit_cast<double>(array[i]); });
+            particles.forEachField(
+                [&](std::string_view, const auto& array) { *out++ = std::bit_cast<double>(array[i]); });
     }
     MPI_Alltoallv(sent.data(), sendCounts.data(), sendStart.data(), MPI_DOUBLE, received.data(), receiveCounts.data(),
                   receiveStart.data(), MPI_DOUBLE, decomposition.comm());

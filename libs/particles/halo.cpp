@@ -19,8 +19,8 @@ double gapSquared(const Vec3& lowA, const Vec3& highA, const Vec3& lowB, const V
 
 }  // namespace
 
-void Halo::plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition, const Box& box,
-                double reach) {
+void Halo::plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition,
+                const Box& box, double reach) {
     comm_ = decomposition.comm();
     const int size = decomposition.size(), self = decomposition.rank();
     const auto position = [&](int i) { return Vec3(x[i], y[i], z[i]); };
@@ -32,8 +32,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
         if (b.low[0] <= b.high[0]) all.include(b.low), all.include(b.high);
 
     int images[3];
-    for (int k = 0; k < 3; ++k)
-        images[k] = box.periodic[k] ? static_cast<int>(std::ceil(reach / box.size()[k])) : 0;
+    for (int k = 0; k < 3; ++k) images[k] = box.periodic[k] ? static_cast<int>(std::ceil(reach / box.size()[k])) : 0;
 
     sendIndex_.clear(), sendShift_.clear(), sends_.clear(), receives_.clear();
     std::vector<int> sendCounts(static_cast<std::size_t>(size), 0), receiveCounts(static_cast<std::size_t>(size), 0);
@@ -89,8 +88,8 @@ void Halo::begin(Real* records, int owned, int fields, double scale) {
     const MPI_Datatype type = sizeof(Real) == sizeof(double) ? MPI_DOUBLE : MPI_FLOAT;
     for (const Message& m : receives_) {
         requests_.emplace_back();
-        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * bytes, (m.end - m.begin) * fields, type, m.rank, 0, comm_,
-                  &requests_.back());
+        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * bytes, (m.end - m.begin) * fields, type,
+                  m.rank, 0, comm_, &requests_.back());
     }
     const auto pack = [&](int k, Real* to) {
         const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * width;
@@ -102,7 +101,8 @@ void Halo::begin(Real* records, int owned, int fields, double scale) {
         Real* buffer = reinterpret_cast<Real*>(sendBuffer_.data());
         for (int k = m.begin; k < m.end; ++k) pack(k, buffer + static_cast<std::size_t>(k) * width);
         requests_.emplace_back();
-        MPI_Isend(buffer + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, type, m.rank, 0, comm_, &requests_.back());
+        MPI_Isend(buffer + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, type, m.rank, 0,
+                  comm_, &requests_.back());
     }
     for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k)
         pack(selfSend_.begin + k, records + static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]) * width);
@@ -114,7 +114,8 @@ void Halo::finish(Real* records, int owned, int fields) {
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (const Message& m : receives_)
         for (int k = m.begin; k < m.end; ++k) {
-            const Real* from = reinterpret_cast<const Real*>(receiveBuffer_.data()) + static_cast<std::size_t>(k) * width;
+            const Real* from =
+                reinterpret_cast<const Real*>(receiveBuffer_.data()) + static_cast<std::size_t>(k) * width;
             std::copy(from, from + width, records + static_cast<std::size_t>(owned + slot_[k]) * width);
         }
     requests_.clear();

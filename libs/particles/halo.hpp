@@ -16,8 +16,8 @@ namespace corpuscle::particles {
 class Halo {
   public:
     // Who needs which of the n own particles at x, y, z. Collective.
-    void plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition, const Box& box,
-              double reach);
+    void plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition,
+              const Box& box, double reach);
 
     int ghostCount() const { return ghosts_; }
 
@@ -27,13 +27,17 @@ class Halo {
     void begin(Real* records, int owned, int fields, double scale);
     template <class Real>
     void finish(Real* records, int owned, int fields);
-    void exchange(double* records, int owned, int fields) { begin(records, owned, fields, 1), finish(records, owned, fields); }
+    void exchange(double* records, int owned, int fields) {
+        begin(records, owned, fields, 1), finish(records, owned, fields);
+    }
 
     // Puts ghosts into a new order: the ghost that was number order[k] becomes number k.
     void reorder(const std::vector<int>& order);
 
     // Bytes sent to other ranks at each exchange of `fields` doubles.
-    std::size_t bytesSent(int fields) const { return (sendIndex_.size() - selfCount_) * static_cast<std::size_t>(fields) * 8; }
+    std::size_t bytesSent(int fields) const {
+        return (sendIndex_.size() - selfCount_) * static_cast<std::size_t>(fields) * 8;
+    }
 
   private:
     struct Message {
@@ -43,11 +47,11 @@ class Halo {
     MPI_Comm comm_ = MPI_COMM_NULL;
     int ghosts_ = 0;
     std::size_t selfCount_ = 0;
-    std::vector<int> sendIndex_;      // own particle of each entry
-    std::vector<Vec3> sendShift_;     // image shift of each entry
+    std::vector<int> sendIndex_;   // own particle of each entry
+    std::vector<Vec3> sendShift_;  // image shift of each entry
     std::vector<Message> sends_, receives_;
     Message selfSend_{}, selfReceive_{};
-    std::vector<int> slot_;           // ghost number of the k-th received ghost
+    std::vector<int> slot_;  // ghost number of the k-th received ghost
     std::vector<std::byte> sendBuffer_, receiveBuffer_;
     std::vector<MPI_Request> requests_;
 };

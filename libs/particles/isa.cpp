@@ -26,7 +26,8 @@ InstructionSet wanted() {
     if (word == "avx2") return InstructionSet::avx2;
     if (word == "avx512") return InstructionSet::avx512;
     throw Failure(ExitCode::usage, "environment variable CORPUSCLE_ISA: found '" + word +
-                                       "', allowed are baseline, avx2, avx512." + didYouMean(word, {"baseline", "avx2", "avx512"}));
+                                       "', allowed are baseline, avx2, avx512." +
+                                       didYouMean(word, {"baseline", "avx2", "avx512"}));
 }
 }  // namespace
 
@@ -37,9 +38,12 @@ InstructionSet instructionSet() {
 
 std::string instructionSetName() {
     switch (instructionSet()) {
-        case InstructionSet::avx512: return "avx512";
-        case InstructionSet::avx2: return "avx2";
-        default: return "baseline";
+        case InstructionSet::avx512:
+            return "avx512";
+        case InstructionSet::avx2:
+            return "avx2";
+        default:
+            return "baseline";
     }
 }
 

@@ -2,10 +2,16 @@
 
 namespace corpuscle::particles {
 
-namespace baseline { extern const ListKernel kernel; }
+namespace baseline {
+extern const ListKernel kernel;
+}
 #ifdef CORPUSCLE_X86
-namespace avx2 { extern const ListKernel kernel; }
-namespace avx512 { extern const ListKernel kernel; }
+namespace avx2 {
+extern const ListKernel kernel;
+}
+namespace avx512 {
+extern const ListKernel kernel;
+}
 #endif
 
 const ListKernel& listKernel() {

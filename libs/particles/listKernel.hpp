@@ -11,8 +11,8 @@ struct ListKernel {
 
     // Appends offset + c to `out` for those candidates c in [begin, end) whose squared distance to any of the block's points
     // (x, y, z of blockLanes() of them, one after another) is below reach2. Returns how many.
-    int (*gather)(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset, float reach2,
-                  int* out);
+    int (*gather)(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset,
+                  float reach2, int* out);
 };
 
 const ListKernel& listKernel();

@@ -35,7 +35,8 @@ CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm256_min_ps(__m2
 CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
     auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(r2), _mm256_set1_ps(bound), _CMP_LT_OQ)));
     if (valid < 8) mask &= (1u << valid) - 1;
-    const __m256i lane = _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(compression.lane[mask])));
+    const __m256i lane =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(compression.lane[mask])));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(lane, _mm256_set1_epi32(first)));
     return __builtin_popcount(mask);
 }
@@ -52,7 +53,8 @@ CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* ou
 }
 #endif
 
-int gather(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset, float reach2, int* out) {
+int gather(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset,
+           float reach2, int* out) {
     constexpr int lanes = CORPUSCLE_ISA_TAG::lanes, width = sizeof(Lanes) / sizeof(float);
     int count = 0;
     for (int c = begin; c < end; c += width) {

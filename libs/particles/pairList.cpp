@@ -18,7 +18,8 @@ struct Bounds {
 // Every span of candidates of one set of columns that may lie within reach of the bounds. `spans` holds the last answer for each
 // column: the next block is close by.
 template <class F>
-void forSpans(const Columns& columns, const double* z, const Bounds& bounds, double reach, std::vector<Columns::Span>& spans, F&& f) {
+void forSpans(const Columns& columns, const double* z, const Bounds& bounds, double reach,
+              std::vector<Columns::Span>& spans, F&& f) {
     const auto& [low, high] = bounds;
     const int x0 = columns.cellX(low[0] - reach), x1 = columns.cellX(high[0] + reach);
     const int y0 = columns.cellY(low[1] - reach), y1 = columns.cellY(high[1] + reach);
@@ -40,7 +41,8 @@ void forSpans(const Columns& columns, const double* z, const Bounds& bounds, dou
 }  // namespace
 
 void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
-                     const double* const position[3], const std::vector<unsigned char>& wall, const Brick& brick, double reach) {
+                     const double* const position[3], const std::vector<unsigned char>& wall, const Brick& brick,
+                     double reach) {
     owned_ = owned;
     const int lanes = blockLanes();
     const int count = (owned + lanes - 1) / lanes, total = owned + ghosts;
@@ -81,9 +83,10 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
             if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
             int* out = j_.data() + used;
-            int found = kernel.gather(points, relative_[0].data() + offset, relative_[1].data() + offset, relative_[2].data() + offset,
-                                      span.begin, span.end, offset, wide * wide, out);
-            if (allWall) found = static_cast<int>(std::remove_if(out, out + found, [&](int j) { return wall[j] != 0; }) - out);
+            int found = kernel.gather(points, relative_[0].data() + offset, relative_[1].data() + offset,
+                                      relative_[2].data() + offset, span.begin, span.end, offset, wide * wide, out);
+            if (allWall)
+                found = static_cast<int>(std::remove_if(out, out + found, [&](int j) { return wall[j] != 0; }) - out);
             used += static_cast<std::size_t>(found);
         };
         // The particles of later blocks, then those of this one.
@@ -96,9 +99,11 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
         append({slot, slot + inBlock}, 0);
         const std::size_t interiorEntries = used;
         // Ghosts lie outside the brick.
-        const bool inside = ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
+        const bool inside =
+            ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
         if (ghosts > 0 && !inside)
-            forSpans(ghostColumns, z + owned, bounds, reach, ghostSpans, [&](Columns::Span span) { append(span, owned); });
+            forSpans(ghostColumns, z + owned, bounds, reach, ghostSpans,
+                     [&](Columns::Span span) { append(span, owned); });
         if (used > static_cast<std::size_t>(INT32_MAX))
             throw Failure(ExitCode::numerics, "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
         first_[2 * static_cast<std::size_t>(b) + 2] = static_cast<int>(used);

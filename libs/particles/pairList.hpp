@@ -23,8 +23,9 @@ class PairList {
 
     // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
     // wall[k] != 0 for wall particles (empty: there are none). No ghost lies in the brick.
-    void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts, const double* const position[3],
-               const std::vector<unsigned char>& wall, const Brick& brick, double reach);
+    void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
+               const double* const position[3], const std::vector<unsigned char>& wall, const Brick& brick,
+               double reach);
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }

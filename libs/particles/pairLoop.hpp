@@ -24,9 +24,9 @@ namespace corpuscle::particles {
 // What the loop needs of a PairList: plain pointers. Block b acts on j[first[2b]] .. j[first[2b + 1] - 1] and they on it; it alone
 // gets the action of j[first[2b + 1]] .. j[first[2b + 2] - 1]: its own particles and ghosts.
 struct PairView {
-    int owned = 0;               // particles with results
+    int owned = 0;  // particles with results
     const int* first = nullptr;
-    const int* j = nullptr;      // record numbers, owned before ghosts
+    const int* j = nullptr;  // record numbers, owned before ghosts
 };
 
 // Sums stand particle by particle, four doubles each, until they are finished.
@@ -35,7 +35,8 @@ inline constexpr int pairSums = 4;
 // A law as built for one instruction set, for tables of kernels: PairLoop::run and PairLoop::finish.
 template <class Constants, class Real = double>
 struct PairKernel {
-    void (*run)(const Constants&, const PairView&, const int* blocks, int blockCount, const Real* records, double* sums);
+    void (*run)(const Constants&, const PairView&, const int* blocks, int blockCount, const Real* records,
+                double* sums);
     void (*finish)(const Constants&, int owned, const Real* records, const double* sums, double* const* results);
 };
 
@@ -43,7 +44,8 @@ template <class Isa, class Law, class Real>
 class PairLoop {
   public:
     // Adds the pairs of the named blocks to `sums` (pairSums numbers per owned particle).
-    static void run(const Law& law, const PairView& list, const int* blocks, int blockCount, const Real* records, double* sums) {
+    static void run(const Law& law, const PairView& list, const int* blocks, int blockCount, const Real* records,
+                    double* sums) {
         Rows rows{};
         for (int k = 0; k < blockCount; ++k) {
             const int slot = blocks[k] * lanes;
@@ -58,7 +60,8 @@ class PairLoop {
             for (int s = 0; s < pairSums; ++s) sum[s].store(own[s]);
             const int used = inBlock(slot, list.owned);
             for (int l = 0; l < used; ++l)
-                for (int s = 0; s < pairSums; ++s) sums[static_cast<long>(slot + l) * pairSums + s] += static_cast<double>(own[s][l]);
+                for (int s = 0; s < pairSums; ++s)
+                    sums[static_cast<long>(slot + l) * pairSums + s] += static_cast<double>(own[s][l]);
         }
     }
 
@@ -115,8 +118,8 @@ class PairLoop {
 
     // mutual: the particles j get the reaction. The even sum is carried with its sign turned, so that all four are odd.
     template <bool mutual>
-    static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* j, const int* end, const Real* records, Rows& rows,
-                                      V (&sum)[pairSums], double* sums) {
+    static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* j, const int* end,
+                                      const Real* records, Rows& rows, V (&sum)[pairSums], double* sums) {
         while (j != end) {
             const int* stop = end - j > rowCount ? j + rowCount : end;
             int kept = 0;
@@ -124,7 +127,8 @@ class PairLoop {
                 const Real* record = records + static_cast<long>(*j) * fields;
                 const V dx = i[0] - V(record[0]), dy = i[1] - V(record[1]), dz = i[2] - V(record[2]);
                 const V r2 = dx * dx + dy * dy + dz * dz;
-                dx.store(rows.d[kept][0]), dy.store(rows.d[kept][1]), dz.store(rows.d[kept][2]), r2.store(rows.d[kept][3]);
+                dx.store(rows.d[kept][0]), dy.store(rows.d[kept][1]), dz.store(rows.d[kept][2]),
+                    r2.store(rows.d[kept][3]);
                 rows.j[kept] = *j;
                 kept += anyBelow(r2, Real(1));
             }

@@ -52,18 +52,18 @@ class ParticleStore {
         bool operator==(const Optional&) const = default;
     };
 
-    RealArray x, y, z;           // position [m]
-    RealArray u, v, w;           // velocity [m/s]
-    RealArray density;           // [kg/m^3]
-    RealArray fx, fy, fz;        // acceleration from the last force evaluation [m/s^2]
-    RealArray densityRate;       // [kg/(m^3 s)]
+    RealArray x, y, z;                 // position [m]
+    RealArray u, v, w;                 // velocity [m/s]
+    RealArray density;                 // [kg/m^3]
+    RealArray fx, fy, fz;              // acceleration from the last force evaluation [m/s^2]
+    RealArray densityRate;             // [kg/(m^3 s)]
     RealArray xBuilt, yBuilt, zBuilt;  // position at the last list build [m]
-    RealArray mass;              // [kg], where it varies
-    RealArray viscosity;         // dynamic viscosity [Pa s], where it varies
-    IntegerArray id;             // unique, stable
-    IntegerArray kind;           // Kind
-    IntegerArray side;           // 0 outside, n inside cell n
-    IntegerArray node;           // global number of the membrane node that the particle is, -1 for others
+    RealArray mass;                    // [kg], where it varies
+    RealArray viscosity;               // dynamic viscosity [Pa s], where it varies
+    IntegerArray id;                   // unique, stable
+    IntegerArray kind;                 // Kind
+    IntegerArray side;                 // 0 outside, n inside cell n
+    IntegerArray node;                 // global number of the membrane node that the particle is, -1 for others
 
     ParticleStore() = default;
     explicit ParticleStore(Optional fields) : optional_(fields) {}
@@ -81,9 +81,13 @@ class ParticleStore {
 
     // f(name, array&) for every array that exists: first the reals, then the integers.
     template <class F>
-    void forEachField(F&& f) { visit(*this, f); }
+    void forEachField(F&& f) {
+        visit(*this, f);
+    }
     template <class F>
-    void forEachField(F&& f) const { visit(*this, f); }
+    void forEachField(F&& f) const {
+        visit(*this, f);
+    }
 
     // New order: particle i becomes the old particle order[i]; order may be shorter than size().
     void reorder(const std::vector<int>& order);

@@ -13,8 +13,8 @@ constexpr long rebuildsPerBalance = 50;
 constexpr double tolerableImbalance = 1.05;
 }  // namespace
 
-ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin,
-                               double spacing)
+ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support,
+                               double skin, double spacing)
     : box_(box), support_(support), skin_(skin), spacing_(spacing), store_(fields), decomposition_(comm, box) {}
 
 void ParticleSystem::start() {
@@ -29,7 +29,8 @@ void ParticleSystem::resume(const std::vector<double>& bricks, long rebuilds) {
     const Brick& brick = decomposition_.own();
     columns_ = Columns(brick.low[0], brick.high[0], brick.low[1], brick.high[1], 2 * spacing_);
     // Sorting is stable, so particles that were saved in sorted order stay as they are.
-    const std::vector<int> order = columns_.sort(store_.xBuilt.data(), store_.yBuilt.data(), store_.zBuilt.data(), owned());
+    const std::vector<int> order =
+        columns_.sort(store_.xBuilt.data(), store_.yBuilt.data(), store_.zBuilt.data(), owned());
     store_.reorder(order);
     buildFrom(store_.xBuilt, store_.yBuilt, store_.zBuilt);
 }
@@ -37,7 +38,8 @@ void ParticleSystem::resume(const std::vector<double>& bricks, long rebuilds) {
 double ParticleSystem::largestDisplacement2() const {
     double most = 0;
     for (int i = 0; i < owned(); ++i) {
-        const double dx = store_.x[i] - store_.xBuilt[i], dy = store_.y[i] - store_.yBuilt[i], dz = store_.z[i] - store_.zBuilt[i];
+        const double dx = store_.x[i] - store_.xBuilt[i], dy = store_.y[i] - store_.yBuilt[i],
+                     dz = store_.z[i] - store_.zBuilt[i];
         const double d2 = dx * dx + dy * dy + dz * dz;
         if (!(d2 <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::infinity();  // NaN too
         most = std::max(most, d2);
@@ -57,10 +59,12 @@ void ParticleSystem::rebuild() {
     for (std::size_t i = 0; i < store_.size(); ++i) {
         const Vec3 p = box_.wrap(store_.position(i));
         if (!p.allFinite())
-            throw Failure(ExitCode::numerics, "particle " + std::to_string(store_.id[i]) + " has no finite position: the run has diverged");
+            throw Failure(ExitCode::numerics,
+                          "particle " + std::to_string(store_.id[i]) + " has no finite position: the run has diverged");
         store_.setPosition(i, p);
     }
-    if (rebuilds_ % rebuildsPerBalance == rebuildsPerBalance - 1 && decomposition_.imbalance(store_.size()) > tolerableImbalance)
+    if (rebuilds_ % rebuildsPerBalance == rebuildsPerBalance - 1 &&
+        decomposition_.imbalance(store_.size()) > tolerableImbalance)
         decomposition_.balance(store_);
     migrate(store_, decomposition_);
     const Brick& brick = decomposition_.own();
@@ -94,8 +98,10 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     for (std::size_t i = 0; i < total; ++i) wall[i] = records[4 * i + 3] > 0.5;
 
     const Brick& brick = decomposition_.own();
-    ghostColumns_ = Columns(brick.low[0] - reach, brick.high[0] + reach, brick.low[1] - reach, brick.high[1] + reach, 2 * spacing_);
-    const std::vector<int> order = ghostColumns_.sort(position[0].data() + n, position[1].data() + n, position[2].data() + n, g);
+    ghostColumns_ =
+        Columns(brick.low[0] - reach, brick.high[0] + reach, brick.low[1] - reach, brick.high[1] + reach, 2 * spacing_);
+    const std::vector<int> order =
+        ghostColumns_.sort(position[0].data() + n, position[1].data() + n, position[2].data() + n, g);
     halo_.reorder(order);
     std::vector<double> ghost(static_cast<std::size_t>(g));
     for (auto& axis : position) {
@@ -111,8 +117,6 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     list_.build(columns_, n, ghostColumns_, g, pointers, wall, brick, reach);
 }
 
-std::size_t ParticleSystem::bytes() const {
-    return store_.size() * store_.bytesPerParticle() + list_.bytes();
-}
+std::size_t ParticleSystem::bytes() const { return store_.size() * store_.bytesPerParticle() + list_.bytes(); }
 
 }  // namespace corpuscle::particles

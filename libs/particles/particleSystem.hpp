@@ -23,7 +23,8 @@ namespace corpuscle::particles {
 class ParticleSystem {
   public:
     // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns).
-    ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin, double spacing);
+    ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin,
+                   double spacing);
 
     ParticleStore& store() { return store_; }
     const ParticleStore& store() const { return store_; }

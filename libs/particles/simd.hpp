@@ -60,11 +60,17 @@ CORPUSCLE_INLINE R each(R a, F&& f) {
     return a;
 }
 template <class R>
-CORPUSCLE_INLINE R max(R a, R b) { return a > b ? a : b; }
+CORPUSCLE_INLINE R max(R a, R b) {
+    return a > b ? a : b;
+}
 template <class R>
-CORPUSCLE_INLINE R min(R a, R b) { return a < b ? a : b; }
+CORPUSCLE_INLINE R min(R a, R b) {
+    return a < b ? a : b;
+}
 template <class R>
-CORPUSCLE_INLINE R sqrt(R a) { return each(a, [](auto x) { return std::sqrt(x); }); }
+CORPUSCLE_INLINE R sqrt(R a) {
+    return each(a, [](auto x) { return std::sqrt(x); });
+}
 template <class R>
 CORPUSCLE_INLINE int below(R a, R s) {
     int any = 0;
@@ -101,23 +107,29 @@ CORPUSCLE_INLINE void subtractSums(double* to, __m256d ab, __m256d cd) {
     const __m256d sums = _mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x21), _mm256_blend_pd(ab, cd, 0xC));
     _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), sums));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, D4 a, D4 b, D4 c, D4 d) { subtractSums(to, interleavedSums(a, b), interleavedSums(c, d)); }
+CORPUSCLE_INLINE void subtractSums(double* to, D4 a, D4 b, D4 c, D4 d) {
+    subtractSums(to, interleavedSums(a, b), interleavedSums(c, d));
+}
 CORPUSCLE_INLINE __m256 interleavedSums(F8 a, F8 b) {
     return _mm256_add_ps(_mm256_unpacklo_ps(__m256(a), __m256(b)), _mm256_unpackhi_ps(__m256(a), __m256(b)));
 }
 CORPUSCLE_INLINE void subtractSums(double* to, F8 a, F8 b, F8 c, F8 d) {
     const __m256d ab = _mm256_castps_pd(interleavedSums(a, b)), cd = _mm256_castps_pd(interleavedSums(c, d));
-    const __m256 abcd = _mm256_add_ps(_mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd)));
+    const __m256 abcd =
+        _mm256_add_ps(_mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd)));
     const __m128 sums = _mm_add_ps(_mm256_castps256_ps128(abcd), _mm256_extractf128_ps(abcd, 1));
     _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_cvtps_pd(sums)));
 }
 #endif
 #if defined(__AVX512F__)
 CORPUSCLE_INLINE __m256d interleavedSums(D8 a, D8 b) {
-    const __m512d s = _mm512_add_pd(_mm512_unpacklo_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(a), __m512d(b)));
+    const __m512d s =
+        _mm512_add_pd(_mm512_unpacklo_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(a), __m512d(b)));
     return _mm256_add_pd(_mm512_castpd512_pd256(s), _mm512_extractf64x4_pd(s, 1));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, D8 a, D8 b, D8 c, D8 d) { subtractSums(to, interleavedSums(a, b), interleavedSums(c, d)); }
+CORPUSCLE_INLINE void subtractSums(double* to, D8 a, D8 b, D8 c, D8 d) {
+    subtractSums(to, interleavedSums(a, b), interleavedSums(c, d));
+}
 #endif
 #if !defined(__AVX__)
 template <class R>
@@ -131,7 +143,9 @@ template <class Isa, class RealType = double>
 struct Simd {
     using Real = RealType;
     static constexpr int width = Isa::lanes;
-    static constexpr int perRegister = Isa::registerBytes / static_cast<int>(sizeof(Real)) < width ? Isa::registerBytes / static_cast<int>(sizeof(Real)) : width;
+    static constexpr int perRegister = Isa::registerBytes / static_cast<int>(sizeof(Real)) < width
+                                           ? Isa::registerBytes / static_cast<int>(sizeof(Real))
+                                           : width;
     static constexpr int registers = width / perRegister;
     typedef native::Register<Real, perRegister> Native;
     Native part[registers];
@@ -201,7 +215,8 @@ CORPUSCLE_INLINE Simd<Isa, Real> sqrt(const Simd<Isa, Real>& a) {
 }
 // a where the sign is negative, b elsewhere.
 template <class Isa, class Real>
-CORPUSCLE_INLINE Simd<Isa, Real> whereNegative(const Simd<Isa, Real>& sign, const Simd<Isa, Real>& a, const Simd<Isa, Real>& b) {
+CORPUSCLE_INLINE Simd<Isa, Real> whereNegative(const Simd<Isa, Real>& sign, const Simd<Isa, Real>& a,
+                                               const Simd<Isa, Real>& b) {
     using V = Simd<Isa, Real>;
     V r;
     for (int k = 0; k < V::registers; ++k) r.part[k] = sign.part[k] < typename V::Native{} ? a.part[k] : b.part[k];
@@ -217,8 +232,8 @@ CORPUSCLE_INLINE bool anyBelow(const Simd<Isa, Real>& a, Real s) {
 }
 // to[0..3] -= sums over the lanes of a, b, c and d.
 template <class Isa, class Real>
-CORPUSCLE_INLINE void subtractSums(double* to, const Simd<Isa, Real>& a, const Simd<Isa, Real>& b, const Simd<Isa, Real>& c,
-                                   const Simd<Isa, Real>& d) {
+CORPUSCLE_INLINE void subtractSums(double* to, const Simd<Isa, Real>& a, const Simd<Isa, Real>& b,
+                                   const Simd<Isa, Real>& c, const Simd<Isa, Real>& d) {
     native::subtractSums(to, a.folded(), b.folded(), c.folded(), d.folded());
 }
 

@@ -39,52 +39,63 @@ void checkTogether(const Case& c, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
     if (c.control.application == "sphFlow" && !c.mesh.cells.empty())
         problems.add({"system/control.yaml", 0, 0}, "application",
-                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or remove the cells");
+                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or "
+                     "remove the cells");
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (k == wall && c.mesh.domain.periodic[axis])
-            problems.add(mesh, "domain.periodic", std::string("axis ") + axisName(k) + " is periodic, but the flow '" + c.flowModel.name +
-                                                      "' has walls across it; write false for this axis");
+            problems.add(mesh, "domain.periodic",
+                         std::string("axis ") + axisName(k) + " is periodic, but the flow '" + c.flowModel.name +
+                             "' has walls across it; write false for this axis");
         if (k != wall && !c.mesh.domain.periodic[axis])
-            problems.add(mesh, "domain.periodic", std::string("axis ") + axisName(k) + " is not periodic and has no walls; write true, "
-                                                      "or give the flow walls with this normal in constant/flow.yaml");
+            problems.add(mesh, "domain.periodic",
+                         std::string("axis ") + axisName(k) +
+                             " is not periodic and has no walls; write true, "
+                             "or give the flow walls with this normal in constant/flow.yaml");
         const double n = c.mesh.domain.size[k] / c.spacing();
         if (!(std::abs(c.latticeSpacing()[k] / c.spacing() - 1) <= 1e-3))
-            problems.add(mesh, "domain.size", std::string("along ") + axisName(k) + " found " +
-                                                  formatQuantity(c.mesh.domain.size[k], unit::metre) + ", which is no whole number of spacings (" +
-                                                  formatQuantity(c.spacing(), unit::metre) + "); nearest that fit: " +
-                                                  formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) + ", " +
-                                                  formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
+            problems.add(
+                mesh, "domain.size",
+                std::string("along ") + axisName(k) + " found " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
+                    ", which is no whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
+                    "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
+                    ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
     std::set<std::string> names;
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
         const CellSettings& cell = c.mesh.cells[i];
         const std::string key = "cells[" + std::to_string(i) + "]";
         if (!names.insert(cell.name).second || cell.name == "fluid" || cell.name == "walls")
-            problems.add(mesh, key + ".name", "the name '" + cell.name + "' is taken; each cell needs its own, and fluid and walls are reserved");
+            problems.add(
+                mesh, key + ".name",
+                "the name '" + cell.name + "' is taken; each cell needs its own, and fluid and walls are reserved");
         if (!c.membranes.types.contains(cell.type())) {
             std::vector<std::string> known;
             for (const auto& [name, type] : c.membranes.types) known.push_back(name);
             problems.add({"constant/membranes.yaml", 0, 0}, cell.type(),
                          "the cell '" + cell.name + "' of system/mesh.yaml needs an entry of this name; there " +
-                             (known.empty() ? "is none" : "are: " + joinWords(known)) + "." + didYouMean(cell.type(), known));
+                             (known.empty() ? "is none" : "are: " + joinWords(known)) + "." +
+                             didYouMean(cell.type(), known));
         }
         if (!cell.shape) continue;
         const double radius = cell.shape->radius();
         if (cell.edge > 0.5 * radius)
-            problems.add(mesh, key + ".edge", "found " + formatQuantity(cell.edge, unit::metre) + ", too coarse for a cell of radius " +
-                                                  formatQuantity(radius, unit::metre) + "; at most half the radius, " +
-                                                  formatQuantity(0.5 * radius, unit::metre));
+            problems.add(mesh, key + ".edge",
+                         "found " + formatQuantity(cell.edge, unit::metre) + ", too coarse for a cell of radius " +
+                             formatQuantity(radius, unit::metre) + "; at most half the radius, " +
+                             formatQuantity(0.5 * radius, unit::metre));
         if (wall < 0) continue;
         // Extent across the walls, as that of the ellipsoid in the shape's box.
         const Eigen::AlignedBox3d box = cell.shape->box();
-        const Vec3 across = geometry::rotationFromZ(cell.axis).row(wall).transpose(), half = 0.5 * box.sizes(), middle = box.center();
+        const Vec3 across = geometry::rotationFromZ(cell.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
+                   middle = box.center();
         const double extent = std::abs(cell.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
         if (extent > 0.5 * c.mesh.domain.size[wall])
-            problems.add(mesh, key + ".centre", std::string("the cell reaches through the wall along ") + axisName(wall) + ", to " +
-                                                    formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
-                                                    formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
-                                                    "; move it towards the middle or make the box larger");
+            problems.add(mesh, key + ".centre",
+                         std::string("the cell reaches through the wall along ") + axisName(wall) + ", to " +
+                             formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
+                             formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
+                             "; move it towards the middle or make the box larger");
     }
     if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
@@ -102,7 +113,8 @@ void Case::throwIfAny(const Problems& problems) const {
         Problems placed;
         for (const Problem& p : error.problems()) {
             const auto file = files.find(p.mark.file);
-            placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key, p.message);
+            placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key,
+                       p.message);
         }
         placed.throwIfAny();
     }
@@ -148,15 +160,20 @@ Case Case::read(const Application& app) {
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
     c.throwIfAny(problems);
     if (c.control.endStrain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "endStrain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
+        problems.add({"system/control.yaml", 0, 0}, "endStrain",
+                     "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
     if (c.control.write.strain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "write.strain", "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
-    c.observers.check(c.files["system/observers.yaml"], {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
+        problems.add({"system/control.yaml", 0, 0}, "write.strain",
+                     "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
+    c.observers.check(c.files["system/observers.yaml"],
+                      {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
     c.throwIfAny(problems);
     return c;
 }
 
-int Case::wallLayers() const { return flowModel->wallAxis() < 0 ? 0 : static_cast<int>(std::ceil(support() / spacing() - 1e-9)); }
+int Case::wallLayers() const {
+    return flowModel->wallAxis() < 0 ? 0 : static_cast<int>(std::ceil(support() / spacing() - 1e-9));
+}
 
 particles::Box Case::fluidBox() const {
     return {-0.5 * mesh.domain.size, 0.5 * mesh.domain.size, mesh.domain.periodic};
@@ -187,12 +204,20 @@ double Case::soundSpeed() const {
 }
 
 sph::FluidModel Case::fluidModel() const {
-    return {numerics.kernel.model, fluid.equationOfState.model, flow.density, fluid.viscosity, soundSpeed(), particleMass(),
-            flow.bodyForce, flow.walls, numerics.precision == "mixed" ? sph::Precision::mixed : sph::Precision::full};
+    return {numerics.kernel.model,
+            fluid.equationOfState.model,
+            flow.density,
+            fluid.viscosity,
+            soundSpeed(),
+            particleMass(),
+            flow.bodyForce,
+            flow.walls,
+            numerics.precision == "mixed" ? sph::Precision::mixed : sph::Precision::full};
 }
 
 bool Case::varyingViscosity() const {
-    return std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellSettings& cell) { return membraneOf(cell).interior.viscosityRatio != 1; });
+    return std::any_of(mesh.cells.begin(), mesh.cells.end(),
+                       [&](const CellSettings& cell) { return membraneOf(cell).interior.viscosityRatio != 1; });
 }
 
 }  // namespace corpuscle::simulation

@@ -34,7 +34,9 @@ struct Case {
     double particleVolume() const { return latticeSpacing().prod(); }  // [m^3]
     double particleMass() const { return flow.density * particleVolume(); }
     double soundSpeed() const;
-    const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const { return membranes.types.at(cell.type()); }
+    const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const {
+        return membranes.types.at(cell.type());
+    }
     bool varyingViscosity() const;
 
     // Throws CaseError when there are problems, each at the line of its file where its key stands.

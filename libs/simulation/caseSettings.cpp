@@ -6,14 +6,17 @@ namespace corpuscle::simulation {
 
 const Schema<WriteSettings>& WriteSettings::schema() {
     static const Schema<WriteSettings> s =
-        Schema<WriteSettings>("write", "when results are written, and what; nothing but the start when no interval is given")
-            .quantity("strain", &WriteSettings::strain, unit::none, "strain gammadot t between two writes", {.range = positive})
+        Schema<WriteSettings>("write",
+                              "when results are written, and what; nothing but the start when no interval is given")
+            .quantity("strain", &WriteSettings::strain, unit::none, "strain gammadot t between two writes",
+                      {.range = positive})
             .quantity("time", &WriteSettings::time, unit::second, "time between two writes", {.range = positive})
             .integer("steps", &WriteSettings::steps, "time steps between two writes", {.range = atLeast(1)})
             .atMostOneOf({"strain", "time", "steps"})
             .words("fields", &WriteSettings::fields, {"velocity", "density", "pressure", "side"}, "arrays of the fluid",
                    {.fallback = "[velocity, density, pressure]"})
-            .integerOr("all", "keep", &WriteSettings::keep, "how many times stay on disk", {.fallback = "all", .range = atLeast(1)});
+            .integerOr("all", "keep", &WriteSettings::keep, "how many times stay on disk",
+                       {.fallback = "all", .range = atLeast(1)});
     return s;
 }
 
@@ -27,18 +30,20 @@ Interval WriteSettings::interval() const {
 const Schema<CheckpointSettings>& CheckpointSettings::schema() {
     static const Schema<CheckpointSettings> s =
         Schema<CheckpointSettings>("checkpoint", "complete states for restarts; one is written at the end of every run")
-            .quantityOr("never", "wallClock", &CheckpointSettings::wallClock, unit::second, "wall-clock time between two checkpoints",
-                        {.fallback = "30 min", .range = positive})
-            .integer("keep", &CheckpointSettings::keep, "how many checkpoints stay on disk", {.fallback = "2", .range = atLeast(1)});
+            .quantityOr("never", "wallClock", &CheckpointSettings::wallClock, unit::second,
+                        "wall-clock time between two checkpoints", {.fallback = "30 min", .range = positive})
+            .integer("keep", &CheckpointSettings::keep, "how many checkpoints stay on disk",
+                     {.fallback = "2", .range = atLeast(1)});
     return s;
 }
 
 const Schema<StopSettings>& StopSettings::schema() {
     static const Schema<StopSettings> s =
         Schema<StopSettings>("stop", "ways to end a run early, with a checkpoint")
-            .name("file", &StopSettings::file, "a file of this name in the case directory stops the run", {.fallback = "stop"})
-            .quantityOr("never", "wallClock", &StopSettings::wallClock, unit::second, "wall-clock time after which the run stops",
-                        {.fallback = "never", .range = positive});
+            .name("file", &StopSettings::file, "a file of this name in the case directory stops the run",
+                  {.fallback = "stop"})
+            .quantityOr("never", "wallClock", &StopSettings::wallClock, unit::second,
+                        "wall-clock time after which the run stops", {.fallback = "never", .range = positive});
     return s;
 }
 
@@ -52,7 +57,8 @@ std::optional<double> ControlSettings::startingTime(const std::string& startFrom
         time.hasUnit = false;
     }
     if (!time.hasUnit || time.dimension != unit::second || time.value < 0)
-        throw std::invalid_argument("found '" + startFrom + "'; allowed are latestTime, firstTime, or a time with its unit (1.2e-3 s)." +
+        throw std::invalid_argument("found '" + startFrom +
+                                    "'; allowed are latestTime, firstTime, or a time with its unit (1.2e-3 s)." +
                                     didYouMean(startFrom, {"latestTime", "firstTime"}));
     return time.value;
 }
@@ -61,9 +67,10 @@ const Schema<ControlSettings>& ControlSettings::schema() {
     static const Schema<ControlSettings> s =
         Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
             .word("application", &ControlSettings::application, {"dmpFlow", "sphFlow"}, "the solver that runs the case")
-            .text("startFrom", &ControlSettings::startFrom, "latestTime, firstTime, or the time of a checkpoint (1.2e-3 s)",
-                  {.fallback = "latestTime"})
-            .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends", {.range = positive})
+            .text("startFrom", &ControlSettings::startFrom,
+                  "latestTime, firstTime, or the time of a checkpoint (1.2e-3 s)", {.fallback = "latestTime"})
+            .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends",
+                      {.range = positive})
             .quantity("endStrain", &ControlSettings::endStrain, unit::none, "strain gammadot t at which the run ends",
                       {.range = positive})
             .exactlyOneOf({"endTime", "endStrain"})
@@ -74,7 +81,8 @@ const Schema<ControlSettings>& ControlSettings::schema() {
                 try {
                     startingTime(c.startFrom);
                 } catch (const std::invalid_argument& fault) {
-                    if (const Node* given = node.find("startFrom")) problems.add(given->mark, given->path, fault.what());
+                    if (const Node* given = node.find("startFrom"))
+                        problems.add(given->mark, given->path, fault.what());
                 }
             });
     return s;
@@ -85,12 +93,15 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
         Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
             .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
-            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet"}, "time integration", {.fallback = "velocityVerlet"})
+            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet"}, "time integration",
+                  {.fallback = "velocityVerlet"})
             .word("coupling", &NumericsSettings::coupling, {"dualIdentity"}, "coupling of fluid and membrane",
                   {.fallback = "dualIdentity"})
-            .word("operators", &NumericsSettings::operators, {"plain"}, "form of the pair operators", {.fallback = "plain"})
+            .word("operators", &NumericsSettings::operators, {"plain"}, "form of the pair operators",
+                  {.fallback = "plain"})
             .word("precision", &NumericsSettings::precision, {"double", "mixed"},
-                  "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state and sums are double",
+                  "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state "
+                  "and sums are double",
                   {.fallback = "double"})
             .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
             .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",
@@ -100,7 +111,8 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .integer("densityBalance", &NumericsSettings::densityBalance,
                      "steps between two balances of density against the volume of closed cells, 0 for none",
                      {.fallback = "10", .range = nonNegative})
-            .quantity("safety", &NumericsSettings::safety, unit::none, "fraction of the viscous and the spring limit that a time step may take",
+            .quantity("safety", &NumericsSettings::safety, unit::none,
+                      "fraction of the viscous and the spring limit that a time step may take",
                       {.fallback = "0.95", .range = between(0.01, 1)});
     return s;
 }
@@ -108,9 +120,10 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
 const Schema<DomainSettings>& DomainSettings::schema() {
     static const Schema<DomainSettings> s =
         Schema<DomainSettings>("domain", "the box of fluid, centred on the origin")
-            .vector("size", &DomainSettings::size, unit::metre, "between the walls, a whole number of spacings along each axis",
-                    {.range = positive})
-            .booleans("periodic", &DomainSettings::periodic, "which axes are periodic; the axis across the walls is not");
+            .vector("size", &DomainSettings::size, unit::metre,
+                    "between the walls, a whole number of spacings along each axis", {.range = positive})
+            .booleans("periodic", &DomainSettings::periodic,
+                      "which axes are periodic; the axis across the walls is not");
     return s;
 }
 
@@ -118,14 +131,17 @@ const Schema<CellSettings>& CellSettings::schema() {
     static const Schema<CellSettings> s =
         Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
             .name("name", &CellSettings::name, "names 0/<name>.vtp and its results")
-            .name("membrane", &CellSettings::membrane, "its entry of constant/membranes.yaml; the cell's own name when absent")
+            .name("membrane", &CellSettings::membrane,
+                  "its entry of constant/membranes.yaml; the cell's own name when absent")
             .model("shape", &CellSettings::shape, "stress-free shape, axis along z")
             .quantity("edge", &CellSettings::edge, unit::metre, "edge length of the mesh", {.range = positive})
             .vector("centre", &CellSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
-            .vector("axis", &CellSettings::axis, unit::none, "direction of its symmetry axis", {.fallback = "[0, 0, 1]"})
+            .vector("axis", &CellSettings::axis, unit::none, "direction of its symmetry axis",
+                    {.fallback = "[0, 0, 1]"})
             .check([](const CellSettings& c, const Node& node, Problems& problems) {
                 if (const Node* axis = node.find("axis"); axis && c.axis.norm() == 0)
-                    problems.add(axis->mark, axis->path, "found the zero vector; a direction is needed, such as [0, 0, 1]");
+                    problems.add(axis->mark, axis->path,
+                                 "found the zero vector; a direction is needed, such as [0, 0, 1]");
             });
     return s;
 }
@@ -135,7 +151,8 @@ const Schema<FillSettings>& FillSettings::schema() {
         Schema<FillSettings>("fill", "how particleFill places particles")
             .quantity("jitter", &FillSettings::jitter, unit::none, "largest random displacement in spacings",
                       {.fallback = "0", .range = between(0, 0.45)})
-            .integer("seed", &FillSettings::seed, "of the random displacements", {.fallback = "1", .range = nonNegative})
+            .integer("seed", &FillSettings::seed, "of the random displacements",
+                     {.fallback = "1", .range = nonNegative})
             .integer("relaxation", &FillSettings::relaxation, "sweeps that even out particles around membranes",
                      {.fallback = "60", .range = nonNegative});
     return s;
@@ -153,15 +170,18 @@ const Schema<MeshSettings>& MeshSettings::schema() {
 const Schema<FluidSettings>& FluidSettings::schema() {
     static const Schema<FluidSettings> s =
         Schema<FluidSettings>("fluid", "constant/fluid.yaml: the fluid outside the cells")
-            .quantity("density", &FluidSettings::density, unit::kilogramPerMetre3, "rest density rho0", {.range = positive})
-            .quantity("viscosity", &FluidSettings::viscosity, unit::pascalSecond, "dynamic viscosity mu", {.range = positive})
+            .quantity("density", &FluidSettings::density, unit::kilogramPerMetre3, "rest density rho0",
+                      {.range = positive})
+            .quantity("viscosity", &FluidSettings::viscosity, unit::pascalSecond, "dynamic viscosity mu",
+                      {.range = positive})
             .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"});
     return s;
 }
 
 const Schema<MembranesSettings>& MembranesSettings::schema() {
-    static const Schema<MembranesSettings> s = Schema<MembranesSettings>("membranes", "constant/membranes.yaml: laws of each kind of cell")
-                                                   .map("*", &MembranesSettings::types, "laws of one kind of cell");
+    static const Schema<MembranesSettings> s =
+        Schema<MembranesSettings>("membranes", "constant/membranes.yaml: laws of each kind of cell")
+            .map("*", &MembranesSettings::types, "laws of one kind of cell");
     return s;
 }
 

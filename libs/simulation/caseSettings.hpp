@@ -48,9 +48,9 @@ struct NumericsSettings {
     std::string integrator, coupling, operators, precision;
     std::optional<sph::ShiftingSettings> shifting;
     Length skin;
-    long guard = 10;     // steps between two looks of the leakage guard; 0: none
+    long guard = 10;           // steps between two looks of the leakage guard; 0: none
     long densityBalance = 10;  // steps between two balances of density against volume; 0: none
-    double safety = 0.95; // fraction of each limit that the step takes
+    double safety = 0.95;      // fraction of each limit that the step takes
     static const Schema<NumericsSettings>& schema();
 };
 

@@ -39,25 +39,29 @@ struct Fixed {
 };
 std::vector<Fixed> fixedSettings(const Case& input) {
     const Vec3& size = input.mesh.domain.size;
-    return {{"system/numerics.yaml", "spacing", input.spacing(), unit::metre},
-            {"system/mesh.yaml", "domain.size", size[0], unit::metre},
-            {"system/mesh.yaml", "domain.size", size[1], unit::metre},
-            {"system/mesh.yaml", "domain.size", size[2], unit::metre},
-            input.flow.densityFromRe ? Fixed{"constant/flow.yaml", "inertia", input.flow.density, unit::kilogramPerMetre3}
-                                     : Fixed{"constant/fluid.yaml", "density", input.flow.density, unit::kilogramPerMetre3},
-            {"constant/fluid.yaml", "viscosity", input.varyingViscosity() ? input.fluid.viscosity : 0, unit::pascalSecond}};
+    return {
+        {"system/numerics.yaml", "spacing", input.spacing(), unit::metre},
+        {"system/mesh.yaml", "domain.size", size[0], unit::metre},
+        {"system/mesh.yaml", "domain.size", size[1], unit::metre},
+        {"system/mesh.yaml", "domain.size", size[2], unit::metre},
+        input.flow.densityFromRe ? Fixed{"constant/flow.yaml", "inertia", input.flow.density, unit::kilogramPerMetre3}
+                                 : Fixed{"constant/fluid.yaml", "density", input.flow.density, unit::kilogramPerMetre3},
+        {"constant/fluid.yaml", "viscosity", input.varyingViscosity() ? input.fluid.viscosity : 0, unit::pascalSecond}};
 }
 
 void checkFixed(const std::filesystem::path& path, const Case& input, const std::vector<double>& written) {
     const std::vector<Fixed> fixed = fixedSettings(input);
-    if (written.size() != fixed.size()) throw Failure(ExitCode::io, path.string() + ": 'fixed' has " + std::to_string(written.size()) + " numbers; start from firstTime");
+    if (written.size() != fixed.size())
+        throw Failure(ExitCode::io, path.string() + ": 'fixed' has " + std::to_string(written.size()) +
+                                        " numbers; start from firstTime");
     Problems problems;
     for (std::size_t i = 0; i < fixed.size(); ++i) {
         const auto& [file, key, value, dimension] = fixed[i];
         if (std::abs(written[i] - value) > 1e-9 * std::abs(value))
-            problems.add({file, 0, 0}, key, "the case now has " + formatQuantity(value, dimension, 6) + ", but " + path.string() +
-                                                " was written with " + formatQuantity(written[i], dimension, 6) +
-                                                "; start from firstTime, or give the old value");
+            problems.add({file, 0, 0}, key,
+                         "the case now has " + formatQuantity(value, dimension, 6) + ", but " + path.string() +
+                             " was written with " + formatQuantity(written[i], dimension, 6) +
+                             "; start from firstTime, or give the old value");
     }
     input.throwIfAny(problems);
 }
@@ -112,7 +116,8 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
     time.t = file.attribute<double>("time");
     time.step = file.attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("springRate2"), file.attribute<double>("dt")};
+    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("springRate2"),
+                        file.attribute<double>("dt")};
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;
@@ -130,8 +135,9 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         const auto alive = file.readReplicated<std::int64_t>(group + "aliveBonds");
         if (cell.membrane.position.size() != cell.membrane.network().nodeCount() ||
             alive.size() != cell.membrane.network().allBonds().size())
-            throw Failure(ExitCode::io, path.string() + " and 0/" + cell.membrane.name + ".vtp hold different meshes; the case was meshed "
-                                                            "again after the checkpoint: start from firstTime");
+            throw Failure(ExitCode::io, path.string() + " and 0/" + cell.membrane.name +
+                                            ".vtp hold different meshes; the case was meshed "
+                                            "again after the checkpoint: start from firstTime");
         cell.membrane.restore({alive.begin(), alive.end()});
     }
     if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));

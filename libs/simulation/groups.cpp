@@ -9,7 +9,9 @@ namespace corpuscle::simulation {
 
 std::vector<Group> dimensionlessGroups(const Case& c) {
     std::vector<Group> groups;
-    const auto add = [&](const char* name, double value, std::string text) { groups.push_back({name, fmt::format("{:.4g}", value), std::move(text), value}); };
+    const auto add = [&](const char* name, double value, std::string text) {
+        groups.push_back({name, fmt::format("{:.4g}", value), std::move(text), value});
+    };
     const double nu = c.fluid.viscosity / c.flow.density, c0 = c.soundSpeed();
     if (!c.mesh.cells.empty()) {
         const CellSettings& cell = c.mesh.cells.front();
@@ -17,23 +19,31 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
         const double a = cell.shape->radius(), Gs = laws.bonds->hexagonalModuli(cell.edge).shear;
         const double rate = c.flow.rate;
         add("Re", c.flow.density * rate * a * a / c.fluid.viscosity,
-            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}", formatQuantity(c.flow.density, unit::kilogramPerMetre3))
+            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
+                                               formatQuantity(c.flow.density, unit::kilogramPerMetre3))
                                  : "rho gammadot a^2/mu");
-        add("Ca", c.fluid.viscosity * rate * a / Gs, fmt::format("mu gammadot a/Gs, Gs = {} (closed form, hexagonal network)", formatQuantity(Gs, unit::newtonPerMetre)));
+        add("Ca", c.fluid.viscosity * rate * a / Gs,
+            fmt::format("mu gammadot a/Gs, Gs = {} (closed form, hexagonal network)",
+                        formatQuantity(Gs, unit::newtonPerMetre)));
         add("lambda", laws.interior.viscosityRatio, "viscosity inside/outside");
         if (laws.bending) {
             const double kappa = laws.bending->bendingModulus({Gs, a});
-            add("E_b", kappa / (Gs * a * a), fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)));
+            add("E_b", kappa / (Gs * a * a),
+                fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)));
         }
-        if (const int k = c.flowModel->wallAxis(); k >= 0) add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over cell radius");
+        if (const int k = c.flowModel->wallAxis(); k >= 0)
+            add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over cell radius");
         add("a/dx", a / c.spacing(), "particles per cell radius");
         add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing");
     } else
         add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
-    add("H_s/dx", c.support() / c.spacing(), fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %", c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
-                                                        100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
-    add("Ma", c.flow.speed / c0, fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
-                                             c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
+    add("H_s/dx", c.support() / c.spacing(),
+        fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",
+                    c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
+                    100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
+    add("Ma", c.flow.speed / c0,
+        fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
+                    c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
     return groups;
 }
 

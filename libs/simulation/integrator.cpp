@@ -22,7 +22,8 @@ Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(
     if (!scene.cells.empty()) {
         const coupling::DensityBalance balance(scene.fluidBox.volume(), scene.model().density);
         scene.coupling = std::make_unique<coupling::DualIdentity>(
-            scene.cells, scene.spacing, balance, coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
+            scene.cells, scene.spacing, balance,
+            coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
         loads.push_back(scene.coupling.get());
     }
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
@@ -62,7 +63,8 @@ void Integrator::updateLimits(Time& time) {
     const auto& s = scene_.store();
     const sph::FluidModel& model = scene_.model();
     double most = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.u[i] * s.u[i] + s.v[i] * s.v[i] + s.w[i] * s.w[i]);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        most = std::max(most, s.u[i] * s.u[i] + s.v[i] * s.v[i] + s.w[i] * s.w[i]);
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, scene_.system->comm());
 
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
@@ -71,7 +73,8 @@ void Integrator::updateLimits(Time& time) {
     limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
     if (!model.bodyForce.isZero()) limits_.add("body force", bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
     if (springRate2_ > 0)
-        limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(viscousRate_ * viscousRate_ + springRate2_) - viscousRate_));
+        limits_.add("spring",
+                    safety * 2 / springRate2_ * (std::sqrt(viscousRate_ * viscousRate_ + springRate2_) - viscousRate_));
     time.dt = limits_.binding().seconds;
     rebuilds_ = scene_.system->rebuilds();
 }
@@ -84,10 +87,11 @@ void Integrator::checkState(const Time& time) const {
         const double change = std::abs(s.density[i] / rho0 - 1);
         if (change < largestDensityChange && s.velocity(i).allFinite()) continue;
         const Vec3 x = s.position(i);
-        fault = fmt::format("step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
-                            "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
-                            "last checkpoint with a smaller 'safety' in system/numerics.yaml",
-                            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]);
+        fault = fmt::format(
+            "step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
+            "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
+            "last checkpoint with a smaller 'safety' in system/numerics.yaml",
+            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]);
         break;
     }
     io::throwTogether(scene_.system->comm(), !fault.empty(), fault, ExitCode::numerics);

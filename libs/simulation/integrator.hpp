@@ -18,7 +18,7 @@ class Integrator {
     // The scene must stay where it is: its coupling and loads refer to it.
     Integrator(const Case& input, coupling::Scene& scene);
 
-    void start(Time& time);   // forces at the initial state, first step
+    void start(Time& time);  // forces at the initial state, first step
     struct State {
         double viscousRate = 0, springRate2 = 0, dt = 0;
     };

@@ -21,16 +21,19 @@ int lowestHolder(const Scene& scene, const Cell& cell) {
 ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& start)
     : ticker_(input.control.write.interval(), start),
       fields_(input.control.write.fields),
-      fluid_(scene.system->comm(), input.directory, "fluid", static_cast<int>(input.control.write.keep.value_or(0)), start.t) {
+      fluid_(scene.system->comm(), input.directory, "fluid", static_cast<int>(input.control.write.keep.value_or(0)),
+             start.t) {
     for (const Cell& cell : scene.cells)
-        cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name, static_cast<int>(input.control.write.keep.value_or(0)),
-                            start.t);
+        cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name,
+                            static_cast<int>(input.control.write.keep.value_or(0)), start.t);
 }
 
 io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     const auto& s = scene.store();
     const sph::FluidModel& model = scene.model();
-    const auto wants = [&](const char* name) { return std::find(fields_.begin(), fields_.end(), name) != fields_.end(); };
+    const auto wants = [&](const char* name) {
+        return std::find(fields_.begin(), fields_.end(), name) != fields_.end();
+    };
     io::PolyData data;
     auto& id = data.point.integers["id"];
     auto* side = wants("side") || !scene.cells.empty() ? &data.point.integers["side"] : nullptr;
@@ -46,7 +49,8 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
         if (side) side->push_back(s.optional().side ? s.side[i] : 0);
         if (velocity) velocity->push_back(s.velocity(i));
         if (density) density->push_back(s.density[i]);
-        if (pressure) pressure->push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
+        if (pressure)
+            pressure->push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
     }
     return data;
 }
@@ -74,7 +78,8 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     auto tensions = membrane::principalTensions(network, m.bondLaw(), m.position);
     tension1 = std::move(tensions.tension1);
     tension2 = std::move(tensions.tension2);
-    for (std::size_t t = 0; t < data.triangles.size(); ++t) broken.push_back(network.isBroken(static_cast<int>(t)) ? 1 : 0);
+    for (std::size_t t = 0; t < data.triangles.size(); ++t)
+        broken.push_back(network.isBroken(static_cast<int>(t)) ? 1 : 0);
     return data;
 }
 
@@ -83,7 +88,8 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
     MPI_Comm_rank(scene.system->comm(), &rank);
     fluid_.write(time.t, time.strain(), fluidPiece(scene));
     for (std::size_t c = 0; c < cells_.size(); ++c)
-        cells_[c].write(time.t, time.strain(), cellPiece(scene, scene.cells[c], lowestHolder(scene, scene.cells[c]) == rank));
+        cells_[c].write(time.t, time.strain(),
+                        cellPiece(scene, scene.cells[c], lowestHolder(scene, scene.cells[c]) == rank));
     ++written_;
 }
 

@@ -25,10 +25,18 @@ std::vector<Cell> readCells(const Case& input) {
         const double a = settings.shape->radius();
         Cell cell{membrane::Membrane(settings.name, static_cast<int>(cells.size()) + 1, mesh.points, mesh.triangles,
                                      input.membraneOf(settings), a),
-                  settings.type(), a, input.membraneOf(settings).interior.viscosityRatio, firstNode, 0, 0, {}, true};
+                  settings.type(),
+                  a,
+                  input.membraneOf(settings).interior.viscosityRatio,
+                  firstNode,
+                  0,
+                  0,
+                  {},
+                  true};
         cell.initialArea = cell.membrane.area();
         cell.initialVolume = cell.membrane.volume();
-        for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing())) cell.nodeMass.push_back(input.flow.density * volume);
+        for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))
+            cell.nodeMass.push_back(input.flow.density * volume);
         firstNode += cell.nodeCount();
         cells.push_back(std::move(cell));
     }
@@ -55,13 +63,14 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.spacing = input.spacing();
     scene.fluidBox = input.fluidBox();
     scene.flow = input.flow;
-    const ParticleStore::Optional fields{.mass = hasCells, .viscosity = input.varyingViscosity(), .side = hasCells, .node = hasCells};
-    scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(), input.skin(),
-                                                               input.spacing());
+    const ParticleStore::Optional fields{
+        .mass = hasCells, .viscosity = input.varyingViscosity(), .side = hasCells, .node = hasCells};
+    scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(),
+                                                               input.skin(), input.spacing());
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system);
     if (input.numerics.shifting)
-        scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel, input.support(),
-                                                         input.flow.rate, input.particleMass());
+        scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
+                                                         input.support(), input.flow.rate, input.particleMass());
     if (hasCells) scene.cells = readCells(input);
     return scene;
 }
@@ -92,7 +101,8 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
         const double density = model.equationOfState->density(input.flow.pressure(x), model.density, model.soundSpeed);
         const std::size_t i = add(Kind::fluid, static_cast<std::int64_t>(k), x, input.flow.velocity(x), density);
         if (s.optional().side) s.side[i] = side[k];
-        if (s.optional().viscosity && side[k] > 0) s.viscosity[i] *= scene.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
+        if (s.optional().viscosity && side[k] > 0)
+            s.viscosity[i] *= scene.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
     });
     firstId += static_cast<std::int64_t>(fluid.points.size());
 
@@ -100,17 +110,19 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
         const io::PolyData walls = readStart(input, "walls");
         forShare(walls.points.size(), comm, [&](std::size_t k) {
             const Vec3& x = walls.points[k];
-            const std::size_t i = add(Kind::wall, firstId + static_cast<std::int64_t>(k), x, model.walls.velocity[model.walls.isUpper(x)], model.density);
+            const std::size_t i = add(Kind::wall, firstId + static_cast<std::int64_t>(k), x,
+                                      model.walls.velocity[model.walls.isUpper(x)], model.density);
             if (s.optional().side) s.side[i] = 0;
         });
         firstId += static_cast<std::int64_t>(walls.points.size());
     }
 
     for (Cell& cell : scene.cells) {
-        for (std::size_t k = 0; k < cell.nodeMass.size(); ++k) cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
+        for (std::size_t k = 0; k < cell.nodeMass.size(); ++k)
+            cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
         forShare(cell.nodeMass.size(), comm, [&](std::size_t k) {
-            const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k), cell.membrane.position[k],
-                                      cell.membrane.velocity[k], model.density);
+            const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k),
+                                      cell.membrane.position[k], cell.membrane.velocity[k], model.density);
             s.mass[i] = cell.nodeMass[k];
             s.side[i] = cell.membrane.cell;
             s.node[i] = cell.firstNode + static_cast<std::int64_t>(k);

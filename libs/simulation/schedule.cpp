@@ -46,7 +46,8 @@ StartingPoint prepare(Application& app, const Case& input) {
         from.scene = emptyScene(input, comm);
         from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
         if (from.time.lastStep) *from.time.lastStep += from.time.step;
-        app.log().info("Restart from {} at t = {}", from.checkpoint.string(), formatQuantity(from.time.t, unit::second));
+        app.log().info("Restart from {} at t = {}", from.checkpoint.string(),
+                       formatQuantity(from.time.t, unit::second));
     }
     return from;
 }
@@ -60,8 +61,8 @@ void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& s
     }
 }
 
-Schedule::Schedule(Application& app, const Case& input, const Scene& scene, const Integrator& integrator, const Time& start,
-                   const RunState& state)
+Schedule::Schedule(Application& app, const Case& input, const Scene& scene, const Integrator& integrator,
+                   const Time& start, const RunState& state)
     : app_(app),
       input_(input),
       integrator_(integrator),
@@ -97,15 +98,16 @@ void Schedule::describe() {
     }
     log.table({"group", "value", "meaning"}, rows);
     if (input_.flow.densityFromRe)
-        log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})", formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
+        log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})",
+                 formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
                  formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
     rows.clear();
     for (const sph::StepLimit& limit : integrator_.limits().all)
         rows.push_back({limit.name, formatQuantity(limit.seconds, unit::second),
                         limit.name == integrator_.limits().binding().name ? "binding" : ""});
     log.table({"limit of the step", "dt", ""}, rows);
-    log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(), app_.communicator().size() > 1 ? "s" : "",
-             particles::instructionSetName());
+    log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(),
+             app_.communicator().size() > 1 ? "s" : "", particles::instructionSetName());
 }
 
 ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
@@ -164,7 +166,8 @@ void Schedule::reportGuard(const Scene& scene, const Time& time) {
     if (!scene.coupling) return;
     const long moves = sum(scene.coupling->guard().moves(), scene.system->comm());
     if (moves > guardMoves_)
-        app_.log().info("leakage guard: {} particles put back until strain {:.3f} ({} since the last note)", moves, time.strain(), moves - guardMoves_);
+        app_.log().info("leakage guard: {} particles put back until strain {:.3f} ({} since the last note)", moves,
+                        time.strain(), moves - guardMoves_);
     guardMoves_ = moves;
 }
 
@@ -197,9 +200,10 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     const std::string reason = ended ? time.endReason() : stop_.reason();
     const ExitCode code = ended ? ExitCode::done : ExitCode::stopped;
     record_.finish(code, reason);
-    app_.log().info("{} after {} steps, t = {}{}: {} wall clock, {:.3g} million particle-steps per second", ended ? "End" : "Stopped", steps,
-                    formatQuantity(time.t, unit::second), time.shearRate > 0 ? fmt::format(", strain {:.4f}", time.strain()) : "",
-                    formatDuration(wall), 1e-6 * particleSteps(time) / wall);
+    app_.log().info("{} after {} steps, t = {}{}: {} wall clock, {:.3g} million particle-steps per second",
+                    ended ? "End" : "Stopped", steps, formatQuantity(time.t, unit::second),
+                    time.shearRate > 0 ? fmt::format(", strain {:.4f}", time.strain()) : "", formatDuration(wall),
+                    1e-6 * particleSteps(time) / wall);
     if (!ended) app_.log().info("reason: {}; a checkpoint is written, the same command goes on from here", reason);
     return code;
 }

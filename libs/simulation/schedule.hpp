@@ -14,8 +14,8 @@ namespace corpuscle::simulation {
 
 class Schedule {
   public:
-    Schedule(Application& app, const Case& input, const coupling::Scene& scene, const Integrator& integrator, const Time& start,
-             const RunState& state);
+    Schedule(Application& app, const Case& input, const coupling::Scene& scene, const Integrator& integrator,
+             const Time& start, const RunState& state);
     // A run that ends by an exception is recorded as failed.
     ~Schedule();
 

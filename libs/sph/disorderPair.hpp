@@ -26,7 +26,8 @@ struct DisorderPair {
 
     // Times V_i, which makes it symmetric.
     template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials], V (&p)[4]) const {
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials],
+                               V (&p)[4]) const {
         const V volumes = i[3] * V(j[3]), F = f[0] * volumes;
         for (int k = 0; k < 3; ++k) p[k] = F * d[k];
         p[3] = f[1] * volumes;

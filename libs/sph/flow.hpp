@@ -15,21 +15,21 @@ namespace corpuscle::sph {
 
 // What a flow may refer to.
 struct FlowContext {
-    particles::Box box;         // of the fluid, walls' layers not included
-    double viscosity = 0;       // mu, outer [Pa s]
-    double density = 0;         // as given in fluid.yaml [kg/m^3]
-    double cellRadius = 0;      // a [m]; 0: no cells
-    double shearModulus = 0;    // Gs [N/m]; 0: no cells
+    particles::Box box;       // of the fluid, walls' layers not included
+    double viscosity = 0;     // mu, outer [Pa s]
+    double density = 0;       // as given in fluid.yaml [kg/m^3]
+    double cellRadius = 0;    // a [m]; 0: no cells
+    double shearModulus = 0;  // Gs [N/m]; 0: no cells
 };
 
 // What follows from it, SI.
 struct FlowState {
-    double density = 0;     // [kg/m^3]
+    double density = 0;  // [kg/m^3]
     bool densityFromRe = false;
-    double shearRate = 0;   // gammadot; 0: none [1/s]
-    double speed = 0;       // largest speed that walls or body force give [m/s]
-    double length = 0;      // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
-    double rate = 0;        // shearRate, or speed/length [1/s]
+    double shearRate = 0;           // gammadot; 0: none [1/s]
+    double speed = 0;               // largest speed that walls or body force give [m/s]
+    double length = 0;              // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
+    double rate = 0;                // shearRate, or speed/length [1/s]
     Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
     Walls walls;
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0

@@ -31,7 +31,8 @@ FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) 
         constants_.betaMax = betaMax;
     }
     if (model.precision == Precision::mixed)
-        float_.away = pairKernels().fluidFloat(variant_, false), float_.atWall = pairKernels().fluidFloat(variant_, walls);
+        float_.away = pairKernels().fluidFloat(variant_, false),
+        float_.atWall = pairKernels().fluidFloat(variant_, walls);
     else
         double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, walls);
 }
@@ -50,8 +51,8 @@ void FluidForces::run(ParticleSystem& system, const RealArray& density, Velocity
 }
 
 template <class Real, class Velocity, class Pressure>
-void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArray& density, Velocity&& velocity, Pressure&& pressure,
-                      double* const results[4]) {
+void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArray& density, Velocity&& velocity,
+                      Pressure&& pressure, double* const results[4]) {
     const ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned()), fields = static_cast<std::size_t>(variant_.fields());
     pairs.records.resize((n + static_cast<std::size_t>(system.ghosts())) * fields);
@@ -67,7 +68,8 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
         if (variant_.varyingViscosity) r[fields - 1] = static_cast<Real>(s.viscosity[i]);
     }
     for (const int i : wallParticles_) pairs.records[static_cast<std::size_t>(i) * fields + 7] *= -1;
-    particles::sumOverPairs(system, pairs.away, pairs.atWall, constants_, pairs.records, variant_.fields(), sums_, results);
+    particles::sumOverPairs(system, pairs.away, pairs.atWall, constants_, pairs.records, variant_.fields(), sums_,
+                            results);
 }
 
 void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
@@ -77,7 +79,8 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     density_.resize(n);
     const double e = extrapolation;
     for (std::size_t i = 0; i < n; ++i) density_[i] = s.density[i] + e * s.densityRate[i];
-    model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density, model_.soundSpeed);
+    model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density,
+                                             model_.soundSpeed);
     double* const results[4] = {s.fx.data(), s.fy.data(), s.fz.data(), s.densityRate.data()};
     run(
         system, density_,
@@ -94,7 +97,8 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
         wallForce_[model_.walls.isUpper(s.position(i))] += mass * Vec3(s.fx[i], s.fy[i], s.fz[i]);
     }
     if (!model_.bodyForce.isZero())
-        for (std::size_t i = 0; i < n; ++i) s.fx[i] += model_.bodyForce[0], s.fy[i] += model_.bodyForce[1], s.fz[i] += model_.bodyForce[2];
+        for (std::size_t i = 0; i < n; ++i)
+            s.fx[i] += model_.bodyForce[0], s.fy[i] += model_.bodyForce[1], s.fz[i] += model_.bodyForce[2];
     for (const int i : wallParticles_) s.fx[i] = s.fy[i] = s.fz[i] = 0;
 }
 

@@ -19,10 +19,10 @@ enum class Precision { full, mixed };
 struct FluidModel {
     std::shared_ptr<const Kernel> kernel;
     std::shared_ptr<const EquationOfState> equationOfState;
-    double density = 0;    // rho0 [kg/m^3]
-    double viscosity = 0;  // mu of the outer fluid [Pa s]
-    double soundSpeed = 0; // c0 [m/s]
-    double mass = 0;       // of one fluid particle, rho0 dx^3 [kg]
+    double density = 0;             // rho0 [kg/m^3]
+    double viscosity = 0;           // mu of the outer fluid [Pa s]
+    double soundSpeed = 0;          // c0 [m/s]
+    double mass = 0;                // of one fluid particle, rho0 dx^3 [kg]
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
     Walls walls;
     Precision precision = Precision::full;
@@ -58,11 +58,11 @@ class FluidForces {
     };
     // Packs the records and works out the sums over pairs. velocity(i, Real[3]); pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
-    void run(particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity, Pressure&& pressure,
-             double* const results[4]);
-    template <class Real, class Velocity, class Pressure>
-    void run(Pairs<Real>& pairs, particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity,
+    void run(particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity,
              Pressure&& pressure, double* const results[4]);
+    template <class Real, class Velocity, class Pressure>
+    void run(Pairs<Real>& pairs, particles::ParticleSystem& system, const particles::RealArray& density,
+             Velocity&& velocity, Pressure&& pressure, double* const results[4]);
 
     FluidModel model_;
     FluidVariant variant_;

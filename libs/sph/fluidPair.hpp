@@ -39,7 +39,8 @@ struct FluidPair {
     }
 
     template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials], V (&p)[4]) const {
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials],
+                               V (&p)[4]) const {
         V F = f[0];
         if constexpr (varyingMass) F = F * (i[8] * V(j[8]));
         V viscous = F * (i[7] * V(j[7]));
@@ -50,7 +51,8 @@ struct FluidPair {
         if constexpr (atWall) {
             using Real = typename V::Real;
             const V heightI = i[0] * V(c.normal[0]) + i[1] * V(c.normal[1]) + i[2] * V(c.normal[2]) - V(c.middle);
-            const V gapI = V(c.half) - max(heightI, V(0.0) - heightI);  // above 0 in the fluid, below 0 behind the surface
+            const V gapI =
+                V(c.half) - max(heightI, V(0.0) - heightI);  // above 0 in the fluid, below 0 behind the surface
             const double heightJ = static_cast<double>(j[0]) * c.normal[0] + static_cast<double>(j[1]) * c.normal[1] +
                                    static_cast<double>(j[2]) * c.normal[2] - c.middle;
             const double gapJ = c.half - (heightJ > 0 ? heightJ : -heightJ);

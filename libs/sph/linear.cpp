@@ -13,9 +13,13 @@ void Linear::specificPressure(const double* density, double* out, int n, double 
     for (int i = 0; i < n; ++i) out[i] = c0 * c0 * (density[i] - restDensity) / (density[i] * density[i]);
 }
 
-double Linear::pressure(double density, double restDensity, double c0) const { return c0 * c0 * (density - restDensity); }
+double Linear::pressure(double density, double restDensity, double c0) const {
+    return c0 * c0 * (density - restDensity);
+}
 
-double Linear::density(double pressure, double restDensity, double c0) const { return restDensity + pressure / (c0 * c0); }
+double Linear::density(double pressure, double restDensity, double c0) const {
+    return restDensity + pressure / (c0 * c0);
+}
 
 CORPUSCLE_REGISTER(EquationOfState, Linear, "linear", "pressure proportional to the excess of density");
 

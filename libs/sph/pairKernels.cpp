@@ -4,10 +4,16 @@
 
 namespace corpuscle::sph {
 
-namespace baseline { extern const PairKernels kernels; }
+namespace baseline {
+extern const PairKernels kernels;
+}
 #ifdef CORPUSCLE_X86
-namespace avx2 { extern const PairKernels kernels; }
-namespace avx512 { extern const PairKernels kernels; }
+namespace avx2 {
+extern const PairKernels kernels;
+}
+namespace avx512 {
+extern const PairKernels kernels;
+}
 #endif
 
 const PairKernels& pairKernels() {

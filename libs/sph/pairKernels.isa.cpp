@@ -1,5 +1,5 @@
-#include "sph/lucy.hpp"
 #include "sph/pairKernels.hpp"
+#include "sph/lucy.hpp"
 #include "sph/quintic.hpp"
 #include "sph/wendlandC2.hpp"
 
@@ -12,7 +12,8 @@ using particles::PairView;
 template <class Law, class Constants, class Real>
 struct Build {
     using Loop = particles::PairLoop<CORPUSCLE_ISA_TAG, Law, Real>;
-    static void run(const Constants& c, const PairView& list, const int* blocks, int blockCount, const Real* records, double* sums) {
+    static void run(const Constants& c, const PairView& list, const int* blocks, int blockCount, const Real* records,
+                    double* sums) {
         Loop::run(Law{c}, list, blocks, blockCount, records, sums);
     }
     static void finish(const Constants& c, int owned, const Real* records, const double* sums, double* const* results) {
@@ -29,24 +30,33 @@ PairKernels::Fluid<Real> fluidOf(bool atWall) {
 
 template <class Real, class Kernel>
 PairKernels::Fluid<Real> fluidOf(FluidVariant v, bool atWall) {
-    if (v.varyingMass) return v.varyingViscosity ? fluidOf<Real, Kernel, true, true>(atWall) : fluidOf<Real, Kernel, true, false>(atWall);
-    return v.varyingViscosity ? fluidOf<Real, Kernel, false, true>(atWall) : fluidOf<Real, Kernel, false, false>(atWall);
+    if (v.varyingMass)
+        return v.varyingViscosity ? fluidOf<Real, Kernel, true, true>(atWall)
+                                  : fluidOf<Real, Kernel, true, false>(atWall);
+    return v.varyingViscosity ? fluidOf<Real, Kernel, false, true>(atWall)
+                              : fluidOf<Real, Kernel, false, false>(atWall);
 }
 
 template <class Real>
 PairKernels::Fluid<Real> fluid(FluidVariant variant, bool atWall) {
     switch (variant.kernel) {
-        case KernelKind::lucy: return fluidOf<Real, Lucy>(variant, atWall);
-        case KernelKind::quintic: return fluidOf<Real, Quintic>(variant, atWall);
-        default: return fluidOf<Real, WendlandC2>(variant, atWall);
+        case KernelKind::lucy:
+            return fluidOf<Real, Lucy>(variant, atWall);
+        case KernelKind::quintic:
+            return fluidOf<Real, Quintic>(variant, atWall);
+        default:
+            return fluidOf<Real, WendlandC2>(variant, atWall);
     }
 }
 
 PairKernels::Disorder disorder(KernelKind kernel) {
     switch (kernel) {
-        case KernelKind::lucy: return Build<DisorderPair<Lucy>, DisorderConstants, double>::kernel;
-        case KernelKind::quintic: return Build<DisorderPair<Quintic>, DisorderConstants, double>::kernel;
-        default: return Build<DisorderPair<WendlandC2>, DisorderConstants, double>::kernel;
+        case KernelKind::lucy:
+            return Build<DisorderPair<Lucy>, DisorderConstants, double>::kernel;
+        case KernelKind::quintic:
+            return Build<DisorderPair<Quintic>, DisorderConstants, double>::kernel;
+        default:
+            return Build<DisorderPair<WendlandC2>, DisorderConstants, double>::kernel;
     }
 }
 

@@ -5,15 +5,15 @@ namespace corpuscle::sph {
 const Schema<ShearFlow>& ShearFlow::schema() {
     static const Schema<ShearFlow> s =
         Schema<ShearFlow>("shear", "simple shear between two moving walls")
-            .quantity("Ca", &ShearFlow::Ca, unit::none, "capillary number mu gammadot a/Gs, Gs the bond law's closed form",
-                      {.range = positive})
+            .quantity("Ca", &ShearFlow::Ca, unit::none,
+                      "capillary number mu gammadot a/Gs, Gs the bond law's closed form", {.range = positive})
             .quantity("shearRate", &ShearFlow::shearRate, unit::perSecond, "shear rate gammadot", {.range = positive})
             .exactlyOneOf({"Ca", "shearRate"})
             .tableOr("physical", "inertia", &ShearFlow::inertia, "density as given, or set by a Reynolds number",
                      {.fallback = "physical"})
             .table("walls", &ShearFlow::walls, "the two moving walls", {.fallback = "{normal: z}"})
-            .word("start", &ShearFlow::start, {"linear", "rest"}, "velocity at t = 0: the linear profile, or fluid at rest",
-                  {.fallback = "linear"});
+            .word("start", &ShearFlow::start, {"linear", "rest"},
+                  "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"});
     return s;
 }
 
@@ -21,18 +21,20 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
     const int axis = walls.axis();
     FlowState flow;
     if (Ca && context.shearModulus <= 0)
-        problems.add(mark, "Ca", "a capillary number needs a membrane, and the case has none; give shearRate, or cells in "
-                                 "system/mesh.yaml and their laws in constant/membranes.yaml");
+        problems.add(mark, "Ca",
+                     "a capillary number needs a membrane, and the case has none; give shearRate, or cells in "
+                     "system/mesh.yaml and their laws in constant/membranes.yaml");
     if (inertia && context.cellRadius <= 0)
-        problems.add(mark, "inertia", "Re = rho gammadot a^2/mu needs a cell's radius a, and the case has no cell; write inertia: "
-                                      "physical and give the density in constant/fluid.yaml");
-    if (axis == 0)
-        problems.add(mark, "walls.normal", "found x, but the flow goes along x; allowed are y, z");
+        problems.add(mark, "inertia",
+                     "Re = rho gammadot a^2/mu needs a cell's radius a, and the case has no cell; write inertia: "
+                     "physical and give the density in constant/fluid.yaml");
+    if (axis == 0) problems.add(mark, "walls.normal", "found x, but the flow goes along x; allowed are y, z");
     if (!problems.empty()) return flow;
 
     flow.shearRate = Ca ? *Ca * context.shearModulus / (context.viscosity * context.cellRadius) : *shearRate;
-    flow.density = inertia ? inertia->Re * context.viscosity / (flow.shearRate * context.cellRadius * context.cellRadius)
-                           : context.density;
+    flow.density = inertia
+                       ? inertia->Re * context.viscosity / (flow.shearRate * context.cellRadius * context.cellRadius)
+                       : context.density;
     flow.densityFromRe = inertia.has_value();
     const double gap = context.box.size()[axis], middle = 0.5 * (context.box.low[axis] + context.box.high[axis]);
     flow.speed = 0.5 * flow.shearRate * gap;

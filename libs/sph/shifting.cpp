@@ -15,11 +15,13 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
         Schema<ShiftingSettings>("shifting", "particle shifting")
             .quantity("coefficient", &ShiftingSettings::coefficient, unit::none, "C, strength per unit of strain",
                       {.fallback = "1", .range = positive})
-            .integer("steps", &ShiftingSettings::steps, "time steps between two shifts", {.fallback = "10", .range = atLeast(1)});
+            .integer("steps", &ShiftingSettings::steps, "time steps between two shifts",
+                     {.fallback = "10", .range = atLeast(1)});
     return s;
 }
 
-Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate, double particleMass)
+Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate,
+                   double particleMass)
     : settings_(settings),
       constants_{support, kernel.normalisation(support), kernel.gradientNormalisation(support)},
       kernel_(pairKernels().disorder(kernel.kind())),
@@ -42,7 +44,8 @@ void Shifting::apply(particles::ParticleSystem& system, double dt) {
     }
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
     particles::sumOverPairs(system, kernel_, kernel_, constants_, records_, 4, sums_, results);
-    const double factor = settings_.coefficient * support_ * support_ * rate_ * dt * static_cast<double>(settings_.steps);
+    const double factor =
+        settings_.coefficient * support_ * support_ * rate_ * dt * static_cast<double>(settings_.steps);
     const double bound = largestInSpacings * system.spacing();
     largest_ = 0;
     for (std::size_t i = 0; i < n; ++i) {

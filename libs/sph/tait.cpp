@@ -22,7 +22,8 @@ void Tait::specificPressure(const double* density, double* out, int n, double re
         }
         return;
     }
-    for (int i = 0; i < n; ++i) out[i] = scale * (std::pow(density[i] * inverse, gamma) - 1) / (density[i] * density[i]);
+    for (int i = 0; i < n; ++i)
+        out[i] = scale * (std::pow(density[i] * inverse, gamma) - 1) / (density[i] * density[i]);
 }
 
 double Tait::pressure(double density, double restDensity, double c0) const {

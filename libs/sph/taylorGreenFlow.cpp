@@ -8,7 +8,8 @@ namespace corpuscle::sph {
 const Schema<TaylorGreenFlow>& TaylorGreenFlow::schema() {
     static const Schema<TaylorGreenFlow> s =
         Schema<TaylorGreenFlow>("taylorGreen", "decaying vortices in the x-z plane")
-            .quantity("speed", &TaylorGreenFlow::speed, unit::metrePerSecond, "largest speed U at t = 0", {.range = positive});
+            .quantity("speed", &TaylorGreenFlow::speed, unit::metrePerSecond, "largest speed U at t = 0",
+                      {.range = positive});
     return s;
 }
 
@@ -16,8 +17,9 @@ FlowState TaylorGreenFlow::resolve(const FlowContext& context, const Mark& mark,
     FlowState flow;
     const Vec3 size = context.box.size();
     if (std::abs(size[0] - size[2]) > 1e-9 * size[0]) {
-        problems.add(mark, "type", "taylorGreen needs a box as long along x as along z; system/mesh.yaml has " +
-                                       formatQuantity(size[0], unit::metre) + " and " + formatQuantity(size[2], unit::metre));
+        problems.add(mark, "type",
+                     "taylorGreen needs a box as long along x as along z; system/mesh.yaml has " +
+                         formatQuantity(size[0], unit::metre) + " and " + formatQuantity(size[2], unit::metre));
         return flow;
     }
     const double k = 2 * std::numbers::pi / size[0], U = speed, rho = context.density;

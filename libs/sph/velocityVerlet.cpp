@@ -9,7 +9,8 @@ namespace corpuscle::sph {
 using particles::ParticleStore;
 using particles::ParticleSystem;
 
-VelocityVerlet::VelocityVerlet(ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads)
+VelocityVerlet::VelocityVerlet(ParticleSystem& system, FluidForces& forces, Shifting* shifting,
+                               std::vector<Load*> loads)
     : system_(system), forces_(forces), shifting_(shifting), loads_(std::move(loads)) {}
 
 void VelocityVerlet::start() {

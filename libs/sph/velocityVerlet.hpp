@@ -28,7 +28,8 @@ class Load {
 
 class VelocityVerlet {
   public:
-    VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads);
+    VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting,
+                   std::vector<Load*> loads);
 
     // Forces at the initial state (ubar = u). Not after a restart: forces are part of the state.
     void start();

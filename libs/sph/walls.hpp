@@ -7,8 +7,8 @@
 namespace corpuscle::sph {
 
 struct Walls {
-    int axis = -1;            // 0, 1, 2; -1: none
-    double low = 0, high = 0; // surfaces [m]
+    int axis = -1;                                    // 0, 1, 2; -1: none
+    double low = 0, high = 0;                         // surfaces [m]
     Vec3 velocity[2] = {Vec3::Zero(), Vec3::Zero()};  // of the lower and the upper wall [m/s]
 
     bool exist() const { return axis >= 0; }

@@ -37,10 +37,12 @@ class Utilities : public testing::Test {
         writeText(at("system/numerics.yaml"), "spacing: 1 um\nkernel: {type: wendlandC2, support: 3.0 dx}\n");
         writeText(at("system/mesh.yaml"),
                   "domain: {size: [12, 10, 10] um, periodic: [true, true, false]}\n"
-                  "cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, axis: [0.2, 0, 1]}]\n");
+                  "cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, "
+                  "axis: [0.2, 0, 1]}]\n");
         writeText(at("constant/fluid.yaml"), "density: 1000 kg/m^3\nviscosity: 1.0e-3 Pa s\n");
         writeText(at("constant/membranes.yaml"),
-                  "rbc:\n  interior: {viscosityRatio: 1}\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n");
+                  "rbc:\n  interior: {viscosityRatio: 1}\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: "
+                  "dihedral, Eb: 0.01}\n");
         writeText(at("constant/flow.yaml"), "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n");
     }
 
@@ -48,8 +50,9 @@ class Utilities : public testing::Test {
 
     Result run(const std::string& program, const std::string& options = "") const {
         const fs::path out = at("out.txt"), err = at("err.txt");
-        const std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " PROGRAMS "/" + program + " -case " +
-                                    folder_.path().string() + " " + options + " > " + out.string() + " 2> " + err.string();
+        const std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " PROGRAMS "/" +
+                                    program + " -case " + folder_.path().string() + " " + options + " > " +
+                                    out.string() + " 2> " + err.string();
         const int status = std::system(command.c_str());
         return {WEXITSTATUS(status), readText(out), readText(err)};
     }
@@ -77,7 +80,8 @@ TEST_F(Utilities, AStartIsMadeAndFoundSound) {
     EXPECT_EQ(fluid + carved, 12 * 10 * 10);
     EXPECT_EQ(fill["walls"], 2 * 3 * 12 * 10);
     EXPECT_EQ(fill["outside"].get<long>() + fill["inside"]["rbc"]["particles"].get<long>(), fluid);
-    EXPECT_LT(fill["sigma"]["nearAfter"]["deviation"].get<double>(), 0.5 * fill["sigma"]["nearBefore"]["deviation"].get<double>());
+    EXPECT_LT(fill["sigma"]["nearAfter"]["deviation"].get<double>(),
+              0.5 * fill["sigma"]["nearBefore"]["deviation"].get<double>());
 
     const io::PolyData data = io::readVtp(at("0/fluid.vtp"));
     ASSERT_EQ(static_cast<long>(data.points.size()), fluid);
@@ -116,7 +120,10 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     for (const char* program : {"checkMesh", "particleFill"}) {
         const Result other = run(program, "-set 'system/mesh.yaml:/cells/0/shape/d=7.5 um'");
         EXPECT_EQ(other.code, 2);
-        EXPECT_TRUE(contains(other.err, "cells[0].shape.d: the case says 7.5e-06 m, but 0/rbc.vtp was made for 8e-06 m; run membraneMesh")) << other.err;
+        EXPECT_TRUE(
+            contains(other.err,
+                     "cells[0].shape.d: the case says 7.5e-06 m, but 0/rbc.vtp was made for 8e-06 m; run membraneMesh"))
+            << other.err;
     }
     EXPECT_EQ(run("checkMesh", "-set 'constant/flow.yaml:/Ca=0.3'").code, 0);
 
@@ -143,12 +150,15 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     io::writeVtp(at("0/fluid.vtp"), fluid);
     const Result silent = run("checkMesh");
     EXPECT_EQ(silent.code, 2);
-    EXPECT_TRUE(contains(silent.err, "0/fluid.vtp: does not say for which settings it was made; run particleFill again")) << silent.err;
+    EXPECT_TRUE(
+        contains(silent.err, "0/fluid.vtp: does not say for which settings it was made; run particleFill again"))
+        << silent.err;
 }
 
 TEST_F(Utilities, CellsInEachOtherAreRefused) {
-    const std::string cells = "-set 'system/mesh.yaml:/cells=[{name: a, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
-                              "{name: b, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [1, 0, 0] um}]'";
+    const std::string cells =
+        "-set 'system/mesh.yaml:/cells=[{name: a, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
+        "{name: b, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [1, 0, 0] um}]'";
     const Result mesh = run("membraneMesh", cells);
     EXPECT_EQ(mesh.code, 0) << mesh.err;
     EXPECT_TRUE(contains(mesh.out, "cell b: the same mesh")) << mesh.out;
@@ -184,7 +194,8 @@ TEST_F(Utilities, ErrorsSayWhatToDo) {
 TEST_F(Utilities, ModelsAreListed) {
     const Result all = run("listModels");
     EXPECT_EQ(all.code, 0);
-    for (const char* name : {"bond law", "harmonic", "kuchelFackerell", "wendlandC2", "tait", "shear", "conservation", "bondStretch"})
+    for (const char* name :
+         {"bond law", "harmonic", "kuchelFackerell", "wendlandC2", "tait", "shear", "conservation", "bondStretch"})
         EXPECT_TRUE(contains(all.out, name)) << name;
     EXPECT_TRUE(contains(run("listModels", "bondLaw").out, "spring constant"));
     EXPECT_TRUE(contains(run("listModels", "kuchelFackerell").out, "diameter"));
@@ -195,12 +206,14 @@ TEST_F(Utilities, ModelsAreListed) {
     EXPECT_TRUE(contains(unknown.err, "Did you mean 'kernel'?")) << unknown.err;
 
     const std::string page = run("listModels", "-markdown").out;
-    for (const char* part : {"# Dictionary reference", "## system/mesh.yaml", "## constant/flow.yaml", "## kernel", "### wendlandC2"})
+    for (const char* part :
+         {"# Dictionary reference", "## system/mesh.yaml", "## constant/flow.yaml", "## kernel", "### wendlandC2"})
         EXPECT_TRUE(contains(page, part)) << part;
 
     EXPECT_EQ(run("listModels", "-schema " + at("schema").string()).code, 0);
     for (const char* file : {"control", "numerics", "mesh", "observers", "fluid", "membranes", "flow"})
-        EXPECT_FALSE(json::parse(readText(at(std::string("schema/") + file + ".json")), nullptr, false).is_discarded()) << file;
+        EXPECT_FALSE(json::parse(readText(at(std::string("schema/") + file + ".json")), nullptr, false).is_discarded())
+            << file;
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ struct Wandered : SphereScene {
         exchange.gather(*system, cells);
         ParticleStore& s = system->store();
         for (std::size_t i = 0; i < s.size(); ++i)
-            s.density[i] = 1 + 0.02 * static_cast<double>(s.side[i]) - 0.01 + 0.005 * std::sin(static_cast<double>(s.id[i]));
+            s.density[i] =
+                1 + 0.02 * static_cast<double>(s.side[i]) - 0.01 + 0.005 * std::sin(static_cast<double>(s.id[i]));
     }
 
     // sum m/rho of a region over sum m/rho0: fluid with side `inside`, and the named share of each listed cell's nodes.

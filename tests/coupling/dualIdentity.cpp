@@ -17,7 +17,8 @@ struct Stretched : SphereScene {
     DualIdentity coupling{cells, 1, DensityBalance(12 * 8 * 8, 1), {10, 0}};
     Stretched() : SphereScene({12, 8, 8}, {Vec3(6, 0.2, 7.5)}) {
         coupling.moved(*system, true);
-        moveNodes([](const Vec3& x) -> Vec3 { return x + Vec3(0.1 * (x[0] - 6), -0.08 * x[1], 0.05 * std::sin(x[0])); });
+        moveNodes(
+            [](const Vec3& x) -> Vec3 { return x + Vec3(0.1 * (x[0] - 6), -0.08 * x[1], 0.05 * std::sin(x[0])); });
         system->rebuild();
         coupling.moved(*system, true);
     }
@@ -69,7 +70,8 @@ TEST(DualIdentity, nodesFeelTheNetworksForceOverTheirMass) {
     }
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.node[i] >= 0) {
-            EXPECT_LT((Vec3(s.fx[i] - 0.5, s.fy[i] - 0.5, s.fz[i] - 0.5) - expected.force[s.node[i]] / nodeMass).norm(), 1e-12);
+            EXPECT_LT((Vec3(s.fx[i] - 0.5, s.fy[i] - 0.5, s.fz[i] - 0.5) - expected.force[s.node[i]] / nodeMass).norm(),
+                      1e-12);
         }
 }
 
@@ -98,6 +100,7 @@ TEST(DualIdentity, springRateIsTheLargestEigenvalueOfStiffnessOverMass) {
         }
         x = at;
     }
-    const double exact = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[3 * n - 1] / nodeMass;
+    const double exact =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[3 * n - 1] / nodeMass;
     EXPECT_NEAR(rate2, exact, 0.01 * exact);
 }

@@ -38,8 +38,12 @@ struct Guarded : SphereScene {
         MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, MPI_COMM_WORLD);
         return least.rank == self ? found : -1;
     }
-    Vec3 outward(std::size_t i) const { return system->box().minimumImage(system->store().position(i) - centre).normalized(); }
-    double distance(std::size_t i) const { return system->box().minimumImage(system->store().position(i) - centre).norm(); }
+    Vec3 outward(std::size_t i) const {
+        return system->box().minimumImage(system->store().position(i) - centre).normalized();
+    }
+    double distance(std::size_t i) const {
+        return system->box().minimumImage(system->store().position(i) - centre).norm();
+    }
     int moves() const { return static_cast<int>(sph::testing::sumOverRanks(static_cast<double>(guard.moves()))); }
 };
 
@@ -69,7 +73,8 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
     EXPECT_EQ(report.size(), i >= 0 ? 1u : 0u);
     EXPECT_TRUE(scene.guard.takeReport().empty());
     for (std::size_t k = 0; k < s.size(); ++k)
-        EXPECT_TRUE(static_cast<int>(k) == i || (s.position(k) == before.position(k) && s.velocity(k) == before.velocity(k)));
+        EXPECT_TRUE(static_cast<int>(k) == i ||
+                    (s.position(k) == before.position(k) && s.velocity(k) == before.velocity(k)));
     if (i >= 0 && report.size() == 1) {
         // Facets of the icosphere lie up to 0.06 within the sphere.
         EXPECT_NEAR(own * (scene.distance(i) - radius), 0.1, 0.07);

@@ -54,15 +54,18 @@ TEST(NodeExchange, aCellTravellingThroughThePeriodicBoxStaysInOnePiece) {
         int owned = static_cast<int>(exchange.owned().size());
         MPI_Allreduce(MPI_IN_PLACE, &owned, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
         EXPECT_EQ(owned, 2 * 162);
-        for (const NodeExchange::OwnedNode& n : exchange.owned()) EXPECT_TRUE(scene.cells[static_cast<std::size_t>(n.cell)].held);
+        for (const NodeExchange::OwnedNode& n : exchange.owned())
+            EXPECT_TRUE(scene.cells[static_cast<std::size_t>(n.cell)].held);
         for (std::size_t c = 0; c < scene.cells.size(); ++c) {
             const Cell& cell = scene.cells[c];
             notHeld += !cell.held;
             if (step % 20 == 0) expectSameBitsOnAllHolders(cell);
             if (!cell.held) continue;
             for (std::size_t n = 0; n < scene.start[c].size(); ++n) {
-                EXPECT_LT((cell.membrane.position[n] - scene.start[c][n] - travelled).norm(), 1e-11) << "unwrapped, continuous";
-                EXPECT_EQ(cell.membrane.velocity[n], Vec3(0.1 * (static_cast<double>(n) + cell.firstNode), 1.0 * step, -2));
+                EXPECT_LT((cell.membrane.position[n] - scene.start[c][n] - travelled).norm(), 1e-11)
+                    << "unwrapped, continuous";
+                EXPECT_EQ(cell.membrane.velocity[n],
+                          Vec3(0.1 * (static_cast<double>(n) + cell.firstNode), 1.0 * step, -2));
             }
         }
     }

@@ -29,7 +29,8 @@ struct SphereScene {
 
     SphereScene(const Index3& size, const std::vector<Vec3>& centres) {
         const Box box = sph::testing::cube(size);
-        system = std::make_unique<ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{true, false, true, true}, 2.3, skin, 1.0);
+        system = std::make_unique<ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{true, false, true, true},
+                                                  2.3, skin, 1.0);
         membrane::MembraneSettings laws;
         laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
         laws.bending = choice<membrane::BendingLaw>("{type: dihedral, kappa: 0.3 J}");
@@ -38,8 +39,8 @@ struct SphereScene {
             auto mesh = membrane::testing::icosphere(2);
             for (Vec3& x : mesh.nodes) x = radius * x + centre;
             const int number = static_cast<int>(cells.size()) + 1;
-            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere", radius, 1, first, 0, 0,
-                             std::vector<double>(mesh.nodes.size(), nodeMass), true});
+            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere",
+                             radius, 1, first, 0, 0, std::vector<double>(mesh.nodes.size(), nodeMass), true});
             start.push_back(mesh.nodes);
             first += cells.back().nodeCount();
         }
@@ -52,7 +53,8 @@ struct SphereScene {
             s.resize(i + 1);
             s.setPosition(i, x);
             s.density[i] = 1, s.mass[i] = kind == Kind::membrane ? nodeMass : 1;
-            s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side, s.node[i] = node;
+            s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side,
+            s.node[i] = node;
         };
         if (rank == 0) {
             for (const sph::testing::Particle& p : sph::testing::lattice(size, 0.1)) {
@@ -66,7 +68,8 @@ struct SphereScene {
                 if (free) add(p.x, Kind::fluid, side, -1);
             }
             for (const Cell& cell : cells)
-                for (int n = 0; n < cell.nodeCount(); ++n) add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
+                for (int n = 0; n < cell.nodeCount(); ++n)
+                    add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
         }
         system->start();
     }
@@ -80,7 +83,8 @@ struct SphereScene {
                 const std::int64_t n = s.node[i] - cells[c].firstNode;
                 if (s.node[i] < 0 || n < 0 || n >= cells[c].nodeCount()) continue;
                 // The image nearest to where the particle is: it moves continuously between builds.
-                s.setPosition(i, s.position(i) + system->box().minimumImage(f(start[c][static_cast<std::size_t>(n)]) - s.position(i)));
+                s.setPosition(i, s.position(i) + system->box().minimumImage(f(start[c][static_cast<std::size_t>(n)]) -
+                                                                            s.position(i)));
             }
     }
 };

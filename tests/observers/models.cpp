@@ -14,7 +14,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 const geometry::TriangleMesh& redCell() {
-    static const geometry::TriangleMesh mesh = geometry::meshSurface(geometry::KuchelFackerell(8 * um, 2.12 * um, 1 * um), 0.6 * um);
+    static const geometry::TriangleMesh mesh =
+        geometry::meshSurface(geometry::KuchelFackerell(8 * um, 2.12 * um, 1 * um), 0.6 * um);
     return mesh;
 }
 const geometry::TriangleMesh& sphere() {
@@ -52,7 +53,8 @@ TEST(Shape, TankTreadingTurnsTheMembraneAndNotTheShape) {
     couple(scene);
     const auto shape = begin("{type: shape, every: 0.1 strain}", scene);
     const auto stretched = [&](double angle) {
-        deform(scene, 0, [&](const Vec3& x) { return turned(turned(x, angle).cwiseProduct(Vec3(1.2, 1, 1 / 1.2)), -0.4); });
+        deform(scene, 0,
+               [&](const Vec3& x) { return turned(turned(x, angle).cwiseProduct(Vec3(1.2, 1, 1 / 1.2)), -0.4); });
         return shape->observe(scene, {});
     };
     std::vector<Row> rows = stretched(0);
@@ -66,7 +68,8 @@ TEST(Shape, TankTreadingTurnsTheMembraneAndNotTheShape) {
             EXPECT_NEAR(value(*shape, rows, "treadPhase_rad") - start, 0.1 * pi * n, 0.03);
         }
     }
-    EXPECT_NEAR(value(*shape, rows, "angleTurned_rad"), 3.6 * pi - 0.4, 0.15);  // the ellipse's angle differs from the parametric one
+    EXPECT_NEAR(value(*shape, rows, "angleTurned_rad"), 3.6 * pi - 0.4,
+                0.15);  // the ellipse's angle differs from the parametric one
 }
 
 TEST(Shape, AnglesGoOnAfterARestart) {
@@ -104,7 +107,8 @@ TEST(Conservation, FluidWithoutCells) {
 }
 
 TEST(Conservation, CellsAcrossAPeriodicFace) {
-    Scene scene = sampleScene({.cells = {{"a", Vec3(8 * um, 0, 0)}, {"b", Vec3(0.3 * um, 0, 0)}}, .surface = &sphere()});
+    Scene scene =
+        sampleScene({.cells = {{"a", Vec3(8 * um, 0, 0)}, {"b", Vec3(0.3 * um, 0, 0)}}, .surface = &sphere()});
     // Cell a lies across the face; the lattice has fluid of its inside at both ends of the box.
     couple(scene);
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
@@ -137,7 +141,8 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_NEAR(value(*observation, rows, "b_volumeChange"), 0.331, 1e-9);
     EXPECT_NEAR(value(*observation, rows, "a_areaChange"), 0, 1e-12);
     double energy = 0;  // k/2 (0.1 l0)^2 of each bond
-    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds()) energy += 0.5 * 5e-4 * 0.01 * bond.rest * bond.rest;
+    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds())
+        energy += 0.5 * 5e-4 * 0.01 * bond.rest * bond.rest;
     EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), energy, 1e-9 * energy);
 }
 
@@ -168,7 +173,8 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     const auto events = observation->afterStep(scene, time);
     scene.broken.clear();
     std::size_t expected = 0;
-    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds()) expected += bond.node[0] == 5 || bond.node[1] == 5;
+    for (const membrane::Bond& bond : scene.cells[1].membrane.network().allBonds())
+        expected += bond.node[0] == 5 || bond.node[1] == 5;
     ASSERT_EQ(events.size(), expected);
     for (const Row& event : events) {
         EXPECT_EQ(event.table, 2u);
@@ -188,7 +194,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_EQ(value(*observation, rows, "firstBreak_strain", 1), 0.5);
     EXPECT_EQ(value(*observation, rows, "firstBreak_x_m", 1), events[0].values[3]);
     EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the others are at rest
-    const double underTheCap = value(*observation, rows, "released", 1);  // beyond the fan that now closes the hole
+    const double underTheCap = value(*observation, rows, "released", 1);   // beyond the fan that now closes the hole
     EXPECT_LE(underTheCap, 6);
 
     // Three particles at a corner of the box, said to be b's.

@@ -26,7 +26,8 @@ ObserversSettings settings(const std::string& text, const Subject& subject = {tr
 
 std::string refusal(const std::string& text, const Scene& scene, double shearRate = 1) {
     const Subject subject{!scene.cells.empty(), scene.flow.walls.exist(), shearRate};
-    return messageOf<CaseError>([&] { Observers(settings(text, subject), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
+    return messageOf<CaseError>(
+        [&] { Observers(settings(text, subject), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
 }
 
 // All fields of the particles and of the membranes that are held, bit by bit.
@@ -47,10 +48,11 @@ TEST(Observers, FilesTimesAndNothingChanged) {
     Scene scene = sampleScene({.cells = {{"rbc", Vec3::Zero()}}, .surface = &sphere()});
     couple(scene);
     const TemporaryFolder folder;
-    const auto names = settings("deformation: {type: shape, every: 0.2 strain}\n"
-                                "balance: {type: conservation, every: 3 steps}\n"
-                                "breaks: {type: rupture, every: 0.5 s}\n"
-                                "u: {type: profile, every: 5 steps, bins: 4}\n");
+    const auto names = settings(
+        "deformation: {type: shape, every: 0.2 strain}\n"
+        "balance: {type: conservation, every: 3 steps}\n"
+        "breaks: {type: rupture, every: 0.5 s}\n"
+        "u: {type: profile, every: 5 steps, bins: 4}\n");
     const std::string before = bits(scene);
     Time time{.dt = 0.1, .shearRate = 1};
     Observers observers(names, scene, time, folder.path());
@@ -91,10 +93,12 @@ TEST(Observers, StateKnowsItsObservers) {
     Scene scene = sampleScene({.cells = {{"rbc", Vec3::Zero()}}, .surface = &sphere()});
     couple(scene);
     const Time start{.dt = 0.1, .shearRate = 1};
-    const std::string shape = "deformation: {type: shape, every: 0.1 strain}\n", rupture = "holes: {type: rupture, every: 0.1 strain}\n";
+    const std::string shape = "deformation: {type: shape, every: 0.1 strain}\n",
+                      rupture = "holes: {type: rupture, every: 0.1 strain}\n";
     const auto state = Observers(settings(shape + rupture), scene, start, ".").state();
     EXPECT_FALSE(state.empty());
-    Observers other(settings(rupture + "more: {type: shape, every: 1 steps}\n"), scene, start, ".");  // one gone, one new
+    Observers other(settings(rupture + "more: {type: shape, every: 1 steps}\n"), scene, start,
+                    ".");  // one gone, one new
     EXPECT_NO_THROW(other.restore(state));
     EXPECT_THROW(other.restore({state.begin(), state.end() - 1}), Failure);
 }
@@ -102,7 +106,8 @@ TEST(Observers, StateKnowsItsObservers) {
 TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
     const Scene fluid = sampleScene({});
     for (const std::string type : {"shape", "rupture"}) {
-        const std::string text = refusal("a: {type: conservation, every: 1 s}\nb: {type: " + type + ", every: 1 steps}\n", fluid);
+        const std::string text =
+            refusal("a: {type: conservation, every: 1 s}\nb: {type: " + type + ", every: 1 steps}\n", fluid);
         EXPECT_NE(text.find("system/observers.yaml:2"), std::string::npos) << text;
         EXPECT_NE(text.find("the case has none"), std::string::npos) << text;
         EXPECT_NE(text.find("system/mesh.yaml"), std::string::npos) << text;

@@ -23,9 +23,9 @@ Choice<Family> choose(const std::string& text) {
 struct SampleOptions {
     Vec3 size{16 * um, 12 * um, 12 * um};
     bool walls = false;
-    double shearRate = 1000;                              // 1/s; u = shearRate z with walls
-    std::vector<std::pair<std::string, Vec3>> cells = {}; // name and centre
-    const geometry::TriangleMesh* surface = nullptr;      // of every cell, about the origin
+    double shearRate = 1000;                               // 1/s; u = shearRate z with walls
+    std::vector<std::pair<std::string, Vec3>> cells = {};  // name and centre
+    const geometry::TriangleMesh* surface = nullptr;       // of every cell, about the origin
     std::string rupture = "none";
 };
 
@@ -46,7 +46,8 @@ inline Scene sampleScene(const SampleOptions& o) {
     }
     const bool withCells = !o.cells.empty();
     scene.system = std::make_unique<particles::ParticleSystem>(
-        MPI_COMM_WORLD, box, particles::ParticleStore::Optional{withCells, false, withCells, withCells}, 3 * dx, 0.3 * dx, dx);
+        MPI_COMM_WORLD, box, particles::ParticleStore::Optional{withCells, false, withCells, withCells}, 3 * dx,
+        0.3 * dx, dx);
 
     membrane::MembraneSettings laws;
     laws.bonds = choose<membrane::BondLaw>("{type: harmonic, k: 5e-4 N/m}");
@@ -109,7 +110,8 @@ inline Scene sampleScene(const SampleOptions& o) {
 
 // With its coupling, which refers to the scene's cells: made where the scene stays.
 inline void couple(Scene& scene) {
-    scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx, coupling::DensityBalance(scene.fluidBox.volume(), rho0),
+    scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx,
+                                                              coupling::DensityBalance(scene.fluidBox.volume(), rho0),
                                                               coupling::DualIdentity::Intervals{0, 0});
     scene.coupling->moved(*scene.system, true);
 }
@@ -128,7 +130,9 @@ void deform(Scene& scene, std::size_t cell, F&& f) {
     scene.coupling->moved(*scene.system, true);
 }
 
-inline std::unique_ptr<Observation> begin(const std::string& text, const Scene& scene) { return choose<Observer>(text)->begin(scene); }
+inline std::unique_ptr<Observation> begin(const std::string& text, const Scene& scene) {
+    return choose<Observer>(text)->begin(scene);
+}
 
 inline std::size_t column(const Table& table, const std::string& header) {
     for (std::size_t k = 0; k < table.columns.size(); ++k)
@@ -137,7 +141,8 @@ inline std::size_t column(const Table& table, const std::string& header) {
 }
 
 // The value under a header in the first row of a table.
-inline double value(const Observation& observation, const std::vector<Row>& rows, const std::string& header, std::size_t table = 0) {
+inline double value(const Observation& observation, const std::vector<Row>& rows, const std::string& header,
+                    std::size_t table = 0) {
     for (const Row& row : rows)
         if (row.table == table) return row.values.at(column(observation.tables()[table], header));
     throw std::runtime_error("no row of this table");

@@ -27,7 +27,8 @@ Mat3 withFlow(double angle, const ShearPlane& plane) {
 }
 
 const geometry::TriangleMesh& redCell() {
-    static const geometry::TriangleMesh mesh = geometry::meshSurface(geometry::KuchelFackerell(8 * um, 2.12 * um, 1 * um), 0.25 * um);
+    static const geometry::TriangleMesh mesh =
+        geometry::meshSurface(geometry::KuchelFackerell(8 * um, 2.12 * um, 1 * um), 0.25 * um);
     return mesh;
 }
 

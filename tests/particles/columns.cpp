@@ -79,7 +79,8 @@ TEST(Columns, spanHoldsExactlyTheParticlesBetweenTwoHeights) {
     for (int c = 0; c < columns.columnCount(); ++c)
         for (double low = -11; low < 11; low += 1.25)
             for (const double high : {low, low + 0.25, low + 3.1}) {
-                for (const Columns::Span near : {Columns::Span{0, 0}, {600, 600}, {columns.begin(c) + 3, columns.begin(c) + 1}, {-5, 300}}) {
+                for (const Columns::Span near :
+                     {Columns::Span{0, 0}, {600, 600}, {columns.begin(c) + 3, columns.begin(c) + 1}, {-5, 300}}) {
                     const Columns::Span span = columns.between(c, p.z.data(), low, high, near);
                     for (int k = columns.begin(c); k < columns.end(c); ++k)
                         EXPECT_EQ(k >= span.begin && k < span.end, p.z[k] >= low && p.z[k] <= high);

@@ -23,7 +23,9 @@ std::uint64_t bits(std::int64_t id, std::string_view field) {
     return h ^ (h >> 31);
 }
 
-bool isPlace(std::string_view field) { return field == "x" || field == "y" || field == "z" || field == "id" || field == "kind"; }
+bool isPlace(std::string_view field) {
+    return field == "x" || field == "y" || field == "z" || field == "id" || field == "kind";
+}
 
 }  // namespace
 
@@ -40,7 +42,8 @@ TEST(Decomposition, bricksTileTheBoxAndEachPositionHasOneOwner) {
         for (const Vec3& x : probes.position) {
             int holders = 0, owner = -1;
             for (int r = 0; r < d.size(); ++r)
-                if ((x.array() >= d.brick(r).low.array()).all() && (x.array() < d.brick(r).high.array()).all()) ++holders, owner = r;
+                if ((x.array() >= d.brick(r).low.array()).all() && (x.array() < d.brick(r).high.array()).all())
+                    ++holders, owner = r;
             EXPECT_EQ(holders, 1);
             EXPECT_EQ(d.owner(x), owner);
         }
@@ -89,14 +92,16 @@ TEST(Migration, keepsEveryFieldBitForBitAndLosesNobody) {
                 EXPECT_EQ(std::bit_cast<std::uint64_t>(array[i]), bits(store.id[i], name)) << name;
         });
         // Everybody moves on by a third of the box, so most change rank.
-        for (std::size_t i = 0; i < store.size(); ++i) store.setPosition(i, p.box.wrap(store.position(i) + Vec3(3, 2.7, 2.3)));
+        for (std::size_t i = 0; i < store.size(); ++i)
+            store.setPosition(i, p.box.wrap(store.position(i) + Vec3(3, 2.7, 2.3)));
     }
 }
 
 TEST(Migration, reorderTakesASelectionInTheOrderAsked) {
     ParticleStore store({false, false, true, false});
     store.resize(5);
-    for (std::size_t i = 0; i < 5; ++i) store.x[i] = static_cast<double>(i), store.side[i] = static_cast<std::int64_t>(10 * i);
+    for (std::size_t i = 0; i < 5; ++i)
+        store.x[i] = static_cast<double>(i), store.side[i] = static_cast<std::int64_t>(10 * i);
     store.reorder({4, 0, 2});
     EXPECT_EQ(store.size(), 3u);
     EXPECT_EQ(store.x, (RealArray{4, 0, 2}));
@@ -116,7 +121,8 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
     for (int i = 0; i < system.owned(); ++i) {
         const Vec3 x = moved(static_cast<int>(s.id[i]));
         const double id = static_cast<double>(s.id[i]);
-        std::copy_n(std::array<double, fields>{x[0], x[1], x[2], id, 1 / (id + 1), std::sin(id)}.begin(), fields, records.begin() + fields * i);
+        std::copy_n(std::array<double, fields>{x[0], x[1], x[2], id, 1 / (id + 1), std::sin(id)}.begin(), fields,
+                    records.begin() + fields * i);
     }
     system.forEachPair(records.data(), fields, 1, [](PairList::Group) {});
     const Brick& brick = system.decomposition().own();

@@ -55,7 +55,9 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     const PairView view = list.view();
     const int lanes = blockLanes();
     const double support = system.support();
-    const auto isWall = [&](int j) { return records[static_cast<std::size_t>(j) * tagFields + 4] == static_cast<double>(Kind::wall); };
+    const auto isWall = [&](int j) {
+        return records[static_cast<std::size_t>(j) * tagFields + 4] == static_cast<double>(Kind::wall);
+    };
 
     // What each block meets, by its own list and by the lists of earlier blocks.
     std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
@@ -73,7 +75,8 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     }
 
     std::vector<int> seen(static_cast<std::size_t>(list.blockCount()), 0);
-    for (const auto group : {PairList::interior, PairList::interiorAtWall, PairList::boundary, PairList::boundaryAtWall})
+    for (const auto group :
+         {PairList::interior, PairList::interiorAtWall, PairList::boundary, PairList::boundaryAtWall})
         for (const int b : list.blocks(group)) {
             ++seen[static_cast<std::size_t>(b)];
             const std::set<Image>& listed = met[b];
@@ -89,7 +92,8 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             EXPECT_EQ(meetsGhost, group == PairList::boundary || group == PairList::boundaryAtWall);
 
             int images[3];
-            for (int k = 0; k < 3; ++k) images[k] = p.box.periodic[k] ? static_cast<int>(std::ceil(support / p.box.size()[k])) : 0;
+            for (int k = 0; k < 3; ++k)
+                images[k] = p.box.periodic[k] ? static_cast<int>(std::ceil(support / p.box.size()[k])) : 0;
             for (int i = b * lanes; i < last; ++i) {
                 const Vec3 at(records.data() + static_cast<std::size_t>(i) * tagFields);
                 for (int id = 0; id < p.count(); ++id) {
@@ -143,7 +147,8 @@ TEST_P(Pairs, theListHoldsWhileNothingHasMovedMoreThanHalfTheSkin) {
     EXPECT_LT(system.rebuilds(), 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, Pairs, ::testing::ValuesIn(cases), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Boxes, Pairs, ::testing::ValuesIn(cases),
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(ParticleSystem, aParticleWithoutFinitePositionAsksForRebuild) {
     const Population p(box({8, 7, 6}), 336, 3);
@@ -151,7 +156,8 @@ TEST(ParticleSystem, aParticleWithoutFinitePositionAsksForRebuild) {
     p.deal(system.store());
     system.start();
     EXPECT_FALSE(system.mustRebuild());
-    if (system.owned() > 0 && system.decomposition().rank() == system.decomposition().size() - 1) system.store().y[0] = NAN;
+    if (system.owned() > 0 && system.decomposition().rank() == system.decomposition().size() - 1)
+        system.store().y[0] = NAN;
     EXPECT_TRUE(system.mustRebuild());
 }
 
@@ -177,8 +183,10 @@ TEST(ParticleSystem, resumeGivesTheSameListsAndOrder) {
     EXPECT_EQ(second.store().yBuilt, first.store().yBuilt);
     ASSERT_EQ(second.ghosts(), first.ghosts());
     ASSERT_EQ(second.list().entries(), first.list().entries());
-    for (std::size_t k = 0; k < first.list().entries(); ++k) EXPECT_EQ(second.list().view().j[k], first.list().view().j[k]);
+    for (std::size_t k = 0; k < first.list().entries(); ++k)
+        EXPECT_EQ(second.list().view().j[k], first.list().view().j[k]);
     EXPECT_EQ(taggedRecords(second), taggedRecords(first));
     for (int g = 0; g < PairList::groups; ++g)
-        EXPECT_EQ(second.list().blocks(static_cast<PairList::Group>(g)), first.list().blocks(static_cast<PairList::Group>(g)));
+        EXPECT_EQ(second.list().blocks(static_cast<PairList::Group>(g)),
+                  first.list().blocks(static_cast<PairList::Group>(g)));
 }

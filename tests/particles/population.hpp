@@ -43,7 +43,9 @@ struct Population {
     }
 };
 
-inline Box box(const Vec3& size, bool x = true, bool y = true, bool z = true) { return {-0.3 * size, 0.7 * size, {x, y, z}}; }
+inline Box box(const Vec3& size, bool x = true, bool y = true, bool z = true) {
+    return {-0.3 * size, 0.7 * size, {x, y, z}};
+}
 
 // Records of id and kind behind the position: owned filled, ghosts through the halo.
 inline constexpr int tagFields = 5;

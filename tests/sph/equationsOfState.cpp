@@ -16,9 +16,10 @@ const char* const names[] = {"tait", "{type: tait, gamma: 3}", "linear"};
 }  // namespace
 
 TEST(EquationsOfState, valuesOfTheFormulas) {
-    EXPECT_NEAR(choose<EquationOfState>("tait")->pressure(1060.5, rho0, c0), rho0 * c0 * c0 / 7 * (std::pow(1.01, 7) - 1), 1e-12 * rho0);
-    EXPECT_NEAR(choose<EquationOfState>("{type: tait, gamma: 3}")->pressure(1060.5, rho0, c0), rho0 * c0 * c0 / 3 * (std::pow(1.01, 3) - 1),
-                1e-12 * rho0);
+    EXPECT_NEAR(choose<EquationOfState>("tait")->pressure(1060.5, rho0, c0),
+                rho0 * c0 * c0 / 7 * (std::pow(1.01, 7) - 1), 1e-12 * rho0);
+    EXPECT_NEAR(choose<EquationOfState>("{type: tait, gamma: 3}")->pressure(1060.5, rho0, c0),
+                rho0 * c0 * c0 / 3 * (std::pow(1.01, 3) - 1), 1e-12 * rho0);
     EXPECT_NEAR(choose<EquationOfState>("linear")->pressure(1060.5, rho0, c0), c0 * c0 * 10.5, 1e-12 * rho0);
 }
 
@@ -27,14 +28,17 @@ TEST(EquationsOfState, pressureVanishesAtRestAndTheSlopeIsTheSoundSpeed) {
         const auto e = choose<EquationOfState>(name);
         EXPECT_EQ(e->pressure(rho0, rho0, c0), 0) << name;
         const double step = 1e-3;
-        EXPECT_NEAR((e->pressure(rho0 + step, rho0, c0) - e->pressure(rho0 - step, rho0, c0)) / (2 * step), c0 * c0, 1e-7 * c0 * c0) << name;
+        EXPECT_NEAR((e->pressure(rho0 + step, rho0, c0) - e->pressure(rho0 - step, rho0, c0)) / (2 * step), c0 * c0,
+                    1e-7 * c0 * c0)
+            << name;
     }
 }
 
 TEST(EquationsOfState, densityIsTheInverseOfPressure) {
     for (const char* name : names) {
         const auto e = choose<EquationOfState>(name);
-        for (const double rho : {0.97, 0.999, 1.0, 1.004, 1.05}) EXPECT_NEAR(e->density(e->pressure(rho * rho0, rho0, c0), rho0, c0), rho * rho0, 1e-9);
+        for (const double rho : {0.97, 0.999, 1.0, 1.004, 1.05})
+            EXPECT_NEAR(e->density(e->pressure(rho * rho0, rho0, c0), rho0, c0), rho * rho0, 1e-9);
     }
 }
 
@@ -44,6 +48,7 @@ TEST(EquationsOfState, specificPressureIsPressureOverDensitySquared) {
     for (const char* name : names) {
         const auto e = choose<EquationOfState>(name);
         e->specificPressure(rho.data(), out.data(), 37, rho0, c0);
-        for (std::size_t i = 0; i < 37; ++i) EXPECT_NEAR(out[i] * rho[i] * rho[i], e->pressure(rho[i], rho0, c0), 1e-12 * rho0 * c0 * c0) << name;
+        for (std::size_t i = 0; i < 37; ++i)
+            EXPECT_NEAR(out[i] * rho[i] * rho[i], e->pressure(rho[i], rho0, c0), 1e-12 * rho0 * c0 * c0) << name;
     }
 }

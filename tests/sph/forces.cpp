@@ -65,17 +65,21 @@ class Forces : public ::testing::TestWithParam<Case> {
         if (c.walls) {
             fluid.walls = {2, layers, c.size[2] - layers, {Vec3(-1, 0.2, 0), Vec3(1, 0, 0)}};
             for (Particle& p : all)
-                if (p.x[2] < fluid.walls.low || p.x[2] > fluid.walls.high) p.wall = true, p.u = fluid.walls.velocity[p.x[2] > fluid.walls.low];
+                if (p.x[2] < fluid.walls.low || p.x[2] > fluid.walls.high)
+                    p.wall = true, p.u = fluid.walls.velocity[p.x[2] > fluid.walls.low];
             all[8].wall = false;  // one fluid particle has been pushed behind a surface
         }
-        system = std::make_unique<ParticleSystem>(MPI_COMM_WORLD, cube(c.size, c.walls),
-                                                  ParticleStore::Optional{c.varyingMass, c.varyingViscosity, false, false}, support, skin, 1.0);
+        system = std::make_unique<ParticleSystem>(
+            MPI_COMM_WORLD, cube(c.size, c.walls),
+            ParticleStore::Optional{c.varyingMass, c.varyingViscosity, false, false}, support, skin, 1.0);
         deal(all, *system);
     }
 
     // What a particle had as acceleration and rate of density before: they enter what is extrapolated.
     static double earlierRate(int id) { return 0.2 * std::sin(2.0 * id); }
-    static Vec3 earlier(int id, bool wall) { return wall ? Vec3::Zero().eval() : Vec3(std::sin(id), std::cos(id), 0.3); }
+    static Vec3 earlier(int id, bool wall) {
+        return wall ? Vec3::Zero().eval() : Vec3(std::sin(id), std::cos(id), 0.3);
+    }
 
     // Forces against the double loop, errors relative to the largest.
     void compare(double tolerance);
@@ -104,13 +108,16 @@ class Forces : public ::testing::TestWithParam<Case> {
         };
         const Particle p = extrapolated(i);
         const Vec3 size = system->box().size();
-        const auto pressure = [&](const Particle& k) { return fluid.equationOfState->pressure(k.density, 1, fluid.soundSpeed) / (k.density * k.density); };
+        const auto pressure = [&](const Particle& k) {
+            return fluid.equationOfState->pressure(k.density, 1, fluid.soundSpeed) / (k.density * k.density);
+        };
         Sum sum;
         for (int k = 0; k < static_cast<int>(all.size()); ++k) {
             const Particle o = extrapolated(k);
             if (p.wall && o.wall) continue;
             const double mass = c.varyingMass ? o.mass : fluid.mass;
-            const double viscosity = c.varyingViscosity ? 2 * p.viscosity * o.viscosity / (p.viscosity + o.viscosity) : fluid.viscosity;
+            const double viscosity =
+                c.varyingViscosity ? 2 * p.viscosity * o.viscosity / (p.viscosity + o.viscosity) : fluid.viscosity;
             for (int x = -2; x <= 2; ++x)
                 for (int y = -2; y <= 2; ++y)
                     for (int z = c.walls ? 0 : -2; z <= (c.walls ? 0 : 2); ++z) {
@@ -119,7 +126,8 @@ class Forces : public ::testing::TestWithParam<Case> {
                         if (r == 0 || r >= support) continue;
                         const Vec3 gradient = kernelDerivative(c.kernel, r, support) * d / r;
                         sum.a -= mass * (pressure(p) + pressure(o)) * gradient;
-                        sum.a += 2 * viscosity * mass / (p.density * o.density) * beta(p.x, at) * kernelDerivative(c.kernel, r, support) / r * du;
+                        sum.a += 2 * viscosity * mass / (p.density * o.density) * beta(p.x, at) *
+                                 kernelDerivative(c.kernel, r, support) / r * du;
                         sum.rate += mass * du.dot(gradient);
                     }
         }
@@ -159,7 +167,8 @@ void Forces::compare(double tolerance) {
     MPI_Allreduce(MPI_IN_PLACE, &rateSize, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     EXPECT_LT(error, tolerance * size);
     EXPECT_LT(rateError, tolerance * rateSize);
-    for (int upper = 0; upper < 2; ++upper) EXPECT_LT((forces.wallForce(upper) - onWall[upper]).norm(), 10 * tolerance * size);
+    for (int upper = 0; upper < 2; ++upper)
+        EXPECT_LT((forces.wallForce(upper) - onWall[upper]).norm(), 10 * tolerance * size);
     if (c.walls) {
         EXPECT_GT(sumOverRanks(onWall[0].norm()), 0.1 * size);
     }
@@ -193,4 +202,5 @@ TEST_P(Forces, conserveMomentum) {
     EXPECT_LT(total.norm(), 1e-13 * sumOverRanks(magnitude));
 }
 
-INSTANTIATE_TEST_SUITE_P(Variants, Forces, ::testing::ValuesIn(cases), [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(Variants, Forces, ::testing::ValuesIn(cases),
+                         [](const auto& instance) { return instance.param.name; });

@@ -36,9 +36,11 @@ TEST(Kernels, slopeIsTheDerivativeOverTheDistance) {
         const auto kernel = choose<Kernel>(name);
         const double H = 2.7, step = 1e-6;
         for (double q = 0.013; q < 1.2; q += 0.0371) {
-            const double derivative = (kernel->value(q + step) - kernel->value(q - step)) / (2 * step * H) * kernel->normalisation(H);
+            const double derivative =
+                (kernel->value(q + step) - kernel->value(q - step)) / (2 * step * H) * kernel->normalisation(H);
             const double slope = kernel->gradientNormalisation(H) * kernel->slope(q);
-            EXPECT_NEAR(-derivative / (q * H), slope, 2e-8 * kernel->gradientNormalisation(H) * kernel->slope(0.2)) << name << " q " << q;
+            EXPECT_NEAR(-derivative / (q * H), slope, 2e-8 * kernel->gradientNormalisation(H) * kernel->slope(0.2))
+                << name << " q " << q;
         }
         EXPECT_EQ(kernel->value(1), 0);
         EXPECT_EQ(kernel->slope(1), 0);
@@ -55,8 +57,9 @@ TEST(Kernels, secondMomentsOnTheLattice) {
         double support, lucy, wendland, quintic;
         int neighbours;
     };
-    const Row rows[] = {{2.0, 4.2, -1.8, -13.6, 27}, {2.4, -3.7, -1.5, -1.5, 57},  {2.5, -3.3, -2.1, -0.6, 81}, {2.6, -1.2, -2.1, -0.3, 81},
-                        {2.8, 1.6, -0.9, -0.02, 81}, {3.0, 0.7, 0.06, 0.10, 93}, {3.2, -0.6, -0.01, 0.07, 147}, {3.5, -0.2, -0.3, -0.1, 179}};
+    const Row rows[] = {{2.0, 4.2, -1.8, -13.6, 27},   {2.4, -3.7, -1.5, -1.5, 57}, {2.5, -3.3, -2.1, -0.6, 81},
+                        {2.6, -1.2, -2.1, -0.3, 81},   {2.8, 1.6, -0.9, -0.02, 81}, {3.0, 0.7, 0.06, 0.10, 93},
+                        {3.2, -0.6, -0.01, 0.07, 147}, {3.5, -0.2, -0.3, -0.1, 179}};
     const auto tolerance = [](double v) { return std::abs(v) <= 0.1 ? (std::abs(v) == 0.1 ? 0.06 : 0.006) : 0.06; };
     for (const Row& row : rows) {
         const double expected[] = {row.lucy, row.wendland, row.quintic};

@@ -33,8 +33,11 @@ TEST(Shifting, followsTheEquationAndItsBound) {
             Vec3 C = Vec3::Zero();
             for (const Particle& o : all)
                 for (int image = 0; image < 27; ++image) {
-                    const Vec3 d = all[s.id[i]].x - o.x - Vec3(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1).cwiseProduct(system.box().size());
-                    C += o.mass / o.density * kernel->gradientNormalisation(support) * kernel->slope(d.norm() / support) * d;
+                    const Vec3 d =
+                        all[s.id[i]].x - o.x -
+                        Vec3(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1).cwiseProduct(system.box().size());
+                    C += o.mass / o.density * kernel->gradientNormalisation(support) *
+                         kernel->slope(d.norm() / support) * d;
                 }
             Vec3 expected = coefficient * support * support * rate * dt * 5 * C;
             if (expected.norm() > 0.05) expected *= 0.05 / expected.norm();

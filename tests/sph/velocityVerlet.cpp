@@ -19,7 +19,8 @@ constexpr Index3 size{8, 8, 6};
 std::vector<Particle> swirl() {
     std::vector<Particle> all = lattice(size, 0.05, 3);
     const double k = 2 * std::numbers::pi / 8;
-    for (Particle& p : all) p.u = Vec3(std::sin(k * p.x[0]) * std::cos(k * p.x[1]), -std::cos(k * p.x[0]) * std::sin(k * p.x[1]), 0.1);
+    for (Particle& p : all)
+        p.u = Vec3(std::sin(k * p.x[0]) * std::cos(k * p.x[1]), -std::cos(k * p.x[0]) * std::sin(k * p.x[1]), 0.1);
     return all;
 }
 
@@ -40,7 +41,8 @@ std::vector<double> run(int steps, const std::string& kernel = "wendlandC2") {
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec3 x = box.wrap(s.position(i));
         double* out = all.data() + 7 * s.id[i];
-        out[0] = x[0], out[1] = x[1], out[2] = x[2], out[3] = s.u[i], out[4] = s.v[i], out[5] = s.w[i], out[6] = s.density[i];
+        out[0] = x[0], out[1] = x[1], out[2] = x[2], out[3] = s.u[i], out[4] = s.v[i], out[5] = s.w[i],
+        out[6] = s.density[i];
     }
     MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     return all;
@@ -65,15 +67,14 @@ TEST(VelocityVerlet, isOfSecondOrder) {
     EXPECT_LT(ratio, 4.4);
 }
 
-TEST(VelocityVerlet, repeatsBitForBit) {
-    EXPECT_EQ(run(25, "lucy"), run(25, "lucy"));
-}
+TEST(VelocityVerlet, repeatsBitForBit) { EXPECT_EQ(run(25, "lucy"), run(25, "lucy")); }
 
 // One step written out from Eqs 12 to 17 of the header, forces by another FluidForces.
 TEST(VelocityVerlet, aStepFollowsTheEquations) {
     FluidModel fluid = model("lucy");
     const double dt = 0.01;
-    ParticleSystem system(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1), plain(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1);
+    ParticleSystem system(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1),
+        plain(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1);
     deal(swirl(), system);
     deal(swirl(), plain);
     FluidForces forces(fluid, system), plainForces(fluid, plain);
@@ -97,6 +98,7 @@ TEST(VelocityVerlet, aStepFollowsTheEquations) {
         const Vec3 a(old.fx[i], old.fy[i], old.fz[i]), b(s.fx[i], s.fy[i], s.fz[i]);
         EXPECT_LT((system.store().velocity(i) - (old.velocity(i) + 0.5 * dt * (a + b))).norm(), 1e-13);
         EXPECT_LT((system.store().position(i) - s.position(i)).norm(), 1e-13);
-        EXPECT_NEAR(system.store().density[i], old.density[i] + 0.5 * dt * (old.densityRate[i] + s.densityRate[i]), 1e-13);
+        EXPECT_NEAR(system.store().density[i], old.density[i] + 0.5 * dt * (old.densityRate[i] + s.densityRate[i]),
+                    1e-13);
     }
 }

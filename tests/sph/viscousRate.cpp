@@ -57,9 +57,11 @@ TEST(ViscousRate, limitsOnTheLattice) {
         const char* kernel;
         double support, limit;
     };
-    for (const Row& row : {Row{"lucy", 2.6, 0.33}, {"wendlandC2", 2.8, 0.29}, {"quintic", 2.5, 0.18}, {"quintic", 2.8, 0.22}}) {
+    for (const Row& row :
+         {Row{"lucy", 2.6, 0.33}, {"wendlandC2", 2.8, 0.29}, {"quintic", 2.5, 0.18}, {"quintic", 2.8, 0.22}}) {
         const Index3 n{8, 8, 8};
-        EXPECT_NEAR(1 / rate(lattice(n, 0), n, row.kernel, row.support, 200), row.limit, 0.006) << row.kernel << " " << row.support;
+        EXPECT_NEAR(1 / rate(lattice(n, 0), n, row.kernel, row.support, 200), row.limit, 0.006)
+            << row.kernel << " " << row.support;
     }
 }
 

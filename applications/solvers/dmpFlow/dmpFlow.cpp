@@ -9,17 +9,19 @@
 using namespace corpuscle;
 
 int main(int argc, char* argv[]) {
-    Application app("dmpFlow", "Red blood cells and capsules in flow: SPH fluid, mass-spring membranes, rupture.", argc, argv,
+    Application app("dmpFlow", "Red blood cells and capsules in flow: SPH fluid, mass-spring membranes, rupture.", argc,
+                    argv,
                     simulation::solverUsage("dmpFlow"));  // options, MPI, log, exit codes
     return app.run([&] {
         app.openLog();
-        const simulation::Case input = simulation::Case::read(app);               // 1. strict dictionaries, SI from here on
-        simulation::StartingPoint start = simulation::prepare(app, input);        // 2. only what the case names exists
+        const simulation::Case input = simulation::Case::read(app);         // 1. strict dictionaries, SI from here on
+        simulation::StartingPoint start = simulation::prepare(app, input);  // 2. only what the case names exists
         coupling::Scene& scene = start.scene;
         Time& time = start.time;
-        simulation::Integrator integrator(input, scene);                          // 3. terms fixed once
+        simulation::Integrator integrator(input, scene);  // 3. terms fixed once
         simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, scene, integrator, time, start.state);  // 4. observers, writers, checkpoints
+        simulation::Schedule after(app, input, scene, integrator, time,
+                                   start.state);  // 4. observers, writers, checkpoints
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);

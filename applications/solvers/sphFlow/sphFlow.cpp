@@ -13,17 +13,19 @@ int main(int argc, char* argv[]) {
                     simulation::solverUsage("sphFlow"));  // options, MPI, log, exit codes
     return app.run([&] {
         app.openLog();
-        const simulation::Case input = simulation::Case::read(app);               // 1. strict dictionaries, SI from here on
+        const simulation::Case input = simulation::Case::read(app);  // 1. strict dictionaries, SI from here on
         Problems problems;
         if (!input.mesh.cells.empty())
-            problems.add({"system/mesh.yaml", 0, 0}, "cells", "the case has cells, and sphFlow is for a fluid alone: run dmpFlow");
+            problems.add({"system/mesh.yaml", 0, 0}, "cells",
+                         "the case has cells, and sphFlow is for a fluid alone: run dmpFlow");
         problems.throwIfAny();
-        simulation::StartingPoint start = simulation::prepare(app, input);        // 2. only what the case names exists
+        simulation::StartingPoint start = simulation::prepare(app, input);  // 2. only what the case names exists
         coupling::Scene& scene = start.scene;
         Time& time = start.time;
-        simulation::Integrator integrator(input, scene);                          // 3. terms fixed once
+        simulation::Integrator integrator(input, scene);  // 3. terms fixed once
         simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, scene, integrator, time, start.state);  // 4. observers, writers, checkpoints
+        simulation::Schedule after(app, input, scene, integrator, time,
+                                   start.state);  // 4. observers, writers, checkpoints
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);

@@ -11,7 +11,8 @@ using simulation::CellSettings;
 
 void requireSerial(const Application& app) {
     if (app.communicator().size() > 1)
-        throw Failure(ExitCode::usage, fmt::format("runs on one rank, but {} were started: run it without mpirun", app.communicator().size()));
+        throw Failure(ExitCode::usage, fmt::format("runs on one rank, but {} were started: run it without mpirun",
+                                                   app.communicator().size()));
 }
 
 void place(TriangleMesh& mesh, const CellSettings& cell) {
@@ -50,16 +51,19 @@ std::vector<std::string> misplacedCells(const Case& input, const std::vector<Tri
         for (const Vec3& x : meshes[c].nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
         for (int k = 0; k < 3; ++k) {
             const char axis = "xyz"[k];
-            if (box.periodic[static_cast<std::size_t>(k)] ? high[k] - low[k] > box.size()[k] : low[k] < box.low[k] || high[k] > box.high[k])
-                faults.push_back(fmt::format("the cell '{}' reaches from {} to {} along {}, and the box from {} to {}", cells[c].name,
-                                             formatQuantity(low[k], unit::metre), formatQuantity(high[k], unit::metre), axis,
-                                             formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre)));
+            if (box.periodic[static_cast<std::size_t>(k)] ? high[k] - low[k] > box.size()[k]
+                                                          : low[k] < box.low[k] || high[k] > box.high[k])
+                faults.push_back(fmt::format(
+                    "the cell '{}' reaches from {} to {} along {}, and the box from {} to {}", cells[c].name,
+                    formatQuantity(low[k], unit::metre), formatQuantity(high[k], unit::metre), axis,
+                    formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre)));
         }
         for (std::size_t other = 0; other < meshes.size(); ++other) {
             if (other == c) continue;
             const std::vector<int> side = geometry::tagSides(meshes[other].nodes, {meshes[c]}, periodOf(box));
             if (const auto inside = std::count(side.begin(), side.end(), 1))
-                faults.push_back(fmt::format("{} nodes of the cell '{}' lie inside the cell '{}'", inside, cells[other].name, cells[c].name));
+                faults.push_back(fmt::format("{} nodes of the cell '{}' lie inside the cell '{}'", inside,
+                                             cells[other].name, cells[c].name));
         }
     }
     return faults;
@@ -70,10 +74,12 @@ membrane::NetworkModuli moduliOf(const TriangleMesh& mesh, const membrane::Membr
 }
 
 nlohmann::ordered_json toJson(const geometry::MeshQuality& q) {
-    return {{"nodes", q.nodes},           {"edges", q.edges},           {"triangles", q.triangles}, {"euler", q.euler},
-            {"closed", q.closed},         {"edgeMin_m", q.edgeMin},     {"edgeMean_m", q.edgeMean}, {"edgeMax_m", q.edgeMax},
-            {"angleMin_deg", q.angleMin}, {"angleMax_deg", q.angleMax}, {"valence", q.valence},     {"area_m2", q.area},
-            {"areaError", q.areaError},   {"volume_m3", q.volume},      {"volumeError", q.volumeError}, {"residual", q.residual}};
+    return {{"nodes", q.nodes},           {"edges", q.edges},       {"triangles", q.triangles},
+            {"euler", q.euler},           {"closed", q.closed},     {"edgeMin_m", q.edgeMin},
+            {"edgeMean_m", q.edgeMean},   {"edgeMax_m", q.edgeMax}, {"angleMin_deg", q.angleMin},
+            {"angleMax_deg", q.angleMax}, {"valence", q.valence},   {"area_m2", q.area},
+            {"areaError", q.areaError},   {"volume_m3", q.volume},  {"volumeError", q.volumeError},
+            {"residual", q.residual}};
 }
 
 nlohmann::ordered_json toJson(const membrane::NetworkModuli& m) {

@@ -22,7 +22,8 @@ std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input
 geometry::Period periodOf(const particles::Box& box);
 
 // Cells that lie in each other or reach out of the box, in plain words; empty: none.
-std::vector<std::string> misplacedCells(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& meshes);
+std::vector<std::string> misplacedCells(const simulation::Case& input,
+                                        const std::vector<geometry::TriangleMesh>& meshes);
 
 membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);
 

@@ -40,15 +40,22 @@ void reportGroups(Application& app, const simulation::Case& input, ordered_json&
 void reportSize(Application& app, const simulation::Case& input, ordered_json& json) {
     const auto n = simulation::estimateParticles(input);
     const auto size = simulation::estimateSize(input);
-    app.log().table({"size", "value"}, {{"fluid particles", std::to_string(n.fluid)},
-                                        {"wall particles", std::to_string(n.walls)},
-                                        {"membrane nodes", std::to_string(n.nodes)},
-                                        {"memory, all ranks", mebibytes(size.memory)},
-                                        {"disk: results", fmt::format("{} ({} times of {})", mebibytes(size.perWrite * static_cast<double>(size.writes)), size.writes, mebibytes(size.perWrite))},
-                                        {"disk: checkpoints", fmt::format("{} ({} kept)", mebibytes(size.checkpoint * static_cast<double>(input.control.checkpoint.keep)), input.control.checkpoint.keep)}});
+    app.log().table(
+        {"size", "value"},
+        {{"fluid particles", std::to_string(n.fluid)},
+         {"wall particles", std::to_string(n.walls)},
+         {"membrane nodes", std::to_string(n.nodes)},
+         {"memory, all ranks", mebibytes(size.memory)},
+         {"disk: results",
+          fmt::format("{} ({} times of {})", mebibytes(size.perWrite * static_cast<double>(size.writes)), size.writes,
+                      mebibytes(size.perWrite))},
+         {"disk: checkpoints",
+          fmt::format("{} ({} kept)", mebibytes(size.checkpoint * static_cast<double>(input.control.checkpoint.keep)),
+                      input.control.checkpoint.keep)}});
     json["particles"] = {{"fluid", n.fluid}, {"walls", n.walls}, {"nodes", n.nodes}};
     json["memory_B"] = size.memory;
-    json["disk_B"] = size.perWrite * static_cast<double>(size.writes) + size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
+    json["disk_B"] = size.perWrite * static_cast<double>(size.writes) +
+                     size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
 }
 
 // Moduli as the case states them and as the network has them.
@@ -67,7 +74,8 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
     std::vector<std::vector<std::string>> rows;
     const std::string binding = integrator.limits().binding().name;
     for (const sph::StepLimit& limit : integrator.limits().all) {
-        rows.push_back({limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" : ""});
+        rows.push_back(
+            {limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" : ""});
         json["limits_s"][limit.name] = limit.seconds;
     }
     app.log().table({"limit of the step", "dt", ""}, rows);
@@ -76,12 +84,14 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
     const double dt = time.dt;
     const auto begin = std::chrono::steady_clock::now();
     for (int k = 0; k < burstSteps; ++k) integrator.advance(scene, time);
-    const double perStep = app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) / burstSteps;
+    const double perStep =
+        app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
+        burstSteps;
     const double steps = (time.endTime ? *time.endTime : *time.endStrain / time.shearRate) / dt;
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
-    app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)", steps, perStep,
-                   formatDuration(steps * perStep), app.communicator().size(), app.communicator().size() > 1 ? "s" : "",
-                   1e-6 * particles / perStep);
+    app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)",
+                   steps, perStep, formatDuration(steps * perStep), app.communicator().size(),
+                   app.communicator().size() > 1 ? "s" : "", 1e-6 * particles / perStep);
     json["steps"] = steps;
     json["secondsPerStep"] = perStep;
     json["predicted_s"] = steps * perStep;

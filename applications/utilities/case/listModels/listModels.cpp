@@ -45,8 +45,11 @@ ordered_json flowSchema() {
     flow.family = sph::Flow::familyName;
     holder.fields.push_back(flow);
     const ordered_json json = jsonSchema(holder);
-    return {{"$schema", json["$schema"]}, {"title", "flow"}, {"description", flowInfo().text},
-            {"allOf", {{{"$ref", json["properties"]["model"]["$ref"]}}}}, {"definitions", json["definitions"]}};
+    return {{"$schema", json["$schema"]},
+            {"title", "flow"},
+            {"description", flowInfo().text},
+            {"allOf", {{{"$ref", json["properties"]["model"]["$ref"]}}}},
+            {"definitions", json["definitions"]}};
 }
 
 std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
@@ -83,7 +86,8 @@ ordered_json toJson(const ModelInfo& model) {
 std::string plain(const std::string& name) {
     std::string text;
     for (const char c : name)
-        if (std::isalnum(static_cast<unsigned char>(c))) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
 }
 
@@ -98,10 +102,15 @@ std::string oneLinePerModel(const std::vector<ModelInfo>& models) {
 void printTable(const SchemaInfo& info, const std::string& path, const std::string& indent) {
     std::vector<std::vector<std::string>> rows;
     for (const FieldInfo& f : info.fields)
-        rows.push_back({path + (f.key == "*" ? "<name>" : f.key), f.description(), !f.fallback.empty() ? f.fallback : f.required ? "required" : "", f.text});
+        rows.push_back({path + (f.key == "*" ? "<name>" : f.key), f.description(),
+                        !f.fallback.empty() ? f.fallback
+                        : f.required        ? "required"
+                                            : "",
+                        f.text});
     if (rows.empty() && path.empty()) std::cout << indent << "no settings\n";
     if (!rows.empty())
-        for (const std::string& line : alignedTable({"key", "value", "default", "meaning"}, rows)) std::cout << indent << line << '\n';
+        for (const std::string& line : alignedTable({"key", "value", "default", "meaning"}, rows))
+            std::cout << indent << line << '\n';
     for (const auto& keys : info.exactlyOne) std::cout << indent << "exactly one of " << joinWords(keys) << '\n';
     for (const auto& keys : info.atMostOne) std::cout << indent << "at most one of " << joinWords(keys) << '\n';
     for (const FieldInfo& f : info.fields)
@@ -148,8 +157,8 @@ void show(const std::string& wanted, bool asJson) {
         }
     }
     if (!found)
-        throw Failure(ExitCode::usage, "there is no family, model or dictionary '" + wanted + "'." + didYouMean(wanted, known) +
-                                           " Known: " + joinWords(known));
+        throw Failure(ExitCode::usage, "there is no family, model or dictionary '" + wanted + "'." +
+                                           didYouMean(wanted, known) + " Known: " + joinWords(known));
     if (asJson) std::cout << json.dump(2) << '\n';
 }
 
@@ -162,18 +171,20 @@ void showAll(bool asJson) {
     if (asJson)
         std::cout << json.dump(2) << '\n';
     else
-        std::cout << "listModels NAME shows the settings of a family, a model or a dictionary (control, numerics, ...).\n";
+        std::cout
+            << "listModels NAME shows the settings of a family, a model or a dictionary (control, numerics, ...).\n";
 }
 
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("listModels", "Shows the models that a case can choose, and their settings.", argc, argv,
-                    {.options = {{"markdown", "", "The whole dictionary reference, as docs/dictionaries.md has it."},
-                                 {"schema", "DIR", "Write a JSON schema for each dictionary into DIR."}},
-                     .arguments = {{"NAME", "", "A family (kernel, bondLaw), a model (wendlandC2) or a dictionary (numerics)."}},
-                     .optionalArguments = 1,
-                     .samples = {"listModels", "listModels kernel", "listModels kuchelFackerell", "listModels -markdown"}});
+    Application app(
+        "listModels", "Shows the models that a case can choose, and their settings.", argc, argv,
+        {.options = {{"markdown", "", "The whole dictionary reference, as docs/dictionaries.md has it."},
+                     {"schema", "DIR", "Write a JSON schema for each dictionary into DIR."}},
+         .arguments = {{"NAME", "", "A family (kernel, bondLaw), a model (wendlandC2) or a dictionary (numerics)."}},
+         .optionalArguments = 1,
+         .samples = {"listModels", "listModels kernel", "listModels kuchelFackerell", "listModels -markdown"}});
     return app.run([&] {
         if (!app.communicator().isRoot()) return ExitCode::done;
         if (const auto folder = app.value("schema"))

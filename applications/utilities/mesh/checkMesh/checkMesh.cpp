@@ -29,19 +29,24 @@ constexpr double leastCellDistance = 0.25;  // of the nodes of two cells
 
 using Faults = std::vector<std::string>;
 
-void checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json, Faults& faults) {
+void checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
+                Faults& faults) {
     for (std::size_t c = 0; c < meshes.size(); ++c) {
         const simulation::CellSettings& cell = input.mesh.cells[c];
         const auto fault = [&](const std::string& text) { faults.push_back("cell '" + cell.name + "': " + text); };
-        const geometry::MeshQuality quality = geometry::meshQuality(utilities::inShapeFrame(meshes[c], cell), cell.shape.model.get());
+        const geometry::MeshQuality quality =
+            geometry::meshQuality(utilities::inShapeFrame(meshes[c], cell), cell.shape.model.get());
         for (const std::string& text : geometry::checkClosedManifold(meshes[c])) fault(text);
-        if (quality.euler != 2) fault(fmt::format("Euler characteristic {} instead of 2: not one surface without handles", quality.euler));
-        if (quality.angleMin < leastAngle) fault(fmt::format("smallest angle {:.1f} degrees, below {}", quality.angleMin, leastAngle));
+        if (quality.euler != 2)
+            fault(fmt::format("Euler characteristic {} instead of 2: not one surface without handles", quality.euler));
+        if (quality.angleMin < leastAngle)
+            fault(fmt::format("smallest angle {:.1f} degrees, below {}", quality.angleMin, leastAngle));
         if (std::abs(quality.edgeMean / cell.edge - 1) > edgeTolerance)
-            fault(fmt::format("mean edge {}, but system/mesh.yaml asks for {}: run membraneMesh again", formatQuantity(quality.edgeMean, unit::metre),
-                              formatQuantity(cell.edge, unit::metre)));
+            fault(fmt::format("mean edge {}, but system/mesh.yaml asks for {}: run membraneMesh again",
+                              formatQuantity(quality.edgeMean, unit::metre), formatQuantity(cell.edge, unit::metre)));
         if (!(quality.residual <= surfaceTolerance))
-            fault(fmt::format("nodes lie up to {:.2g} radii off the shape of system/mesh.yaml: run membraneMesh again", quality.residual));
+            fault(fmt::format("nodes lie up to {:.2g} radii off the shape of system/mesh.yaml: run membraneMesh again",
+                              quality.residual));
         app.log().info("cell {}\n{}", cell.name, utilities::indented(quality.text()));
         json["cells"][cell.name] = {{"quality", utilities::toJson(quality)}};
         try {
@@ -56,8 +61,8 @@ void checkCells(Application& app, const Case& input, const std::vector<TriangleM
 }
 
 // The number of lattice points is that of the fluid and of the fluid that the nodes displace.
-void checkLattice(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, std::size_t fluid, std::size_t walls,
-                  ordered_json& json, Faults& faults) {
+void checkLattice(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, std::size_t fluid,
+                  std::size_t walls, ordered_json& json, Faults& faults) {
     long count[3], lattice = 1, layer = 1;
     double nodeVolume = 0;
     std::size_t nodes = 0;
@@ -69,44 +74,56 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
         lattice *= count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
         if (k != input.flowModel->wallAxis()) layer *= count[k];
     }
-    const long displaced = std::lround(nodeVolume / input.particleVolume()), wantedWalls = 2 * layer * input.wallLayers();
+    const long displaced = std::lround(nodeVolume / input.particleVolume()),
+               wantedWalls = 2 * layer * input.wallLayers();
     app.log().table({"lattice", "number", ""},
                     {{"points", std::to_string(lattice), fmt::format("{} x {} x {}", count[0], count[1], count[2])},
                      {"fluid particles", std::to_string(fluid), ""},
                      {"displaced by nodes", std::to_string(displaced), fmt::format("{} nodes", nodes)},
                      {"wall particles", std::to_string(walls), fmt::format("{} layers each", input.wallLayers())}});
-    json["lattice"] = {{"points", lattice}, {"fluid", fluid}, {"displaced", displaced}, {"walls", walls}, {"nodes", nodes}};
+    json["lattice"] = {
+        {"points", lattice}, {"fluid", fluid}, {"displaced", displaced}, {"walls", walls}, {"nodes", nodes}};
     if (static_cast<long>(fluid) + displaced != lattice)
-        faults.push_back(fmt::format("0/fluid.vtp has {} particles, but the lattice less what the nodes displace {}: run particleFill again", fluid,
-                                     lattice - displaced));
+        faults.push_back(fmt::format(
+            "0/fluid.vtp has {} particles, but the lattice less what the nodes displace {}: run particleFill again",
+            fluid, lattice - displaced));
     if (static_cast<long>(walls) != wantedWalls)
-        faults.push_back(fmt::format("0/walls.vtp has {} particles, but the case needs {}: run particleFill again", walls, wantedWalls));
+        faults.push_back(fmt::format("0/walls.vtp has {} particles, but the case needs {}: run particleFill again",
+                                     walls, wantedWalls));
 }
 
-void checkSides(const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid, ordered_json& json, Faults& faults) {
+void checkSides(const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
+                ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
-    const auto out = std::count_if(fluid.points.begin(), fluid.points.end(), [&](const Vec3& x) { return particles::distanceSquared(x, box.low, box.high) > 0; });
+    const auto out = std::count_if(fluid.points.begin(), fluid.points.end(),
+                                   [&](const Vec3& x) { return particles::distanceSquared(x, box.low, box.high) > 0; });
     if (out > 0) faults.push_back(fmt::format("{} fluid particles lie outside the box", out));
     const std::vector<int> side = geometry::tagSides(fluid.points, meshes, utilities::periodOf(box));
     const auto& written = fluid.point.integer("side");
     long wrong = 0;
     for (std::size_t i = 0; i < side.size(); ++i) wrong += side[i] != written[i];
-    if (wrong > 0) faults.push_back(fmt::format("{} fluid particles have the wrong side by the inside test: run particleFill again", wrong));
+    if (wrong > 0)
+        faults.push_back(
+            fmt::format("{} fluid particles have the wrong side by the inside test: run particleFill again", wrong));
     std::vector<long> inside(meshes.size() + 1, 0);
     for (const int s : side) ++inside[static_cast<std::size_t>(s)];
     json["sides"] = {{"outside", inside[0]}, {"wrong", wrong}};
     for (std::size_t c = 0; c < meshes.size(); ++c) json["sides"]["inside"][input.mesh.cells[c].name] = inside[c + 1];
 }
 
-void checkDistances(Application& app, const Case& input, const utilities::Members& members, ordered_json& json, Faults& faults) {
+void checkDistances(Application& app, const Case& input, const utilities::Members& members, ordered_json& json,
+                    Faults& faults) {
     const double dx = input.spacing();
-    const utilities::Shortest shortest = utilities::shortestDistances(members, input.particleBox(), dx, dx, app.communicator().handle());
+    const utilities::Shortest shortest =
+        utilities::shortestDistances(members, input.particleBox(), dx, dx, app.communicator().handle());
     std::vector<std::vector<std::string>> rows;
     const auto check = [&](const char* what, double distance, double least, bool exists) {
         if (!exists) return;
         rows.push_back({what, fmt::format("{:.3f}", distance / dx), fmt::format("{:.2f}", least)});
         json["shortest_dx"][what] = distance / dx;
-        if (distance < least * dx) faults.push_back(fmt::format("overlap: {} are {:.3f} dx apart, less than {:.2f} dx", what, distance / dx, least));
+        if (distance < least * dx)
+            faults.push_back(
+                fmt::format("overlap: {} are {:.3f} dx apart, less than {:.2f} dx", what, distance / dx, least));
     };
     check("two fluid particles", shortest.fluidFluid, leastDistance, true);
     check("fluid and wall particle", shortest.fluidWall, leastDistance, !members.walls.empty());
@@ -131,7 +148,8 @@ int main(int argc, char* argv[]) {
         checkCells(app, input, meshes, json, faults);
 
         if (!meshes.empty() && !std::filesystem::exists(simulation::startFile(input, "fluid"))) {
-            app.log().info("0/fluid.vtp is not there yet: only the meshes are checked; run particleFill, then checkMesh again");
+            app.log().info(
+                "0/fluid.vtp is not there yet: only the meshes are checked; run particleFill, then checkMesh again");
         } else {
             const io::PolyData fluid = simulation::readStart(input, "fluid");
             members.fluid = fluid.points;

@@ -6,7 +6,8 @@ namespace corpuscle::utilities {
 
 using particles::Kind;
 
-Shortest shortestDistances(const Members& members, const particles::Box& box, double reach, double spacing, MPI_Comm comm) {
+Shortest shortestDistances(const Members& members, const particles::Box& box, double reach, double spacing,
+                           MPI_Comm comm) {
     particles::ParticleSystem system(comm, box, {.side = true}, reach, 0.01 * reach, spacing);
     particles::ParticleStore& s = system.store();
     std::size_t total = members.fluid.size() + members.walls.size(), next = 0;
@@ -22,7 +23,8 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
     };
     add(members.fluid, Kind::fluid, 0);
     add(members.walls, Kind::wall, 0);
-    for (std::size_t c = 0; c < members.cells.size(); ++c) add(members.cells[c], Kind::membrane, static_cast<std::int64_t>(c) + 1);
+    for (std::size_t c = 0; c < members.cells.size(); ++c)
+        add(members.cells[c], Kind::membrane, static_cast<std::int64_t>(c) + 1);
     system.start();
 
     // record | x y z | -1 wall, 0 fluid, n node of cell n
@@ -47,7 +49,10 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
                     const double *a = records.data() + fields * i, *b = records.data() + fields * j;
                     const auto [low, high] = std::minmax(a[3], b[3]);
                     if ((low < 0 && high != 0) || (low > 0 && low == high)) continue;
-                    double& least = low < 0 ? shortest.fluidWall : low > 0 ? shortest.cellCell : high > 0 ? shortest.fluidNode : shortest.fluidFluid;
+                    double& least = low < 0    ? shortest.fluidWall
+                                    : low > 0  ? shortest.cellCell
+                                    : high > 0 ? shortest.fluidNode
+                                               : shortest.fluidFluid;
                     least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
                 }
         }

@@ -17,6 +17,7 @@ struct Members {
 };
 
 // Distances beyond `reach` count as `reach`.
-Shortest shortestDistances(const Members& members, const particles::Box& box, double reach, double spacing, MPI_Comm comm);
+Shortest shortestDistances(const Members& members, const particles::Box& box, double reach, double spacing,
+                           MPI_Comm comm);
 
 }  // namespace corpuscle::utilities

@@ -20,7 +20,9 @@ using geometry::TriangleMesh;
 namespace {
 
 // Cells are the same kind when shape, its settings and edge length are.
-std::string kindOf(const simulation::CellSettings& cell) { return emit(writeChoice(cell.shape)) + fmt::format("{:a}", cell.edge); }
+std::string kindOf(const simulation::CellSettings& cell) {
+    return emit(writeChoice(cell.shape)) + fmt::format("{:a}", cell.edge);
+}
 
 void writeCell(const simulation::Case& input, const std::string& name, const TriangleMesh& mesh) {
     io::PolyData data;
@@ -55,23 +57,26 @@ int main(int argc, char* argv[]) {
             const membrane::NetworkModuli moduli = utilities::moduliOf(mesh, input.membraneOf(cell));
             utilities::place(mesh, cell);
             if (const auto faults = geometry::checkClosedManifold(mesh); !faults.empty())
-                throw Failure(ExitCode::numerics, "the mesh of the cell '" + cell.name + "' is not sound: " + joinWords(faults, "; ") +
+                throw Failure(ExitCode::numerics, "the mesh of the cell '" + cell.name +
+                                                      "' is not sound: " + joinWords(faults, "; ") +
                                                       ". Take a smaller edge in system/mesh.yaml");
             writeCell(input, cell.name, mesh);
             const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
             if (isNew)
-                app.log().info("cell {}: {}, edge {}, written to 0/{}.vtp in {:.2f} s\n{}\n{}", cell.name, cell.shape.name,
-                               formatQuantity(cell.edge, unit::metre), cell.name, seconds, utilities::indented(quality.text()),
-                               utilities::indented(membrane::describe(moduli)));
+                app.log().info("cell {}: {}, edge {}, written to 0/{}.vtp in {:.2f} s\n{}\n{}", cell.name,
+                               cell.shape.name, formatQuantity(cell.edge, unit::metre), cell.name, seconds,
+                               utilities::indented(quality.text()), utilities::indented(membrane::describe(moduli)));
             else
                 app.log().info("cell {}: the same mesh at its own place, written to 0/{}.vtp", cell.name, cell.name);
-            json[cell.name] = {{"quality", utilities::toJson(quality)}, {"moduli", utilities::toJson(moduli)}, {"seconds", seconds}};
+            json[cell.name] = {
+                {"quality", utilities::toJson(quality)}, {"moduli", utilities::toJson(moduli)}, {"seconds", seconds}};
             placed.push_back(std::move(mesh));
         }
         for (const std::string& fault : utilities::misplacedCells(input, placed)) app.log().warning("{}", fault);
         if (input.mesh.cells.empty()) app.log().info("system/mesh.yaml has no cells: nothing to mesh");
-        app.log().info("Next: particleFill{}",
-                       std::filesystem::exists(simulation::startFile(input, "fluid")) ? "; 0/fluid.vtp stems from the meshes before these" : "");
+        app.log().info("Next: particleFill{}", std::filesystem::exists(simulation::startFile(input, "fluid"))
+                                                   ? "; 0/fluid.vtp stems from the meshes before these"
+                                                   : "");
         if (app.json()) std::cout << json.dump(2) << '\n';
         return ExitCode::done;
     });

@@ -26,10 +26,10 @@ namespace {
 
 struct Filling {
     std::vector<Vec3> fluid, walls;
-    std::vector<int> side;     // of the fluid
-    double nodeVolume = 0;     // of all membranes [m^3]
+    std::vector<int> side;  // of the fluid
+    double nodeVolume = 0;  // of all membranes [m^3]
     std::size_t nodes = 0, carved = 0, putBack = 0;
-    double longestMove = 0;    // of the relaxation [m]
+    double longestMove = 0;  // of the relaxation [m]
     utilities::Evenness before, after;
 };
 
@@ -37,7 +37,8 @@ struct Filling {
 // rest outside, each time those nearest to the nodes.
 void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling& f) {
     std::vector<std::vector<int>> members(cells.size() + 1);
-    for (std::size_t i = 0; i < f.side.size(); ++i) members[static_cast<std::size_t>(f.side[i])].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < f.side.size(); ++i)
+        members[static_cast<std::size_t>(f.side[i])].push_back(static_cast<int>(i));
     std::vector<char> kept(f.fluid.size(), 1);
     const auto carve = [&](const std::vector<int>& from, const std::vector<Vec3>& nodes, std::size_t count) {
         std::vector<Vec3> points;
@@ -116,8 +117,9 @@ void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& ce
     }
 }
 
-io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const std::vector<int>& side, std::int64_t firstId,
-                       const std::function<Vec3(const Vec3&)>& velocity, const std::function<double(const Vec3&)>& pressure) {
+io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const std::vector<int>& side,
+                       std::int64_t firstId, const std::function<Vec3(const Vec3&)>& velocity,
+                       const std::function<double(const Vec3&)>& pressure) {
     const sph::FluidModel model = input.fluidModel();
     io::PolyData data;
     data.points = points;
@@ -130,13 +132,15 @@ io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const
         const double density = model.equationOfState->density(pressure(x), model.density, model.soundSpeed);
         data.point.vectors["velocity"].push_back(velocity(x));
         data.point.scalars["density"].push_back(density);
-        data.point.scalars["pressure"].push_back(model.equationOfState->pressure(density, model.density, model.soundSpeed));
+        data.point.scalars["pressure"].push_back(
+            model.equationOfState->pressure(density, model.density, model.soundSpeed));
     }
     return data;
 }
 
 void write(const Case& input, const Filling& f) {
-    simulation::writeStart(input, "fluid", withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
+    simulation::writeStart(input, "fluid",
+                           withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
     if (f.walls.empty()) {
         std::filesystem::remove(simulation::startFile(input, "walls"));
         return;
@@ -144,8 +148,9 @@ void write(const Case& input, const Filling& f) {
     const sph::Walls& walls = input.flow.walls;
     simulation::writeStart(
         input, "walls",
-        withState(input, f.walls, std::vector<int>(f.walls.size(), 0), static_cast<std::int64_t>(f.fluid.size()),
-                  [&](const Vec3& x) { return walls.velocity[walls.isUpper(x)]; }, [](const Vec3&) { return 0.0; }));
+        withState(
+            input, f.walls, std::vector<int>(f.walls.size(), 0), static_cast<std::int64_t>(f.fluid.size()),
+            [&](const Vec3& x) { return walls.velocity[walls.isUpper(x)]; }, [](const Vec3&) { return 0.0; }));
 }
 
 double peakMemory() {  // of this program so far [MiB]
@@ -156,10 +161,12 @@ double peakMemory() {  // of this program so far [MiB]
 
 std::string text(const utilities::Spread& s) { return fmt::format("{:.4f} +- {:.4f}", s.mean, s.deviation); }
 
-void report(Application& app, const Case& input, const std::vector<TriangleMesh>& cells, const Filling& f, double seconds) {
+void report(Application& app, const Case& input, const std::vector<TriangleMesh>& cells, const Filling& f,
+            double seconds) {
     Log& log = app.log();
     const double V = input.particleVolume();
-    nlohmann::ordered_json json{{"fluid", f.fluid.size()}, {"walls", f.walls.size()}, {"nodes", f.nodes}, {"carved", f.carved}};
+    nlohmann::ordered_json json{
+        {"fluid", f.fluid.size()}, {"walls", f.walls.size()}, {"nodes", f.nodes}, {"carved", f.carved}};
     std::vector<long> inside(cells.size() + 1, 0);
     for (const int side : f.side) ++inside[static_cast<std::size_t>(side)];
     std::vector<std::vector<std::string>> rows{{"fluid, outside", std::to_string(inside[0]), ""}};
@@ -174,7 +181,8 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
     rows.push_back({"walls", std::to_string(f.walls.size()), fmt::format("{} layers each", input.wallLayers())});
     if (f.nodes > 0) {
         const double mean = f.nodeVolume / static_cast<double>(f.nodes) / V;
-        rows.push_back({"membrane nodes", std::to_string(f.nodes), fmt::format("{:.3f} dx^3 each, in place of {} fluid particles", mean, f.carved)});
+        rows.push_back({"membrane nodes", std::to_string(f.nodes),
+                        fmt::format("{:.3f} dx^3 each, in place of {} fluid particles", mean, f.carved)});
         json["nodeVolume_dx3"] = mean;
     }
     rows.push_back({"all", std::to_string(f.fluid.size() + f.walls.size() + f.nodes), ""});
@@ -182,26 +190,37 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
 
     if (f.nodes > 0) {
         const long sweeps = input.mesh.fill.relaxation;
-        log.table({"sigma = sum V W of the fluid", "particles", "carved lattice", fmt::format("after {} sweeps", sweeps)},
-                  {{"nearer than 4 dx to a membrane", std::to_string(f.before.near.count), text(f.before.near), text(f.after.near)},
-                   {"beyond, up to H_s farther", std::to_string(f.before.beyond.count), text(f.before.beyond), text(f.after.beyond)}});
-        log.info("relaxation: moved at most {:.3f} dx; {} particles put back that would have changed side", f.longestMove / input.spacing(), f.putBack);
-        const auto spread = [](const utilities::Spread& s) { return nlohmann::ordered_json{{"mean", s.mean}, {"deviation", s.deviation}}; };
-        json["sigma"] = {{"nearBefore", spread(f.before.near)}, {"nearAfter", spread(f.after.near)},
-                         {"beyondBefore", spread(f.before.beyond)}, {"beyondAfter", spread(f.after.beyond)}};
+        log.table(
+            {"sigma = sum V W of the fluid", "particles", "carved lattice", fmt::format("after {} sweeps", sweeps)},
+            {{"nearer than 4 dx to a membrane", std::to_string(f.before.near.count), text(f.before.near),
+              text(f.after.near)},
+             {"beyond, up to H_s farther", std::to_string(f.before.beyond.count), text(f.before.beyond),
+              text(f.after.beyond)}});
+        log.info("relaxation: moved at most {:.3f} dx; {} particles put back that would have changed side",
+                 f.longestMove / input.spacing(), f.putBack);
+        const auto spread = [](const utilities::Spread& s) {
+            return nlohmann::ordered_json{{"mean", s.mean}, {"deviation", s.deviation}};
+        };
+        json["sigma"] = {{"nearBefore", spread(f.before.near)},
+                         {"nearAfter", spread(f.after.near)},
+                         {"beyondBefore", spread(f.before.beyond)},
+                         {"beyondAfter", spread(f.after.beyond)}};
         json["putBack"] = f.putBack;
     }
     json["seconds"] = seconds;
     json["memory_MiB"] = peakMemory();
-    log.info("0/fluid.vtp{} written in {:.2f} s with {:.0f} MiB", f.walls.empty() ? "" : " and 0/walls.vtp", seconds, peakMemory());
+    log.info("0/fluid.vtp{} written in {:.2f} s with {:.0f} MiB", f.walls.empty() ? "" : " and 0/walls.vtp", seconds,
+             peakMemory());
     if (app.json()) std::cout << json.dump(2) << '\n';
 }
 
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("particleFill", "Fills the box of a case with particles around its cells and writes them to 0/.", argc, argv,
-                    {.samples = {"particleFill -case tutorials/rbcShear/Ca0.02", "particleFill -set system/mesh.yaml:/fill/relaxation=0"}});
+    Application app("particleFill", "Fills the box of a case with particles around its cells and writes them to 0/.",
+                    argc, argv,
+                    {.samples = {"particleFill -case tutorials/rbcShear/Ca0.02",
+                                 "particleFill -set system/mesh.yaml:/fill/relaxation=0"}});
     return app.run([&] {
         utilities::requireSerial(app);
         app.openLog();
@@ -209,11 +228,14 @@ int main(int argc, char* argv[]) {
         const Case input = Case::read(app);
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         if (const auto faults = utilities::misplacedCells(input, cells); !faults.empty())
-            throw Failure(ExitCode::invalidCase, joinWords(faults, "\n") + "\nmove the cells in system/mesh.yaml, then run membraneMesh again");
+            throw Failure(
+                ExitCode::invalidCase,
+                joinWords(faults, "\n") + "\nmove the cells in system/mesh.yaml, then run membraneMesh again");
         Filling filling = placeParticles(input, cells);
         if (!cells.empty()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
-        report(app, input, cells, filling, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        report(app, input, cells, filling,
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         return ExitCode::done;
     });
 }

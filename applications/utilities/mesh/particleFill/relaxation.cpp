@@ -18,7 +18,8 @@ namespace {
 constexpr double strength = 0.02, largestInSpacings = 0.1;
 
 // Of each point to the nearest membrane, infinity beyond `reach`; periodic images included.
-std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach, const Vec3& period) {
+std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach,
+                              const Vec3& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
     for (const TriangleMesh& cell : cells) {
         const geometry::TriangleGrid grid(cell, reach);
@@ -37,7 +38,8 @@ std::vector<double> distances(const std::vector<Vec3>& points, const std::vector
             for (int a = 0; a <= most[0]; ++a)
                 for (int b = 0; b <= most[1]; ++b)
                     for (int c = 0; c <= most[2]; ++c)
-                        if (const geometry::SurfacePoint nearest = grid.nearest(first + Vec3(a, b, c).cwiseProduct(period)))
+                        if (const geometry::SurfacePoint nearest =
+                                grid.nearest(first + Vec3(a, b, c).cwiseProduct(period)))
                             distance[i] = std::min(distance[i], std::abs(nearest.distance));
         }
     }
@@ -60,16 +62,23 @@ class SpreadSum {
 
 }  // namespace
 
-Relaxation::Relaxation(const simulation::Case& input, MPI_Comm comm, const std::vector<Vec3>& fluid, const std::vector<Vec3>& walls,
-                       const std::vector<TriangleMesh>& cells)
-    : input_(input), system_(comm, input.particleBox(), {.mass = true}, input.support(), input.skin(), input.spacing()) {
-    const double near = reachInSpacings * input.spacing(), beyond = near + input.support(), rim = beyond + input.support();
+Relaxation::Relaxation(const simulation::Case& input, MPI_Comm comm, const std::vector<Vec3>& fluid,
+                       const std::vector<Vec3>& walls, const std::vector<TriangleMesh>& cells)
+    : input_(input),
+      system_(comm, input.particleBox(), {.mass = true}, input.support(), input.skin(), input.spacing()) {
+    const double near = reachInSpacings * input.spacing(), beyond = near + input.support(),
+                 rim = beyond + input.support();
     const Vec3 period = periodOf(input.particleBox());
-    const std::vector<double> fluidDistance = distances(fluid, cells, rim, period), wallDistance = distances(walls, cells, rim, period);
+    const std::vector<double> fluidDistance = distances(fluid, cells, rim, period),
+                              wallDistance = distances(walls, cells, rim, period);
     for (std::size_t i = 0; i < fluid.size(); ++i)
         if (const double d = fluidDistance[i]; d < rim) {
             fluidIndex_.push_back(i);
-            add(Kind::fluid, d < near ? Zone::near : d < beyond ? Zone::beyond : Zone::rim, fluid[i], input.particleVolume());
+            add(Kind::fluid,
+                d < near     ? Zone::near
+                : d < beyond ? Zone::beyond
+                             : Zone::rim,
+                fluid[i], input.particleVolume());
         }
     for (std::size_t i = 0; i < walls.size(); ++i)
         if (wallDistance[i] < rim) add(Kind::wall, Zone::fixed, walls[i], input.particleVolume());
@@ -105,7 +114,8 @@ void Relaxation::sums() {
     }
     const sph::Kernel& kernel = *input_.numerics.kernel;
     const double support = input_.support();
-    const sph::DisorderConstants constants{support, kernel.normalisation(support), kernel.gradientNormalisation(support)};
+    const sph::DisorderConstants constants{support, kernel.normalisation(support),
+                                           kernel.gradientNormalisation(support)};
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
     const auto pairs = sph::pairKernels().disorder(kernel.kind());
     particles::sumOverPairs(system_, pairs, pairs, constants, records_, 4, sums_, results);
@@ -137,7 +147,8 @@ std::vector<std::pair<std::size_t, Vec3>> Relaxation::moved() const {
     std::vector<std::pair<std::size_t, Vec3>> places;
     const particles::ParticleStore& s = system_.store();
     for (std::size_t i = 0; i < s.size(); ++i)
-        if (zoneOf(i) == Zone::near) places.emplace_back(fluidIndex_[static_cast<std::size_t>(s.id[i])], system_.box().wrap(s.position(i)));
+        if (zoneOf(i) == Zone::near)
+            places.emplace_back(fluidIndex_[static_cast<std::size_t>(s.id[i])], system_.box().wrap(s.position(i)));
     return places;
 }
 

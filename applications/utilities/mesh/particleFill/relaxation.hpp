@@ -27,8 +27,8 @@ class Relaxation {
     static constexpr double reachInSpacings = 4;
 
     // Wrapped positions of the fluid and wall particles.
-    Relaxation(const simulation::Case& input, MPI_Comm comm, const std::vector<Vec3>& fluid, const std::vector<Vec3>& walls,
-               const std::vector<geometry::TriangleMesh>& cells);
+    Relaxation(const simulation::Case& input, MPI_Comm comm, const std::vector<Vec3>& fluid,
+               const std::vector<Vec3>& walls, const std::vector<geometry::TriangleMesh>& cells);
 
     Evenness evenness();
     void sweep();
@@ -43,7 +43,7 @@ class Relaxation {
 
     const simulation::Case& input_;
     particles::ParticleSystem system_;
-    std::vector<Zone> zone_;              // by id
+    std::vector<Zone> zone_;               // by id
     std::vector<std::size_t> fluidIndex_;  // by id, of the fluid particles, which come first
     particles::RealArray records_, sums_, disorder_[4];
 };
