@@ -194,8 +194,11 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("extremes", "largestStep_s", largestDt_);
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
-    if (scene.coupling) record_.set("result", "guardMoves", guardMoves_);
-    if (scene.coupling) record_.set("result", "brokenBonds", brokenBonds_);
+    if (scene.coupling) {
+        record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
+        record_.set("result", "guardMoves", guardMoves_);
+        record_.set("result", "brokenBonds", brokenBonds_);
+    }
     const bool ended = !time.running();
     const std::string reason = ended ? time.endReason() : stop_.reason();
     const ExitCode code = ended ? ExitCode::done : ExitCode::stopped;
