@@ -1,6 +1,7 @@
 #include "coupling/densityBalance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace corpuscle::coupling {
@@ -10,11 +11,10 @@ using particles::Kind;
 namespace {
 // Of one region, outside first.
 struct Region {
-    double fluid = 0;  // sum m/rho of the fluid particles
-    double nodes = 0;  // the nodes' share
-    double mass = 0;   // of both
+    double space = 0;  // sum m/rho of its fluid particles and its share of nodes
+    double mass = 0;   // of the same
 };
-static_assert(sizeof(Region) == 3 * sizeof(double));
+static_assert(sizeof(Region) == 2 * sizeof(double));
 }  // namespace
 
 void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<Cell>& cells) {
@@ -35,18 +35,20 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
                                            [](std::int64_t n, const Cell& c) { return n < c.firstNode; });
         return static_cast<std::size_t>(next - cells.begin());
     };
+    const auto sidesOf = [&](std::size_t i) {  // the two regions of a particle, the same one for fluid
+        const bool node = s.kindOf(i) == Kind::membrane;
+        return node ? std::array{regionOfCell(cellOfNode(s.node[i])), std::size_t(0)}
+                    : std::array{regionOf(i), regionOf(i)};
+    };
     std::vector<Region> regions(cells.size() + 1);
     for (std::size_t i = 0; i < n; ++i) {
-        const double mass = s.mass[i], space = mass / s.density[i];
-        if (s.kindOf(i) == Kind::fluid) {
-            Region& r = regions[regionOf(i)];
-            r.fluid += space, r.mass += mass;
-        } else if (s.kindOf(i) == Kind::membrane) {
-            for (const std::size_t r : {regionOfCell(cellOfNode(s.node[i])), std::size_t(0)})
-                regions[r].nodes += 0.5 * space, regions[r].mass += 0.5 * mass;
+        if (s.kindOf(i) == Kind::wall) continue;
+        for (const std::size_t r : sidesOf(i)) {
+            regions[r].space += 0.5 * s.mass[i] / s.density[i];
+            regions[r].mass += 0.5 * s.mass[i];
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(3 * regions.size()), MPI_DOUBLE, MPI_SUM,
+    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(2 * regions.size()), MPI_DOUBLE, MPI_SUM,
                   system.comm());
 
     double outside = fluidVolume_, outsideAtStart = fluidVolume_;
@@ -54,15 +56,16 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
         if (closed[c]) outside -= volume[c], outsideAtStart -= cells[c].initialVolume;
     std::vector<double> factor(regions.size(), 1.0);
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (regions[r].fluid <= 0) continue;
+        if (regions[r].space <= 0 || (r > 0 && !closed[r - 1])) continue;
         const double change = r == 0 ? outside / outsideAtStart : volume[r - 1] / cells[r - 1].initialVolume;
-        const double space = change * regions[r].mass / density_ - regions[r].nodes;
-        if (space <= 0) continue;
-        factor[r] = regions[r].fluid / space;
+        factor[r] = regions[r].space / (change * regions[r].mass / density_);
         largest_ = std::max(largest_, std::abs(factor[r] - 1));
     }
-    for (std::size_t i = 0; i < n; ++i)
-        if (s.kindOf(i) == Kind::fluid) s.density[i] *= factor[regionOf(i)];
+    for (std::size_t i = 0; i < n; ++i) {
+        if (s.kindOf(i) == Kind::wall) continue;
+        const auto [one, other] = sidesOf(i);
+        s.density[i] *= 0.5 * (factor[one] + factor[other]);
+    }
 }
 
 }  // namespace corpuscle::coupling

@@ -51,30 +51,24 @@ TEST(DensityBalance, densityOfEachRegionFollowsItsVolume) {
     Wandered scene;
     ParticleStore& s = scene.system->store();
     const particles::RealArray before = s.density;
+    const double wrong = scene.expansion({1}, {0.5, 0}), outside = Wandered::fluidVolume - 2 * scene.sphereVolume();
     scene.balance.apply(*scene.system, scene.cells);
-    EXPECT_NEAR(scene.expansion({1}, {0.5, 0}), 1.1, 1e-12);
-    EXPECT_NEAR(scene.expansion({2}, {0, 0.5}), 1, 1e-12);
-    const double outside = Wandered::fluidVolume - 2 * scene.sphereVolume();
-    EXPECT_NEAR(scene.expansion({0}, {0.5, 0.5}), (outside - 0.1 * scene.sphereVolume()) / outside, 1e-12);
-    EXPECT_GT(scene.balance.largest(), 0.09);
-    // One factor per region; nodes keep theirs.
+    EXPECT_NEAR(scene.balance.largest(), std::abs(wrong / 1.1 - 1), 1e-12);
+    // One factor for the fluid of each region.
     double factor[3] = {0, 0, 0};
     for (std::size_t i = 0; i < s.size(); ++i) {
+        if (s.kindOf(i) != Kind::fluid) continue;
         const double ratio = s.density[i] / before[i];
-        if (s.kindOf(i) == Kind::membrane) {
-            EXPECT_EQ(ratio, 1);
-            continue;
-        }
         double& known = factor[s.side[i]];
         if (known != 0) {
             EXPECT_NEAR(ratio, known, 1e-14);
         }
         known = ratio;
     }
-    // What is balanced stays.
-    const particles::RealArray once = s.density;
-    scene.balance.apply(*scene.system, scene.cells);
-    for (std::size_t i = 0; i < s.size(); ++i) EXPECT_NEAR(s.density[i], once[i], 1e-14);
+    for (int k = 0; k < 30; ++k) scene.balance.apply(*scene.system, scene.cells);
+    EXPECT_NEAR(scene.expansion({1}, {0.5, 0}), 1.1, 1e-12);
+    EXPECT_NEAR(scene.expansion({2}, {0, 0.5}), 1, 1e-12);
+    EXPECT_NEAR(scene.expansion({0}, {0.5, 0.5}), (outside - 0.1 * scene.sphereVolume()) / outside, 1e-12);
 }
 
 TEST(DensityBalance, anOpenCellBelongsToTheOutside) {
@@ -90,7 +84,7 @@ TEST(DensityBalance, anOpenCellBelongsToTheOutside) {
         ASSERT_FALSE(first.membrane.applyRupture().empty());
         ASSERT_TRUE(first.membrane.network().isOpen());
     }
-    scene.balance.apply(*scene.system, scene.cells);
+    for (int k = 0; k < 30; ++k) scene.balance.apply(*scene.system, scene.cells);
     EXPECT_NEAR(scene.expansion({2}, {0, 0.5}), 1, 1e-12);
     EXPECT_NEAR(scene.expansion({0, 1}, {1, 0.5}), 1, 1e-12) << "the volume around the second cell is what it was";
 }
