@@ -75,6 +75,10 @@ function(corpuscle_isa_sources NAME)
         # g++ 12's own AVX-512 header misfires on -Wmaybe-uninitialized.
         target_compile_options(corpuscle_${NAME}_${set} PRIVATE ${flags_${set}} -ffp-contract=fast -Wno-psabi
             -Wno-maybe-uninitialized)
+        # Everything is inlined: with checks at every access the compiler takes more than five minutes a file.
+        if(CORPUSCLE_SANITIZE)
+            target_compile_options(corpuscle_${NAME}_${set} PRIVATE -fno-sanitize=all)
+        endif()
         target_compile_definitions(corpuscle_${NAME}_${set} PRIVATE
             CORPUSCLE_ISA_NAMESPACE=${set} CORPUSCLE_ISA_TAG=::corpuscle::particles::isa::${tag_${set}})
         target_sources(corpuscle_${NAME} PRIVATE $<TARGET_OBJECTS:corpuscle_${NAME}_${set}>)

@@ -14,6 +14,13 @@
 
 namespace corpuscle {
 
+Node::Node() = default;
+Node::Node(const Node&) = default;
+Node::Node(Node&&) noexcept = default;
+Node& Node::operator=(const Node&) = default;
+Node& Node::operator=(Node&&) noexcept = default;
+Node::~Node() = default;
+
 const Node* Node::find(std::string_view key) const {
     for (const auto& [name, node] : entries)
         if (name == key) return &node;
@@ -363,7 +370,7 @@ Node* child(Node& node, const std::string& name, const std::string& shown, Probl
     if (Node* found = node.find(name)) return found;
     Node added;
     markAsSet(added);
-    return &node.entries.emplace_back(name, std::move(added)).second;
+    return &node.entries.emplace_back(name, std::move(added)).value;
 }
 
 }  // namespace

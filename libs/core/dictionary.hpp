@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -25,9 +26,17 @@ class Node {
     std::string path;    // "cells[0].shape.d"; empty for the whole file
     std::string scalar;  // kind scalar: the text as written (quotes removed)
     bool quoted = false;
-    std::vector<Node> items;                            // kind list
-    std::string unit;                                   // kind list: the unit after it, "um" in "[20, 16, 16] um"
-    std::vector<std::pair<std::string, Node>> entries;  // kind table, in the order of the file
+    std::vector<Node> items;     // kind list
+    std::string unit;            // kind list: the unit after it, "um" in "[20, 16, 16] um"
+    struct Entry;                // a key and its value
+    std::vector<Entry> entries;  // kind table, in the order of the file
+
+    Node();
+    Node(const Node&);
+    Node(Node&&) noexcept;
+    Node& operator=(const Node&);
+    Node& operator=(Node&&) noexcept;
+    ~Node();
 
     const Node* find(std::string_view key) const;
     Node* find(std::string_view key);
@@ -39,6 +48,12 @@ class Node {
 
     static Node word(std::string text);
     static Node list(const std::vector<std::string>& words, std::string unit = {});
+};
+
+struct Node::Entry {
+    std::string key;
+    Node value;
+    Entry(std::string k, Node v) : key(std::move(k)), value(std::move(v)) {}
 };
 
 bool isName(const std::string& text);  // [A-Za-z][A-Za-z0-9_-]*

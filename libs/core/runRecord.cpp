@@ -71,7 +71,7 @@ void RunRecord::finish(ExitCode code, const std::string& reason) {
     write();
 }
 
-void writeUsed(const std::filesystem::path& file, const std::vector<std::pair<std::string, Node>>& dictionaries,
+void writeUsed(const std::filesystem::path& file, const std::vector<Node::Entry>& dictionaries,
                const Communicator& communicator) {
     if (!communicator.isRoot()) return;
     Node all;

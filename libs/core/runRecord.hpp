@@ -58,7 +58,7 @@ class RunRecord {
 
 // used.yaml: every dictionary of the run as it was understood, defaults and -set included, SI values with units; one
 // table for each file, which can be copied out as that file. Root only does the work.
-void writeUsed(const std::filesystem::path& file, const std::vector<std::pair<std::string, Node>>& dictionaries,
+void writeUsed(const std::filesystem::path& file, const std::vector<Node::Entry>& dictionaries,
                const Communicator& communicator);
 
 std::string timestamp();  // now, "2026-01-31T12:00:00Z"

@@ -18,8 +18,8 @@ struct Case {
     MembranesSettings membranes;
     Choice<sph::Flow> flowModel;
     observers::ObserversSettings observers;
-    std::map<std::string, Node> files;                    // the dictionaries as they were read
-    std::vector<std::pair<std::string, Node>> effective;  // file and its full table: used.yaml
+    std::map<std::string, Node> files;   // the dictionaries as they were read
+    std::vector<Node::Entry> effective;  // file and its full table: used.yaml
 
     // What follows.
     sph::FlowState flow;
