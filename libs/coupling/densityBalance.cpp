@@ -21,11 +21,11 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
     particles::ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned());
     std::vector<double> volume(cells.size(), -1);  // every holder has the same
-    std::vector<char> closed;
     for (std::size_t c = 0; c < cells.size(); ++c)
         if (cells[c].held) volume[c] = cells[c].membrane.network().isOpen() ? 0 : cells[c].membrane.volume();
     MPI_Allreduce(MPI_IN_PLACE, volume.data(), static_cast<int>(volume.size()), MPI_DOUBLE, MPI_MAX, system.comm());
-    for (const double v : volume) closed.push_back(v > 0);
+    std::vector<char> closed(cells.size());
+    std::transform(volume.begin(), volume.end(), closed.begin(), [](double v) { return v > 0; });
 
     // Region 0 is the outside and all open cells. A node counts half to either side of its membrane.
     const auto regionOfCell = [&](std::size_t number) { return number > 0 && closed[number - 1] ? number : 0; };

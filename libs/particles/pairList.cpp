@@ -54,7 +54,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     const Vec3 middle = 0.5 * (brick.low + brick.high);
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
-        relative_[k].resize(static_cast<std::size_t>(total + ListKernel::padding), 0.0f);
+        relative_[k].resize(static_cast<std::size_t>(total) + ListKernel::padding, 0.0f);
         for (int i = 0; i < total; ++i) {
             const double d = position[k][i] - middle[k];
             extent = std::max(extent, std::abs(d));

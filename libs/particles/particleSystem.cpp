@@ -80,7 +80,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     const int n = owned();
     halo_.plan(x.data(), y.data(), z.data(), n, decomposition_, box_, reach);
     const int g = halo_.ghostCount();
-    const auto total = static_cast<std::size_t>(n + g);
+    const auto total = static_cast<std::size_t>(n) + static_cast<std::size_t>(g);
     RealArray& records = buildRecords_;
     records.resize(total * 4);
     for (int i = 0; i < n; ++i) {
