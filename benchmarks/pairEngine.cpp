@@ -91,7 +91,9 @@ int main(int argc, char* argv[]) {
     MPI_Comm_size(MPI_COMM_WORLD, &size);
 
     const Box box{Vec3::Zero(), Vec3::Constant(n), {true, true, true}};
-    ParticleSystem system(MPI_COMM_WORLD, box, {}, support, skin, 1);
+    const std::string terms = argc > 5 ? argv[5] : "double";
+    ParticleSystem system(MPI_COMM_WORLD, box, {}, support, skin, 1,
+                          terms == "mixed" ? Precision::mixed : Precision::full);
     fill(system.store(), n, rank, size);
     system.start();
     sph::FluidModel fluid;
@@ -99,8 +101,6 @@ int main(int argc, char* argv[]) {
     fluid.equationOfState = choose<sph::EquationOfState>("tait");
     fluid.density = fluid.mass = fluid.soundSpeed = 1;
     fluid.viscosity = 0.1;
-    const std::string precision = argc > 5 ? argv[5] : "double";
-    fluid.precision = precision == "mixed" ? sph::Precision::mixed : sph::Precision::full;
     sph::FluidForces forces(fluid, system);
     sph::VelocityVerlet integrator(system, forces, nullptr, {});
     integrator.start();
@@ -128,13 +128,13 @@ int main(int argc, char* argv[]) {
     forceTime = sum(cpuSeconds() - before) / repeats * steps;
 
     const double total = sum(system.owned()), work = total * steps, list = sum(timed.list);
-    const double entries = sum(static_cast<double>(system.list().entries())) * blockLanes();
+    const double entries = sum(static_cast<double>(system.list().entries())) * system.list().lanes();
     const double ghosts = sum(system.ghosts());
     if (rank == 0) {
         const auto ns = [&](double seconds) { return 1e9 * seconds / work; };
         std::printf(
             "%s, %s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n",
-            kernel.c_str(), instructionSetName().c_str(), precision.c_str(), support, total, size, steps,
+            kernel.c_str(), instructionSetName().c_str(), terms.c_str(), support, total, size, steps,
             entries / total, 100 * ghosts / total);
         std::printf("million particle-steps: %.2f per core-second, %.2f per second\n", 1e-6 * work / cpu,
                     1e-6 * work / wall);

@@ -48,15 +48,4 @@ std::vector<int> Columns::sort(const double* x, const double* y, const double* z
     return order;
 }
 
-double Columns::gapX(int cx, double a, double b) const {
-    const double low = cx == 0 ? -INFINITY : xLow_ + cx * widthX_;
-    const double high = cx == nx_ - 1 ? INFINITY : xLow_ + (cx + 1) * widthX_;
-    return std::max({0.0, low - b, a - high});
-}
-double Columns::gapY(int cy, double a, double b) const {
-    const double low = cy == 0 ? -INFINITY : yLow_ + cy * widthY_;
-    const double high = cy == ny_ - 1 ? INFINITY : yLow_ + (cy + 1) * widthY_;
-    return std::max({0.0, low - b, a - high});
-}
-
 }  // namespace corpuscle::particles

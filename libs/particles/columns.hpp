@@ -2,6 +2,7 @@
 // neighbours in memory), the particles of every second column sorted downwards, so that any few consecutive particles are
 // close together and none need be padded.
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "particles/particleStore.hpp"
@@ -28,8 +29,8 @@ class Columns {
     int cellX(double x) const { return clampCell((x - xLow_) * inverseX_, nx_); }
     int cellY(double y) const { return clampCell((y - yLow_) * inverseY_, ny_); }
     // Distance from the interval [a, b] to the column strip at cx or cy (0 if they overlap).
-    double gapX(int cx, double a, double b) const;
-    double gapY(int cy, double a, double b) const;
+    double gapX(int cx, double a, double b) const { return gap(cx, nx_, xLow_, widthX_, a, b); }
+    double gapY(int cy, double a, double b) const { return gap(cy, ny_, yLow_, widthY_, a, b); }
 
     // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. Walks there from `near`,
     // the answer to a similar question: any range is right, a close one is fast.
@@ -55,6 +56,12 @@ class Columns {
     }
 
   private:
+    // The outermost strips reach to infinity.
+    static double gap(int c, int count, double low, double width, double a, double b) {
+        const double below = c == 0 ? 0 : low + c * width - b;
+        const double above = c == count - 1 ? 0 : a - (low + (c + 1) * width);
+        return std::max({0.0, below, above});
+    }
     static int clampCell(double c, int n) {
         if (!(c > 0)) return 0;
         return c >= n ? n - 1 : static_cast<int>(c);

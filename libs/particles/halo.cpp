@@ -126,6 +126,21 @@ template void Halo::begin(float*, int, int, double);
 template void Halo::finish(double*, int, int);
 template void Halo::finish(float*, int, int);
 
+std::vector<int> Halo::imageOf() const {
+    std::vector<int> own(static_cast<std::size_t>(ghosts_), -1);
+    for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k)
+        own[slot_[selfReceive_.begin + k]] = sendIndex_[selfSend_.begin + k];
+    return own;
+}
+
+void Halo::foldImages(double* sums, int owned) const {
+    for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k) {
+        const double* from = sums + 4 * static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]);
+        double* to = sums + 4 * static_cast<std::size_t>(sendIndex_[selfSend_.begin + k]);
+        for (int s = 0; s < 4; ++s) to[s] += from[s];
+    }
+}
+
 void Halo::reorder(const std::vector<int>& order) {
     std::vector<int> place(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);

@@ -34,6 +34,11 @@ class Halo {
     // Puts ghosts into a new order: the ghost that was number order[k] becomes number k.
     void reorder(const std::vector<int>& order);
 
+    // The own particle of which each ghost is an image, -1 for those of other ranks.
+    std::vector<int> imageOf() const;
+    // Adds what images of own particles have gathered, four numbers a particle, to these particles.
+    void foldImages(double* sums, int owned) const;
+
     // Bytes sent to other ranks at each exchange of `fields` doubles.
     std::size_t bytesSent(int fields) const {
         return (sendIndex_.size() - selfCount_) * static_cast<std::size_t>(fields) * 8;

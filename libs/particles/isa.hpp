@@ -6,15 +6,15 @@
 #pragma once
 #include <string>
 
-namespace corpuscle::particles {
+#include "particles/lanes.hpp"
 
-enum class InstructionSet { baseline, avx2, avx512 };
+namespace corpuscle::particles {
 
 // The best of what the processor offers; the environment variable CORPUSCLE_ISA (baseline, avx2, avx512) lowers it.
 InstructionSet instructionSet();
 std::string instructionSetName();
 
-// Particles i per block of the neighbour list: the lanes of the loops above.
-inline int blockLanes() { return instructionSet() == InstructionSet::baseline ? 4 : 8; }
+// Lanes of the builds that run here.
+inline int blockLanes(Precision precision) { return blockLanes(instructionSet(), precision); }
 
 }  // namespace corpuscle::particles

@@ -7,12 +7,14 @@
 namespace corpuscle::particles {
 
 struct ListKernel {
+    static constexpr int points = 8;    // that share their candidates: two blocks of four particles or one of eight
     static constexpr int padding = 16;  // entries that may be read behind x, y, z and written behind out
 
-    // Appends offset + c to `out` for those candidates c in [begin, end) whose squared distance to any of the block's points
-    // (x, y, z of blockLanes() of them, one after another) is below reach2. Returns how many.
-    int (*gather)(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset,
-                  float reach2, int* out);
+    // Writes offset + c at out[h] for those candidates c in [begin, end) whose squared distance to any point of block h is below
+    // reach2, and moves out[h] on. point: x of all eight, then y, then z.
+    using Gather = void (*)(const float* point, const float* x, const float* y, const float* z, int begin, int end,
+                            int offset, float reach2, int* out[]);
+    Gather twoBlocks, oneBlock;
 };
 
 const ListKernel& listKernel();

@@ -53,28 +53,33 @@ CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* ou
 }
 #endif
 
-int gather(const float* block, const float* x, const float* y, const float* z, int begin, int end, int offset,
-           float reach2, int* out) {
-    constexpr int lanes = CORPUSCLE_ISA_TAG::lanes, width = sizeof(Lanes) / sizeof(float);
-    int count = 0;
+template <int blocks>
+void gather(const float* point, const float* x, const float* y, const float* z, int begin, int end, int offset,
+            float reach2, int* out[]) {
+    constexpr int points = ListKernel::points, lanes = points / blocks, width = sizeof(Lanes) / sizeof(float);
+    int* to[blocks];
+    for (int h = 0; h < blocks; ++h) to[h] = out[h];
     for (int c = begin; c < end; c += width) {
-        Lanes px, py, pz, nearest;
+        Lanes px, py, pz;
         __builtin_memcpy(&px, x + c, sizeof(Lanes));
         __builtin_memcpy(&py, y + c, sizeof(Lanes));
         __builtin_memcpy(&pz, z + c, sizeof(Lanes));
-        for (int l = 0; l < lanes; ++l) {
-            const Lanes dx = px - block[l], dy = py - block[lanes + l], dz = pz - block[2 * lanes + l];
-            const Lanes r2 = dx * dx + dy * dy + dz * dz;
-            nearest = l == 0 ? r2 : least(nearest, r2);
+        for (int h = 0; h < blocks; ++h) {
+            Lanes nearest;
+            for (int l = h * lanes; l < (h + 1) * lanes; ++l) {
+                const Lanes dx = px - point[l], dy = py - point[points + l], dz = pz - point[2 * points + l];
+                const Lanes r2 = dx * dx + dy * dy + dz * dz;
+                nearest = l == h * lanes ? r2 : least(nearest, r2);
+            }
+            to[h] += append(nearest, reach2, c + offset, end - c, to[h]);
         }
-        count += append(nearest, reach2, c + offset, end - c, out + count);
     }
-    return count;
+    for (int h = 0; h < blocks; ++h) out[h] = to[h];
 }
 
 }  // namespace
 
 extern const ListKernel kernel;
-const ListKernel kernel{&gather};
+const ListKernel kernel{&gather<2>, &gather<1>};
 
 }  // namespace corpuscle::particles::CORPUSCLE_ISA_NAMESPACE

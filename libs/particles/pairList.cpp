@@ -15,10 +15,12 @@ struct Bounds {
     Vec3 low, high;
 };
 
-// Every span of candidates of one set of columns that may lie within reach of the bounds. `spans` holds the last answer for each
-// column: the next block is close by.
+bool isSet(unsigned char flag) { return flag != 0; }
+
+// Every span of candidates of one set of columns, from particle `from` on, that may lie within reach of the bounds. `spans` holds the
+// last answer for each column: the next block is close by.
 template <class F>
-void forSpans(const Columns& columns, const double* z, const Bounds& bounds, double reach,
+void forSpans(const Columns& columns, int from, const double* z, const Bounds& bounds, double reach,
               std::vector<Columns::Span>& spans, F&& f) {
     const auto& [low, high] = bounds;
     const int x0 = columns.cellX(low[0] - reach), x1 = columns.cellX(high[0] + reach);
@@ -26,13 +28,15 @@ void forSpans(const Columns& columns, const double* z, const Bounds& bounds, dou
     for (int cx = x0; cx <= x1; ++cx) {
         const double gapX = columns.gapX(cx, low[0], high[0]);
         for (int cy = y0; cy <= y1; ++cy) {
+            const int column = columns.column(cx, cy);
+            if (columns.end(column) <= from) continue;
             const double gapY = columns.gapY(cy, low[1], high[1]);
             const double rest = reach * reach - gapX * gapX - gapY * gapY;
             if (rest <= 0) continue;
             const double dz = std::sqrt(rest);
-            const int column = columns.column(cx, cy);
-            Columns::Span& span = spans[static_cast<std::size_t>(column)];
-            span = columns.between(column, z, low[2] - dz, high[2] + dz, span);
+            Columns::Span& near = spans[static_cast<std::size_t>(column)];
+            near = columns.between(column, z, low[2] - dz, high[2] + dz, near);
+            const Columns::Span span{std::max(near.begin, from), near.end};
             if (span.begin < span.end) f(span);
         }
     }
@@ -41,11 +45,11 @@ void forSpans(const Columns& columns, const double* z, const Bounds& bounds, dou
 }  // namespace
 
 void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
-                     const double* const position[3], const std::vector<unsigned char>& wall, const Brick& brick,
-                     double reach) {
+                     const double* const position[3], const std::vector<unsigned char>& wall,
+                     const std::vector<int>& imageOf, const Brick& brick, double reach) {
     owned_ = owned;
-    const int lanes = blockLanes();
-    const int count = (owned + lanes - 1) / lanes, total = owned + ghosts;
+    constexpr int points = ListKernel::points;
+    const int together = points / lanes_, count = (owned + lanes_ - 1) / lanes_, total = owned + ghosts;
     first_.assign(2 * static_cast<std::size_t>(count) + 1, 0);
     for (auto& group : blocks_) group.clear();
     const double *x = position[0], *y = position[1], *z = position[2];
@@ -62,56 +66,89 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
         }
     }
     const auto wide = static_cast<float>(reach + 4 * std::numeric_limits<float>::epsilon() * (extent + reach));
-    const ListKernel& kernel = listKernel();
+    const ListKernel::Gather gather = together == 2 ? listKernel().twoBlocks : listKernel().oneBlock;
     std::vector<Columns::Span> ownedSpans(static_cast<std::size_t>(ownedColumns.columnCount()));
     std::vector<Columns::Span> ghostSpans(static_cast<std::size_t>(ghostColumns.columnCount()));
+    int* out[2];  // behind the last entry found of each block
+    float point[3 * points];
+    const auto find = [&](Columns::Span span, int offset) {
+        for (int h = 0; h < together; ++h) {  // room for all of the span
+            const auto used = static_cast<std::size_t>(out[h] - found_[h].data());
+            const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
+            if (found_[h].size() < room) found_[h].resize(2 * room), out[h] = found_[h].data() + used;
+        }
+        gather(point, relative_[0].data() + offset, relative_[1].data() + offset, relative_[2].data() + offset,
+               span.begin, span.end, offset, wide * wide, out);
+    };
     std::size_t used = 0;
-
-    for (int b = 0; b < count; ++b) {
-        const int slot = b * lanes, inBlock = std::min(lanes, owned - slot);
-        float points[3 * 8];
-        bool allWall = !wall.empty(), anyWall = false;
+    for (int start = 0; start < owned; start += points) {
+        const int stop = std::min(start + points, owned);
         Bounds bounds{Vec3::Constant(INFINITY), Vec3::Constant(-INFINITY)};
-        for (int l = 0; l < lanes; ++l) {
-            const int i = slot + std::min(l, inBlock - 1);
+        for (int l = 0; l < points; ++l) {
+            const int i = std::min(start + l, stop - 1);
             const Vec3 p(x[i], y[i], z[i]);
             bounds.low = bounds.low.cwiseMin(p), bounds.high = bounds.high.cwiseMax(p);
-            for (int k = 0; k < 3; ++k) points[k * lanes + l] = relative_[k][i];
-            if (!wall.empty()) allWall = allWall && wall[i], anyWall = anyWall || wall[i];
+            for (int k = 0; k < 3; ++k) point[k * points + l] = relative_[k][i];
         }
-        const auto append = [&](Columns::Span span, int offset) {
-            const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
-            if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
-            int* out = j_.data() + used;
-            int found = kernel.gather(points, relative_[0].data() + offset, relative_[1].data() + offset,
-                                      relative_[2].data() + offset, span.begin, span.end, offset, wide * wide, out);
-            if (allWall)
-                found = static_cast<int>(std::remove_if(out, out + found, [&](int j) { return wall[j] != 0; }) - out);
-            used += static_cast<std::size_t>(found);
-        };
-        // The particles of later blocks, then those of this one.
-        const std::size_t start = used;
-        forSpans(ownedColumns, z, bounds, reach, ownedSpans, [&](Columns::Span span) {
-            span.begin = std::max(span.begin, slot + lanes);
-            if (span.begin < span.end) append(span, 0);
-        });
-        first_[2 * static_cast<std::size_t>(b) + 1] = static_cast<int>(used);
-        append({slot, slot + inBlock}, 0);
-        const std::size_t interiorEntries = used;
+        // The particles of later blocks: those of the second block are met by the first alone.
+        for (int h = 0; h < together; ++h) out[h] = found_[h].data();
+        if (start + lanes_ < stop) {
+            find({start + lanes_, stop}, 0);
+            if (together == 2) out[1] = found_[1].data();
+        }
+        forSpans(ownedColumns, stop, z, bounds, reach, ownedSpans, [&](Columns::Span span) { find(span, 0); });
+        std::ptrdiff_t later[2];
+        for (int h = 0; h < together; ++h) later[h] = out[h] - found_[h].data();
         // Ghosts lie outside the brick.
         const bool inside =
             ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
         if (ghosts > 0 && !inside)
-            forSpans(ghostColumns, z + owned, bounds, reach, ghostSpans,
-                     [&](Columns::Span span) { append(span, owned); });
-        if (used > static_cast<std::size_t>(INT32_MAX))
-            throw Failure(ExitCode::numerics, "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
-        first_[2 * static_cast<std::size_t>(b) + 2] = static_cast<int>(used);
+            forSpans(ghostColumns, 0, z + owned, bounds, reach, ghostSpans,
+                     [&](Columns::Span span) { find(span, owned); });
 
-        if (!wall.empty() && !anyWall)
-            for (std::size_t k = start; k < used && !anyWall; ++k) anyWall = wall[j_[k]];
-        blocks_[(used > interiorEntries ? boundary : interior) + (anyWall ? 1 : 0)].push_back(b);
+        for (int h = 0; h < together && start + h * lanes_ < stop; ++h) {
+            const int slot = start + h * lanes_, b = slot / lanes_, last = std::min(slot + lanes_, stop);
+            const int *found = found_[h].data(), *ghost = found + later[h], *end = out[h];
+            const std::size_t room = used + static_cast<std::size_t>(end - found) + ListKernel::padding;
+            if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
+            const bool allWall = !wall.empty() && std::all_of(wall.begin() + slot, wall.begin() + last, isSet);
+            const int* const begin = j_.data() + used;
+            int* to = j_.data() + used;
+            const auto append = [&](int j) {
+                *to = j;
+                to += !allWall || wall[j] == 0;
+            };
+            // A block and one image of another meet twice, once across either face: the earlier block takes them.
+            const auto blockOf = [&](int j) {
+                const int own = imageOf[j - owned];
+                return own < 0 ? -1 : own / lanes_;
+            };
+            std::for_each(found, ghost, append);
+            const int* const withImages = to;
+            std::for_each(ghost, end, [&](int j) {
+                if (blockOf(j) > b) append(j);
+            });
+            bool meetsGhosts = to > withImages;
+            first_[2 * static_cast<std::size_t>(b) + 1] = static_cast<int>(to - j_.data());
+            for (int i = slot; i < last; ++i) append(i);
+            const int* const own = to;
+            std::for_each(ghost, end, [&](int j) {
+                if (const int block = blockOf(j); block < 0 || block == b) append(j);
+            });
+            meetsGhosts = meetsGhosts || to > own;
+            used = static_cast<std::size_t>(to - j_.data());
+            if (used > static_cast<std::size_t>(INT32_MAX))
+                throw Failure(ExitCode::numerics,
+                              "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
+            first_[2 * static_cast<std::size_t>(b) + 2] = static_cast<int>(used);
+
+            const bool atWall =
+                !wall.empty() && (std::any_of(wall.begin() + slot, wall.begin() + last, isSet) ||
+                                  std::any_of(begin, static_cast<const int*>(to), [&](int j) { return wall[j] != 0; }));
+            blocks_[(meetsGhosts ? boundary : interior) + (atWall ? 1 : 0)].push_back(b);
+        }
     }
+    if (used > 0) j_[used] = 0;
 }
 
 }  // namespace corpuscle::particles

@@ -2,8 +2,9 @@
 //
 // j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
 // the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet once: the earlier
-// one lists the particles of the later. Then come the block's own particles and ghosts, which get no reaction. A block of nothing
-// but wall particles lists no wall particles: walls do not act on walls.
+// one lists the particles of the later, and their images across periodic faces. Then come the block's own particles and images of
+// them, and ghosts of other ranks, which get no reaction. A block of nothing but wall particles lists no wall particles: walls do
+// not act on walls.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
 // a wall need the wall's form of a law.
 #pragma once
@@ -11,7 +12,6 @@
 
 #include "particles/columns.hpp"
 #include "particles/decomposition.hpp"
-#include "particles/isa.hpp"
 #include "particles/pairLoop.hpp"
 #include "particles/particleStore.hpp"
 
@@ -19,13 +19,18 @@ namespace corpuscle::particles {
 
 class PairList {
   public:
+    // lanes: particles per block.
+    explicit PairList(int lanes) : lanes_(lanes) {}
+    int lanes() const { return lanes_; }
+
     enum Group { interior = 0, interiorAtWall = 1, boundary = 2, boundaryAtWall = 3, groups = 4 };
 
     // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
-    // wall[k] != 0 for wall particles (empty: there are none). No ghost lies in the brick.
+    // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image of, or -1.
+    // No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
-               const double* const position[3], const std::vector<unsigned char>& wall, const Brick& brick,
-               double reach);
+               const double* const position[3], const std::vector<unsigned char>& wall,
+               const std::vector<int>& imageOf, const Brick& brick, double reach);
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }
@@ -34,11 +39,12 @@ class PairList {
     std::size_t bytes() const { return j_.capacity() * sizeof(int) + first_.capacity() * sizeof(int); }
 
   private:
-    int owned_ = 0;
+    int lanes_, owned_ = 0;
     std::vector<int> first_{0};
     AlignedVector<int> j_;
     AlignedVector<float> relative_[3];  // positions relative to the brick's middle, kept for their memory
     std::vector<int> blocks_[groups];
+    std::vector<int> found_[2];  // of the blocks that share their candidates, kept for their memory
 };
 
 }  // namespace corpuscle::particles

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "particles/isa.hpp"
 
 namespace corpuscle::particles {
 
@@ -14,8 +15,15 @@ constexpr double tolerableImbalance = 1.05;
 }  // namespace
 
 ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support,
-                               double skin, double spacing)
-    : box_(box), support_(support), skin_(skin), spacing_(spacing), store_(fields), decomposition_(comm, box) {}
+                               double skin, double spacing, Precision precision)
+    : box_(box),
+      support_(support),
+      skin_(skin),
+      spacing_(spacing),
+      precision_(precision),
+      store_(fields),
+      decomposition_(comm, box),
+      list_(blockLanes(precision)) {}
 
 void ParticleSystem::start() {
     for (std::size_t i = 0; i < store_.size(); ++i) store_.setPosition(i, box_.wrap(store_.position(i)));
@@ -114,7 +122,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     if (std::find(wall.begin(), wall.end(), 1) == wall.end()) wall.clear();
 
     const double* const pointers[3] = {position[0].data(), position[1].data(), position[2].data()};
-    list_.build(columns_, n, ghostColumns_, g, pointers, wall, brick, reach);
+    list_.build(columns_, n, ghostColumns_, g, pointers, wall, halo_.imageOf(), brick, reach);
 }
 
 std::size_t ParticleSystem::bytes() const { return store_.size() * store_.bytesPerParticle() + list_.bytes(); }

@@ -22,9 +22,10 @@ namespace corpuscle::particles {
 
 class ParticleSystem {
   public:
-    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns).
+    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns); precision of the
+    // laws between pairs that are to run on its list.
     ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin,
-                   double spacing);
+                   double spacing, Precision precision = Precision::full);
 
     ParticleStore& store() { return store_; }
     const ParticleStore& store() const { return store_; }
@@ -38,6 +39,7 @@ class ParticleSystem {
     double support() const { return support_; }
     double skin() const { return skin_; }
     double spacing() const { return spacing_; }
+    Precision precision() const { return precision_; }
     long rebuilds() const { return rebuilds_; }
     std::size_t bytes() const;
 
@@ -71,6 +73,7 @@ class ParticleSystem {
     void buildFrom(const RealArray& x, const RealArray& y, const RealArray& z);
     Box box_;
     double support_, skin_, spacing_;
+    Precision precision_;
     ParticleStore store_;
     Decomposition decomposition_;
     Halo halo_;

@@ -1,13 +1,14 @@
 // Several numbers at once, double or float. A pair law is written as plain expressions on this type; no law needs an intrinsic.
 //
 // The type carries the instruction set as a tag, so that the baseline, AVX2 and AVX-512 builds of one law are different types
-// with different symbols: the linker can never mix them. Eight lanes: one register of doubles with AVX-512 and two with AVX2, one of
-// floats with either. Four in the baseline.
+// with different symbols: the linker can never mix them. Its lanes are those of the block (lanes.hpp), in one register or more.
 #pragma once
 #include <cmath>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
+
+#include "particles/lanes.hpp"
 
 #define CORPUSCLE_INLINE __attribute__((always_inline)) inline
 #define CORPUSCLE_LAMBDA __attribute__((always_inline))
@@ -16,13 +17,16 @@ namespace corpuscle::particles {
 
 namespace isa {
 struct Baseline {
-    static constexpr int lanes = 4, registerBytes = 16;
+    static constexpr InstructionSet set = InstructionSet::baseline;
+    static constexpr int registerBytes = 16;
 };
 struct Avx2 {
-    static constexpr int lanes = 8, registerBytes = 32;
+    static constexpr InstructionSet set = InstructionSet::avx2;
+    static constexpr int registerBytes = 32;
 };
 struct Avx512 {
-    static constexpr int lanes = 8, registerBytes = 64;
+    static constexpr InstructionSet set = InstructionSet::avx512;
+    static constexpr int registerBytes = 64;
 };
 }  // namespace isa
 
@@ -98,27 +102,27 @@ CORPUSCLE_INLINE D8 sqrt(D8 a) { return D8(_mm512_sqrt_pd(__m512d(a))); }
 CORPUSCLE_INLINE int below(D8 a, D8 s) { return _mm512_cmp_pd_mask(__m512d(a), __m512d(s), _CMP_LT_OQ); }
 #endif
 
-// to[0..3] -= sums over the lanes of a, b, c and d.
+// to[0..3] += sums over the lanes of a, b, c and d.
 #if defined(__AVX__)
 CORPUSCLE_INLINE __m256d interleavedSums(D4 a, D4 b) {  // (a, b, a, b) in parts
     return _mm256_add_pd(_mm256_unpacklo_pd(__m256d(a), __m256d(b)), _mm256_unpackhi_pd(__m256d(a), __m256d(b)));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, __m256d ab, __m256d cd) {
+CORPUSCLE_INLINE void addSums(double* to, __m256d ab, __m256d cd) {
     const __m256d sums = _mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x21), _mm256_blend_pd(ab, cd, 0xC));
-    _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), sums));
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), sums));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, D4 a, D4 b, D4 c, D4 d) {
-    subtractSums(to, interleavedSums(a, b), interleavedSums(c, d));
+CORPUSCLE_INLINE void addSums(double* to, D4 a, D4 b, D4 c, D4 d) {
+    addSums(to, interleavedSums(a, b), interleavedSums(c, d));
 }
 CORPUSCLE_INLINE __m256 interleavedSums(F8 a, F8 b) {
     return _mm256_add_ps(_mm256_unpacklo_ps(__m256(a), __m256(b)), _mm256_unpackhi_ps(__m256(a), __m256(b)));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, F8 a, F8 b, F8 c, F8 d) {
+CORPUSCLE_INLINE void addSums(double* to, F8 a, F8 b, F8 c, F8 d) {
     const __m256d ab = _mm256_castps_pd(interleavedSums(a, b)), cd = _mm256_castps_pd(interleavedSums(c, d));
     const __m256 abcd =
         _mm256_add_ps(_mm256_castpd_ps(_mm256_unpacklo_pd(ab, cd)), _mm256_castpd_ps(_mm256_unpackhi_pd(ab, cd)));
     const __m128 sums = _mm_add_ps(_mm256_castps256_ps128(abcd), _mm256_extractf128_ps(abcd, 1));
-    _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_cvtps_pd(sums)));
+    _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), _mm256_cvtps_pd(sums)));
 }
 #endif
 #if defined(__AVX512F__)
@@ -127,22 +131,22 @@ CORPUSCLE_INLINE __m256d interleavedSums(D8 a, D8 b) {
         _mm512_add_pd(_mm512_unpacklo_pd(__m512d(a), __m512d(b)), _mm512_unpackhi_pd(__m512d(a), __m512d(b)));
     return _mm256_add_pd(_mm512_castpd512_pd256(s), _mm512_extractf64x4_pd(s, 1));
 }
-CORPUSCLE_INLINE void subtractSums(double* to, D8 a, D8 b, D8 c, D8 d) {
-    subtractSums(to, interleavedSums(a, b), interleavedSums(c, d));
+CORPUSCLE_INLINE void addSums(double* to, D8 a, D8 b, D8 c, D8 d) {
+    addSums(to, interleavedSums(a, b), interleavedSums(c, d));
 }
 #endif
 #if !defined(__AVX__)
 template <class R>
-CORPUSCLE_INLINE void subtractSums(double* to, R a, R b, R c, R d) {
-    for (unsigned k = 0; k < sizeof(R) / sizeof(a[0]); ++k) to[0] -= a[k], to[1] -= b[k], to[2] -= c[k], to[3] -= d[k];
+CORPUSCLE_INLINE void addSums(double* to, R a, R b, R c, R d) {
+    for (unsigned k = 0; k < sizeof(R) / sizeof(a[0]); ++k) to[0] += a[k], to[1] += b[k], to[2] += c[k], to[3] += d[k];
 }
 #endif
 }  // namespace native
 
-template <class Isa, class RealType = double>
+template <class Isa, class RealType, int lanes>
 struct Simd {
     using Real = RealType;
-    static constexpr int width = Isa::lanes;
+    static constexpr int width = lanes;
     static constexpr int perRegister = Isa::registerBytes / static_cast<int>(sizeof(Real)) < width
                                            ? Isa::registerBytes / static_cast<int>(sizeof(Real))
                                            : width;
@@ -201,40 +205,40 @@ struct Simd {
     CORPUSCLE_INLINE Simd& operator-=(const Simd& b) { return *this = *this - b; }
 };
 
-template <class Isa, class Real>
-CORPUSCLE_INLINE Simd<Isa, Real> max(const Simd<Isa, Real>& a, const Simd<Isa, Real>& b) {
-    return Simd<Isa, Real>::map([](auto x, auto y) CORPUSCLE_LAMBDA { return native::max(x, y); }, a, b);
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE Simd<Isa, Real, lanes> max(const Simd<Isa, Real, lanes>& a, const Simd<Isa, Real, lanes>& b) {
+    return Simd<Isa, Real, lanes>::map([](auto x, auto y) CORPUSCLE_LAMBDA { return native::max(x, y); }, a, b);
 }
-template <class Isa, class Real>
-CORPUSCLE_INLINE Simd<Isa, Real> min(const Simd<Isa, Real>& a, const Simd<Isa, Real>& b) {
-    return Simd<Isa, Real>::map([](auto x, auto y) CORPUSCLE_LAMBDA { return native::min(x, y); }, a, b);
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE Simd<Isa, Real, lanes> min(const Simd<Isa, Real, lanes>& a, const Simd<Isa, Real, lanes>& b) {
+    return Simd<Isa, Real, lanes>::map([](auto x, auto y) CORPUSCLE_LAMBDA { return native::min(x, y); }, a, b);
 }
-template <class Isa, class Real>
-CORPUSCLE_INLINE Simd<Isa, Real> sqrt(const Simd<Isa, Real>& a) {
-    return Simd<Isa, Real>::map([](auto x) CORPUSCLE_LAMBDA { return native::sqrt(x); }, a);
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE Simd<Isa, Real, lanes> sqrt(const Simd<Isa, Real, lanes>& a) {
+    return Simd<Isa, Real, lanes>::map([](auto x) CORPUSCLE_LAMBDA { return native::sqrt(x); }, a);
 }
 // a where the sign is negative, b elsewhere.
-template <class Isa, class Real>
-CORPUSCLE_INLINE Simd<Isa, Real> whereNegative(const Simd<Isa, Real>& sign, const Simd<Isa, Real>& a,
-                                               const Simd<Isa, Real>& b) {
-    using V = Simd<Isa, Real>;
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE Simd<Isa, Real, lanes> whereNegative(const Simd<Isa, Real, lanes>& sign, const Simd<Isa, Real, lanes>& a,
+                                               const Simd<Isa, Real, lanes>& b) {
+    using V = Simd<Isa, Real, lanes>;
     V r;
     for (int k = 0; k < V::registers; ++k) r.part[k] = sign.part[k] < typename V::Native{} ? a.part[k] : b.part[k];
     return r;
 }
 // Whether any lane of a is below s.
-template <class Isa, class Real>
-CORPUSCLE_INLINE bool anyBelow(const Simd<Isa, Real>& a, Real s) {
-    using V = Simd<Isa, Real>;
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE bool anyBelow(const Simd<Isa, Real, lanes>& a, Real s) {
+    using V = Simd<Isa, Real, lanes>;
     int any = 0;
     for (const auto& part : a.part) any |= native::below(part, native::broadcast<typename V::Native>(s));
     return any != 0;
 }
-// to[0..3] -= sums over the lanes of a, b, c and d.
-template <class Isa, class Real>
-CORPUSCLE_INLINE void subtractSums(double* to, const Simd<Isa, Real>& a, const Simd<Isa, Real>& b,
-                                   const Simd<Isa, Real>& c, const Simd<Isa, Real>& d) {
-    native::subtractSums(to, a.folded(), b.folded(), c.folded(), d.folded());
+// to[0..3] += sums over the lanes of a, b, c and d.
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE void addSums(double* to, const Simd<Isa, Real, lanes>& a, const Simd<Isa, Real, lanes>& b,
+                                   const Simd<Isa, Real, lanes>& c, const Simd<Isa, Real, lanes>& d) {
+    native::addSums(to, a.folded(), b.folded(), c.folded(), d.folded());
 }
 
 }  // namespace corpuscle::particles

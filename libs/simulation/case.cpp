@@ -211,8 +211,11 @@ sph::FluidModel Case::fluidModel() const {
             soundSpeed(),
             particleMass(),
             flow.bodyForce,
-            flow.walls,
-            numerics.precision == "mixed" ? sph::Precision::mixed : sph::Precision::full};
+            flow.walls};
+}
+
+particles::Precision Case::precision() const {
+    return numerics.precision == "mixed" ? particles::Precision::mixed : particles::Precision::full;
 }
 
 bool Case::varyingViscosity() const {

@@ -24,6 +24,7 @@ struct Case {
     // What follows.
     sph::FlowState flow;
     sph::FluidModel fluidModel() const;
+    particles::Precision precision() const;  // of the laws between pairs
     double spacing() const { return numerics.spacing; }
     double support() const { return numerics.kernel->support.metres(spacing()); }
     double skin() const { return numerics.skin.metres(spacing()); }

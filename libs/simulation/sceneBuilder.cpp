@@ -66,7 +66,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     const ParticleStore::Optional fields{
         .mass = hasCells, .viscosity = input.varyingViscosity(), .side = hasCells, .node = hasCells};
     scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(),
-                                                               input.skin(), input.spacing());
+                                                               input.skin(), input.spacing(), input.precision());
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system);
     if (input.numerics.shifting)
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,

@@ -14,23 +14,16 @@ struct DisorderConstants {
 
 template <class Kernel>
 struct DisorderPair {
-    static constexpr int fields = 4, radials = 2;
+    static constexpr int fields = 4;
     DisorderConstants c;
-
-    template <class V>
-    CORPUSCLE_INLINE void radial(const V& r2, V (&f)[radials]) const {
-        const V q = sqrt(r2);
-        f[0] = Kernel::template slope<V>(q);
-        f[1] = Kernel::template value<V>(q);
-    }
 
     // Times V_i, which makes it symmetric.
     template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials],
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V& q,
                                V (&p)[4]) const {
-        const V volumes = i[3] * V(j[3]), F = f[0] * volumes;
+        const V volumes = i[3] * V(j[3]), F = Kernel::template slope<V>(q) * volumes;
         for (int k = 0; k < 3; ++k) p[k] = F * d[k];
-        p[3] = f[1] * volumes;
+        p[3] = Kernel::template value<V>(q) * volumes;
     }
 
     template <class V>

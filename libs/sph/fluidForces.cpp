@@ -9,6 +9,7 @@ namespace corpuscle::sph {
 using particles::Kind;
 using particles::ParticleStore;
 using particles::ParticleSystem;
+using particles::Precision;
 using particles::RealArray;
 
 namespace {
@@ -30,7 +31,7 @@ FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) 
         constants_.smallestDistance = smallestDistanceInSpacings * system.spacing() / H;
         constants_.betaMax = betaMax;
     }
-    if (model.precision == Precision::mixed)
+    if (system.precision() == Precision::mixed)
         float_.away = pairKernels().fluidFloat(variant_, false),
         float_.atWall = pairKernels().fluidFloat(variant_, walls);
     else
@@ -44,7 +45,7 @@ std::size_t FluidForces::bytes() const {
 template <class Velocity, class Pressure>
 void FluidForces::run(ParticleSystem& system, const RealArray& density, Velocity&& velocity, Pressure&& pressure,
                       double* const results[4]) {
-    if (model_.precision == Precision::mixed)
+    if (system.precision() == Precision::mixed)
         run(float_, system, density, velocity, pressure, results);
     else
         run(double_, system, density, velocity, pressure, results);
@@ -58,9 +59,10 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
     pairs.records.resize((n + static_cast<std::size_t>(system.ghosts())) * fields);
     const double viscous = variant_.varyingViscosity ? 1.0 : std::sqrt(2 * model_.viscosity);
     const double support = constants_.support, inverseMass = 1 / constants_.mass;
+    const particles::RecordFrame frame(system);
     Real* r = pairs.records.data();
     for (std::size_t i = 0; i < n; ++i, r += fields) {
-        particles::recordPosition(system, i, r);
+        frame.position(i, r);
         velocity(i, r + 3);
         r[6] = static_cast<Real>(support * pressure(i));
         r[7] = static_cast<Real>(viscous / density[i]);

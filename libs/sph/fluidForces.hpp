@@ -13,9 +13,6 @@
 
 namespace corpuscle::sph {
 
-// Of records and pair terms: double, or float with state and sums in double.
-enum class Precision { full, mixed };
-
 struct FluidModel {
     std::shared_ptr<const Kernel> kernel;
     std::shared_ptr<const EquationOfState> equationOfState;
@@ -25,7 +22,6 @@ struct FluidModel {
     double mass = 0;                // of one fluid particle, rho0 dx^3 [kg]
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
     Walls walls;
-    Precision precision = Precision::full;
 };
 
 class FluidForces {

@@ -30,18 +30,12 @@ struct FluidConstants {
 template <class Kernel, bool varyingMass, bool varyingViscosity, bool atWall>
 struct FluidPair {
     static constexpr int fields = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);
-    static constexpr int radials = 1;
     FluidConstants c;
 
     template <class V>
-    CORPUSCLE_INLINE void radial(const V& r2, V (&f)[radials]) const {
-        f[0] = Kernel::template slope<V>(sqrt(r2));
-    }
-
-    template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V (&f)[radials],
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V& q,
                                V (&p)[4]) const {
-        V F = f[0];
+        V F = Kernel::template slope<V>(q);
         if constexpr (varyingMass) F = F * (i[8] * V(j[8]));
         V viscous = F * (i[7] * V(j[7]));
         if constexpr (varyingViscosity) {
@@ -64,7 +58,7 @@ struct FluidPair {
         }
 
         const V pressure = F * (i[6] + V(j[6]));
-        const V du[3] = {i[3] - V(j[3]), i[4] - V(j[4]), i[5] - V(j[5])};
+        const V du[3] = {V(j[3]) - i[3], V(j[4]) - i[4], V(j[5]) - i[5]};
         for (int k = 0; k < 3; ++k) p[k] = pressure * d[k] - viscous * du[k];
         p[3] = F * (d[0] * du[0] + d[1] * du[1] + d[2] * du[2]);
     }

@@ -24,7 +24,7 @@ Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, doubl
                    double particleMass)
     : settings_(settings),
       constants_{support, kernel.normalisation(support), kernel.gradientNormalisation(support)},
-      kernel_(pairKernels().disorder(kernel.kind())),
+      kernel_(kernel.kind()),
       support_(support),
       rate_(rate),
       mass_(particleMass) {}
@@ -37,13 +37,15 @@ void Shifting::apply(particles::ParticleSystem& system, double dt) {
     records_.resize((n + static_cast<std::size_t>(system.ghosts())) * 4);
     for (auto& d : disorder_) d.resize(n);
     const bool varyingMass = s.optional().mass;
+    const particles::RecordFrame frame(system);
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records_.data() + 4 * i;
-        particles::recordPosition(system, i, r);
+        frame.position(i, r);
         r[3] = (varyingMass ? s.mass[i] : mass_) / s.density[i];
     }
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
-    particles::sumOverPairs(system, kernel_, kernel_, constants_, records_, 4, sums_, results);
+    const PairKernels::Disorder disorder = pairKernels().disorder(kernel_, system.precision());
+    particles::sumOverPairs(system, disorder, disorder, constants_, records_, 4, sums_, results);
     const double factor =
         settings_.coefficient * support_ * support_ * rate_ * dt * static_cast<double>(settings_.steps);
     const double bound = largestInSpacings * system.spacing();

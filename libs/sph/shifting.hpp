@@ -32,7 +32,7 @@ class Shifting {
   private:
     ShiftingSettings settings_;
     DisorderConstants constants_;
-    PairKernels::Disorder kernel_;
+    KernelKind kernel_;
     double support_, rate_, mass_, largest_ = 0;
     long count_ = 0;
     particles::RealArray records_, sums_, disorder_[4];

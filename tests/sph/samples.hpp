@@ -14,6 +14,7 @@ using particles::Box;
 using particles::Kind;
 using particles::ParticleStore;
 using particles::ParticleSystem;
+using particles::Precision;
 
 template <class Family>
 std::shared_ptr<const Family> choose(const std::string& text) {

@@ -37,7 +37,7 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
         r[3] = s.kindOf(i) == Kind::wall ? -1 : static_cast<double>(s.side[i]);
     }
     Shortest shortest{reach, reach, reach, reach};
-    const auto lanes = static_cast<std::size_t>(particles::blockLanes());
+    const auto lanes = static_cast<std::size_t>(system.list().lanes());
     system.forEachPair(records.data(), fields, 1, [&](particles::PairList::Group group) {
         const particles::PairView list = system.list().view();
         for (const int block : system.list().blocks(group)) {

@@ -1,0 +1,44 @@
+// Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the longest to
+// compile.
+#pragma once
+#include "sph/lucy.hpp"
+#include "sph/pairBuild.hpp"
+#include "sph/pairKernels.hpp"
+#include "sph/quintic.hpp"
+#include "sph/wendlandC2.hpp"
+
+namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
+
+template <class Real, particles::Precision precision>
+struct FluidKernels {
+    static PairKernels::Fluid<Real> choose(FluidVariant variant, bool atWall) {
+        switch (variant.kernel) {
+            case KernelKind::lucy:
+                return of<Lucy>(variant, atWall);
+            case KernelKind::quintic:
+                return of<Quintic>(variant, atWall);
+            default:
+                return of<WendlandC2>(variant, atWall);
+        }
+    }
+
+  private:
+    template <class Kernel>
+    static PairKernels::Fluid<Real> of(FluidVariant v, bool atWall) {
+        if (v.varyingMass)
+            return v.varyingViscosity ? of<Kernel, true, true>(atWall) : of<Kernel, true, false>(atWall);
+        return v.varyingViscosity ? of<Kernel, false, true>(atWall) : of<Kernel, false, false>(atWall);
+    }
+    template <class Kernel, bool varyingMass, bool varyingViscosity>
+    static PairKernels::Fluid<Real> of(bool atWall) {
+        return atWall ? build<FluidPair<Kernel, varyingMass, varyingViscosity, true>>
+                      : build<FluidPair<Kernel, varyingMass, varyingViscosity, false>>;
+    }
+    template <class Law>
+    static constexpr PairKernels::Fluid<Real> build = PairBuild<Law, FluidConstants, Real, precision>::kernel;
+};
+
+PairKernels::Fluid<double> fluidDouble(FluidVariant variant, bool atWall);
+PairKernels::Fluid<float> fluidFloat(FluidVariant variant, bool atWall);
+
+}  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

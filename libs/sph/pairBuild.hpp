@@ -1,0 +1,21 @@
+// A law's pair loop as built for the instruction set of the file that includes this: entries of the table in pairKernels.hpp.
+#pragma once
+#include "particles/pairLoop.hpp"
+
+namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
+
+template <class Law, class Constants, class Real, particles::Precision precision>
+struct PairBuild {
+    using Isa = CORPUSCLE_ISA_TAG;
+    using Loop = particles::PairLoop<Isa, Law, Real, particles::blockLanes(Isa::set, precision)>;
+    static void run(const Constants& c, const particles::PairView& list, const int* blocks, int blockCount,
+                    const Real* records, double* sums) {
+        Loop::run(Law{c}, list, blocks, blockCount, records, sums);
+    }
+    static void finish(const Constants& c, int owned, const Real* records, const double* sums, double* const* results) {
+        Loop::finish(Law{c}, owned, records, sums, results);
+    }
+    static constexpr particles::PairKernel<Constants, Real> kernel{&run, &finish};
+};
+
+}  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE
