@@ -5,14 +5,14 @@ namespace corpuscle::particles::CORPUSCLE_ISA_NAMESPACE {
 
 namespace {
 
-// Writes first + l for every lane l whose value is below the bound, without a branch, and says how many. Lanes from `valid` on
-// do not count.
+// append: writes first + l at `out` for every lane l of the mask, without a branch, and says how many.
 #if defined(__AVX512F__)
 typedef float Lanes __attribute__((vector_size(64)));
 CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm512_min_ps(__m512(a), __m512(b))); }
-CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
-    unsigned mask = _mm512_cmp_ps_mask(__m512(r2), _mm512_set1_ps(bound), _CMP_LT_OQ);
-    if (valid < 16) mask &= (1u << valid) - 1;
+CORPUSCLE_INLINE unsigned below(Lanes a, float bound) {
+    return _mm512_cmp_ps_mask(__m512(a), _mm512_set1_ps(bound), _CMP_LT_OQ);
+}
+CORPUSCLE_INLINE int append(unsigned mask, int first, int* out) {
     const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     const __m512i number = _mm512_add_epi32(lane, _mm512_set1_epi32(first));
     _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(mask), number));
@@ -32,9 +32,10 @@ alignas(64) constexpr Compression compression;
 
 typedef float Lanes __attribute__((vector_size(32)));
 CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm256_min_ps(__m256(a), __m256(b))); }
-CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
-    auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(r2), _mm256_set1_ps(bound), _CMP_LT_OQ)));
-    if (valid < 8) mask &= (1u << valid) - 1;
+CORPUSCLE_INLINE unsigned below(Lanes a, float bound) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(a), _mm256_set1_ps(bound), _CMP_LT_OQ)));
+}
+CORPUSCLE_INLINE int append(unsigned mask, int first, int* out) {
     const __m256i lane =
         _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(compression.lane[mask])));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm256_add_epi32(lane, _mm256_set1_epi32(first)));
@@ -43,11 +44,16 @@ CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* ou
 #else
 typedef float Lanes __attribute__((vector_size(16)));
 CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
-CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* out) {
+CORPUSCLE_INLINE unsigned below(Lanes a, float bound) {
+    unsigned mask = 0;
+    for (unsigned l = 0; l < 4; ++l) mask |= static_cast<unsigned>(a[l] < bound) << l;
+    return mask;
+}
+CORPUSCLE_INLINE int append(unsigned mask, int first, int* out) {
     int count = 0;
     for (int l = 0; l < 4; ++l) {
         out[count] = first + l;
-        count += r2[l] < bound && l < valid;
+        count += static_cast<int>(mask >> l & 1);
     }
     return count;
 }
@@ -55,15 +61,16 @@ CORPUSCLE_INLINE int append(Lanes r2, float bound, int first, int valid, int* ou
 
 template <int blocks>
 void gather(const float* point, const float* x, const float* y, const float* z, int begin, int end, int offset,
-            float reach2, int* out[]) {
+            float near2, float reach2, int* out[]) {
     constexpr int points = ListKernel::points, lanes = points / blocks, width = sizeof(Lanes) / sizeof(float);
-    int* to[blocks];
-    for (int h = 0; h < blocks; ++h) to[h] = out[h];
+    int* to[2 * blocks];
+    for (int k = 0; k < 2 * blocks; ++k) to[k] = out[k];
     for (int c = begin; c < end; c += width) {
         Lanes px, py, pz;
         __builtin_memcpy(&px, x + c, sizeof(Lanes));
         __builtin_memcpy(&py, y + c, sizeof(Lanes));
         __builtin_memcpy(&pz, z + c, sizeof(Lanes));
+        const unsigned valid = end - c < width ? (1u << (end - c)) - 1 : ~0u;
         for (int h = 0; h < blocks; ++h) {
             Lanes nearest;
             for (int l = h * lanes; l < (h + 1) * lanes; ++l) {
@@ -71,10 +78,12 @@ void gather(const float* point, const float* x, const float* y, const float* z, 
                 const Lanes r2 = dx * dx + dy * dy + dz * dz;
                 nearest = l == h * lanes ? r2 : least(nearest, r2);
             }
-            to[h] += append(nearest, reach2, c + offset, end - c, to[h]);
+            const unsigned near = below(nearest, near2) & valid, far = below(nearest, reach2) & valid & ~near;
+            to[2 * h] += append(near, c + offset, to[2 * h]);
+            to[2 * h + 1] += append(far, c + offset, to[2 * h + 1]);
         }
     }
-    for (int h = 0; h < blocks; ++h) out[h] = to[h];
+    for (int k = 0; k < 2 * blocks; ++k) out[k] = to[k];
 }
 
 }  // namespace

@@ -46,11 +46,11 @@ void forSpans(const Columns& columns, int from, const double* z, const Bounds& b
 
 void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
                      const double* const position[3], const std::vector<unsigned char>& wall,
-                     const std::vector<int>& imageOf, const Brick& brick, double reach) {
+                     const std::vector<int>& imageOf, const Brick& brick, double support, double reach) {
     owned_ = owned;
     constexpr int points = ListKernel::points;
     const int together = points / lanes_, count = (owned + lanes_ - 1) / lanes_, total = owned + ghosts;
-    first_.assign(2 * static_cast<std::size_t>(count) + 1, 0);
+    first_.assign(PairView::parts * static_cast<std::size_t>(count) + 1, 0);
     for (auto& group : blocks_) group.clear();
     const double *x = position[0], *y = position[1], *z = position[2];
 
@@ -69,16 +69,17 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     const ListKernel::Gather gather = together == 2 ? listKernel().twoBlocks : listKernel().oneBlock;
     std::vector<Columns::Span> ownedSpans(static_cast<std::size_t>(ownedColumns.columnCount()));
     std::vector<Columns::Span> ghostSpans(static_cast<std::size_t>(ghostColumns.columnCount()));
-    int* out[2];  // behind the last entry found of each block
+    const auto within = static_cast<float>(support);
+    int* out[4];  // behind the last entry found: near and far, of each block
     float point[3 * points];
     const auto find = [&](Columns::Span span, int offset) {
-        for (int h = 0; h < together; ++h) {  // room for all of the span
-            const auto used = static_cast<std::size_t>(out[h] - found_[h].data());
+        for (int k = 0; k < 2 * together; ++k) {  // room for all of the span
+            const auto used = static_cast<std::size_t>(out[k] - found_[k].data());
             const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
-            if (found_[h].size() < room) found_[h].resize(2 * room), out[h] = found_[h].data() + used;
+            if (found_[k].size() < room) found_[k].resize(2 * room), out[k] = found_[k].data() + used;
         }
         gather(point, relative_[0].data() + offset, relative_[1].data() + offset, relative_[2].data() + offset,
-               span.begin, span.end, offset, wide * wide, out);
+               span.begin, span.end, offset, within * within, wide * wide, out);
     };
     std::size_t used = 0;
     for (int start = 0; start < owned; start += points) {
@@ -91,14 +92,14 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             for (int k = 0; k < 3; ++k) point[k * points + l] = relative_[k][i];
         }
         // The particles of later blocks: those of the second block are met by the first alone.
-        for (int h = 0; h < together; ++h) out[h] = found_[h].data();
+        for (int k = 0; k < 2 * together; ++k) out[k] = found_[k].data();
         if (start + lanes_ < stop) {
             find({start + lanes_, stop}, 0);
-            if (together == 2) out[1] = found_[1].data();
+            out[2] = found_[2].data(), out[3] = found_[3].data();
         }
         forSpans(ownedColumns, stop, z, bounds, reach, ownedSpans, [&](Columns::Span span) { find(span, 0); });
-        std::ptrdiff_t later[2];
-        for (int h = 0; h < together; ++h) later[h] = out[h] - found_[h].data();
+        std::ptrdiff_t later[4];
+        for (int k = 0; k < 2 * together; ++k) later[k] = out[k] - found_[k].data();
         // Ghosts lie outside the brick.
         const bool inside =
             ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
@@ -108,43 +109,48 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
 
         for (int h = 0; h < together && start + h * lanes_ < stop; ++h) {
             const int slot = start + h * lanes_, b = slot / lanes_, last = std::min(slot + lanes_, stop);
-            const int *found = found_[h].data(), *ghost = found + later[h], *end = out[h];
-            const std::size_t room = used + static_cast<std::size_t>(end - found) + ListKernel::padding;
+            std::size_t room = used + ListKernel::padding;
+            for (const int k : {2 * h, 2 * h + 1}) room += static_cast<std::size_t>(out[k] - found_[k].data());
             if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
             const bool allWall = !wall.empty() && std::all_of(wall.begin() + slot, wall.begin() + last, isSet);
-            const int* const begin = j_.data() + used;
-            int* to = j_.data() + used;
+            // A block and one image of another meet twice, once across either face: the earlier block takes them.
+            const auto blockOf = [&](int ghost) {
+                const int own = imageOf[ghost - owned];
+                return own < 0 ? -1 : own / lanes_;
+            };
+            int* const begin = j_.data() + used;
+            int* to = begin;
+            int* first = first_.data() + static_cast<std::size_t>(PairView::parts) * static_cast<std::size_t>(b);
+            bool meetsGhosts = false;
             const auto append = [&](int j) {
                 *to = j;
                 to += !allWall || wall[j] == 0;
             };
-            // A block and one image of another meet twice, once across either face: the earlier block takes them.
-            const auto blockOf = [&](int j) {
-                const int own = imageOf[j - owned];
-                return own < 0 ? -1 : own / lanes_;
-            };
-            std::for_each(found, ghost, append);
-            const int* const withImages = to;
-            std::for_each(ghost, end, [&](int j) {
-                if (blockOf(j) > b) append(j);
-            });
-            bool meetsGhosts = to > withImages;
-            first_[2 * static_cast<std::size_t>(b) + 1] = static_cast<int>(to - j_.data());
+            for (const int k : {2 * h, 2 * h + 1}) {
+                const int *found = found_[k].data(), *ghosts = found + later[k];
+                std::for_each(found, ghosts, append);
+                const int* const before = to;
+                std::for_each(ghosts, static_cast<const int*>(out[k]), [&](int j) {
+                    if (blockOf(j) > b) append(j);
+                });
+                meetsGhosts = meetsGhosts || to > before;
+                *++first = static_cast<int>(to - j_.data());
+            }
             for (int i = slot; i < last; ++i) append(i);
-            const int* const own = to;
-            std::for_each(ghost, end, [&](int j) {
-                if (const int block = blockOf(j); block < 0 || block == b) append(j);
-            });
-            meetsGhosts = meetsGhosts || to > own;
+            for (const int k : {2 * h, 2 * h + 1}) {
+                const int* const before = to;
+                std::for_each(found_[k].data() + later[k], out[k], [&](int j) {
+                    if (const int block = blockOf(j); block < 0 || block == b) append(j);
+                });
+                meetsGhosts = meetsGhosts || to > before;
+                *++first = static_cast<int>(to - j_.data());
+            }
             used = static_cast<std::size_t>(to - j_.data());
             if (used > static_cast<std::size_t>(INT32_MAX))
                 throw Failure(ExitCode::numerics,
                               "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
-            first_[2 * static_cast<std::size_t>(b) + 2] = static_cast<int>(used);
-
-            const bool atWall =
-                !wall.empty() && (std::any_of(wall.begin() + slot, wall.begin() + last, isSet) ||
-                                  std::any_of(begin, static_cast<const int*>(to), [&](int j) { return wall[j] != 0; }));
+            const bool atWall = !wall.empty() && (std::any_of(wall.begin() + slot, wall.begin() + last, isSet) ||
+                                                  std::any_of(begin, to, [&](int j) { return wall[j] != 0; }));
             blocks_[(meetsGhosts ? boundary : interior) + (atWall ? 1 : 0)].push_back(b);
         }
     }

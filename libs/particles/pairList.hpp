@@ -5,6 +5,7 @@
 // one lists the particles of the later, and their images across periodic faces. Then come the block's own particles and images of
 // them, and ghosts of other ranks, which get no reaction. A block of nothing but wall particles lists no wall particles: walls do
 // not act on walls.
+// What lies within the support at the time of the build comes first, what only the skin adds after it.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
 // a wall need the wall's form of a law.
 #pragma once
@@ -30,11 +31,11 @@ class PairList {
     // No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
                const double* const position[3], const std::vector<unsigned char>& wall,
-               const std::vector<int>& imageOf, const Brick& brick, double reach);
+               const std::vector<int>& imageOf, const Brick& brick, double support, double reach);
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }
-    int blockCount() const { return static_cast<int>(first_.size() / 2); }
+    int blockCount() const { return static_cast<int>(first_.size() / PairView::parts); }
     std::size_t entries() const { return j_.empty() ? 0 : static_cast<std::size_t>(first_.back()); }
     std::size_t bytes() const { return j_.capacity() * sizeof(int) + first_.capacity() * sizeof(int); }
 
@@ -44,7 +45,7 @@ class PairList {
     AlignedVector<int> j_;
     AlignedVector<float> relative_[3];  // positions relative to the brick's middle, kept for their memory
     std::vector<int> blocks_[groups];
-    std::vector<int> found_[2];  // of the blocks that share their candidates, kept for their memory
+    std::vector<int> found_[4];  // near and far, of the blocks that share their candidates; kept for their memory
 };
 
 }  // namespace corpuscle::particles

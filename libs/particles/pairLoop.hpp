@@ -19,13 +19,19 @@
 
 namespace corpuscle::particles {
 
-// What the loop needs of a PairList: plain pointers. Block b acts on j[first[2b]] .. j[first[2b + 1] - 1] and they on it; it alone
-// gets the action of j[first[2b + 1]] .. j[first[2b + 2] - 1]: its own particles and other ranks' ghosts. Images of owned particles
-// gather what acts on them in sums of their own.
+// What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until alone(b) the
+// particles j get the reaction; from there on the block alone gets the action: its own particles and other ranks' ghosts. Images of
+// owned particles gather what acts on them in sums of their own. Either half has particles within the support at the time of the
+// build first, then those of the skin: four parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
 struct PairView {
+    static constexpr int parts = 4;
     int owned = 0;  // particles with results
     const int* first = nullptr;
     const int* j = nullptr;  // record numbers, owned before ghosts; one valid number behind the last
+
+    int begin(int block) const { return first[parts * block]; }
+    int alone(int block) const { return first[parts * block + 2]; }
+    int end(int block) const { return first[parts * block + parts]; }
 };
 
 // Sums stand particle by particle, ghosts behind the owned, four doubles each, until they are finished.
@@ -47,12 +53,12 @@ class PairLoop {
                     double* sums) {
         for (int k = 0; k < blockCount; ++k) {
             const int slot = blocks[k] * lanes;
-            const int* first = list.first + 2 * blocks[k];
+            const int* first = list.first + PairView::parts * blocks[k];
             V i[fields], sum[pairSums];
             load(records, slot, list.owned, i);
             for (V& s : sum) s = V(0.0);
-            meet<true>(law, i, list.j + first[0], list.j + first[1], records, sum, sums);
-            meet<false>(law, i, list.j + first[1], list.j + first[2], records, sum, sums);
+            meet<true>(law, i, list.j, first, records, sum, sums);
+            meet<false>(law, i, list.j, first + 2, records, sum, sums);
 
             alignas(64) Real own[pairSums][lanes];
             for (int s = 0; s < pairSums; ++s) sum[s].store(own[s]);
@@ -85,6 +91,7 @@ class PairLoop {
     using V = Simd<Isa, Real, lanes>;
     using Wide = Simd<Isa, double, lanes>;
     static constexpr int fields = Law::fields;
+    static constexpr int arrivals = 63;
 
     static CORPUSCLE_INLINE int inBlock(int slot, int owned) { return owned - slot < lanes ? owned - slot : lanes; }
 
@@ -100,9 +107,31 @@ class PairLoop {
         for (int f = 0; f < fields; ++f) i[f] = To::load(transposed[f]);
     }
 
-    // mutual: the particles j get their part too. One entry behind the last is read.
+    // The first of two parts of the list as it is, the second after a look at the distance: few of them are within the support.
+    // mutual: the particles j get the reaction.
     template <bool mutual>
-    static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* j, const int* end,
+    static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* list, const int* part,
+                                      const Real* records, V (&sum)[pairSums], double* sums) {
+        const int *j = list + part[0], *end = list + part[1], *far = end, *const last = list + part[2];
+        int arrived[arrivals + 1];
+        for (;;) {
+            rows<mutual>(law, i, j, end, records, sum, sums);
+            if (far == last) return;
+            int count = 0;
+            for (; far != last && count < arrivals; ++far) {
+                const Real* record = records + static_cast<long>(*far) * fields;
+                const V x = V(record[0]) - i[0], y = V(record[1]) - i[1], z = V(record[2]) - i[2];
+                arrived[count] = *far;
+                count += anyBelow(x * x + y * y + z * z, Real(1));
+            }
+            arrived[count] = 0;
+            j = arrived, end = arrived + count;
+        }
+    }
+
+    // One entry behind the last is read.
+    template <bool mutual>
+    static CORPUSCLE_INLINE void rows(const Law& law, const V (&i)[fields], const int* j, const int* end,
                                       const Real* records, V (&sum)[pairSums], double* sums) {
         if (j == end) return;
         const auto toward = [&](const Real* record, V(&d)[3]) CORPUSCLE_LAMBDA {

@@ -122,7 +122,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     if (std::find(wall.begin(), wall.end(), 1) == wall.end()) wall.clear();
 
     const double* const pointers[3] = {position[0].data(), position[1].data(), position[2].data()};
-    list_.build(columns_, n, ghostColumns_, g, pointers, wall, halo_.imageOf(), brick, reach);
+    list_.build(columns_, n, ghostColumns_, g, pointers, wall, halo_.imageOf(), brick, support_, reach);
 }
 
 std::size_t ParticleSystem::bytes() const { return store_.size() * store_.bytesPerParticle() + list_.bytes(); }

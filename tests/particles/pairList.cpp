@@ -65,10 +65,10 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
     const auto image = [&](int j) { return imageOfRecord(p, records.data() + static_cast<std::size_t>(j) * tagFields); };
     for (int b = 0; b < list.blockCount(); ++b) {
-        for (int k = view.first[2 * b]; k < view.first[2 * b + 2]; ++k) {
+        for (int k = view.begin(b); k < view.end(b); ++k) {
             const int j = view.j[k];
             EXPECT_TRUE(met[b].insert(image(j)).second) << "listed twice";
-            const bool mutual = k < view.first[2 * b + 1];
+            const bool mutual = k < view.alone(b);
             const int own = j < view.owned ? j : imageOf[static_cast<std::size_t>(j - view.owned)];
             EXPECT_EQ(mutual, own >= 0 && own / lanes != b);
             if (!mutual) continue;
@@ -93,7 +93,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             const int last = std::min(view.owned, (b + 1) * lanes);
             bool meetsWall = false, meetsGhost = false, allWall = true;
             for (int i = b * lanes; i < last; ++i) meetsWall |= isWall(i), allWall &= isWall(i);
-            for (int k = view.first[2 * b]; k < view.first[2 * b + 2]; ++k) {
+            for (int k = view.begin(b); k < view.end(b); ++k) {
                 const int j = view.j[k];
                 meetsWall |= isWall(j), meetsGhost |= j >= view.owned;
                 EXPECT_FALSE(allWall && isWall(j));

@@ -43,7 +43,7 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
         for (const int block : system.list().blocks(group)) {
             const std::size_t from = static_cast<std::size_t>(block) * lanes;
             for (std::size_t i = from; i < std::min(from + lanes, n); ++i)
-                for (int k = list.first[2 * block]; k < list.first[2 * block + 2]; ++k) {
+                for (int k = list.begin(block); k < list.end(block); ++k) {
                     const auto j = static_cast<std::size_t>(list.j[k]);
                     if (i == j) continue;
                     const double *a = records.data() + fields * i, *b = records.data() + fields * j;
