@@ -136,7 +136,6 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
                 meetsGhosts = meetsGhosts || to > before;
                 *++first = static_cast<int>(to - j_.data());
             }
-            for (int i = slot; i < last; ++i) append(i);
             for (const int k : {2 * h, 2 * h + 1}) {
                 const int* const before = to;
                 std::for_each(found_[k].data() + later[k], out[k], [&](int j) {

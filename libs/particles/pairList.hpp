@@ -2,8 +2,8 @@
 //
 // j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
 // the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet once: the earlier
-// one lists the particles of the later, and their images across periodic faces. Then come the block's own particles and images of
-// them, and ghosts of other ranks, which get no reaction. A block of nothing but wall particles lists no wall particles: walls do
+// one lists the particles of the later, and their images across periodic faces. Then come images of the block's own
+// particles and ghosts of other ranks, which get no reaction. The block's own particles are not listed: they meet anyway. A block of nothing but wall particles lists no wall particles: walls do
 // not act on walls.
 // What lies within the support at the time of the build comes first, what only the skin adds after it.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet

@@ -4,24 +4,25 @@
 //
 // A law is a struct of constants with
 //     static constexpr int fields;   // numbers per record
-//     template <class V> void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V& q, V (&p)[4]) const;
+//     template <class V, class J> void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const;
 //     template <class V> void finish(const V (&i)[fields], V (&sum)[4]) const;   // common factors, once per particle
-// with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. Fields 0..2 of a record are the position in
+// with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. J is V or a number, the same for all lanes.
+// What a particle does to itself is left to finish. Fields 0..2 of a record are the position in
 // units of the support radius from the middle of the box (RecordFrame): small numbers near one, so that records, pair terms and the
 // sums over one block may be float (Real) while state and sums stay double. Records (array of structures: one cache line for eight
 // doubles) are packed by the integrator for owned particles and come over the halo for ghosts.
 //
 // A block of `lanes` particles i meets its list one j at a time: a row. The square root takes as long as half of the rest: that of
-// the next row is worked out while this row's law is. Own terms and lanes beyond the support vanish by arithmetic
-// (max(0, 1 - q)): there are no masks.
+// the next row is worked out while this row's law is. Within the block every particle meets those r lanes on, r = 1 .. lanes/2. Lanes
+// beyond the support vanish by arithmetic (max(0, 1 - q)): there are no masks.
 #pragma once
 #include "particles/simd.hpp"
 
 namespace corpuscle::particles {
 
 // What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until alone(b) the
-// particles j get the reaction; from there on the block alone gets the action: its own particles and other ranks' ghosts. Images of
-// owned particles gather what acts on them in sums of their own. Either half has particles within the support at the time of the
+// particles j get the reaction; from there on the block alone gets the action: images of its own particles and other ranks'
+// ghosts. Images of owned particles gather what acts on them in sums of their own. A block's own particles are not listed. Either half has particles within the support at the time of the
 // build first, then those of the skin: four parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
 struct PairView {
     static constexpr int parts = 4;
@@ -54,14 +55,16 @@ class PairLoop {
         for (int k = 0; k < blockCount; ++k) {
             const int slot = blocks[k] * lanes;
             const int* first = list.first + PairView::parts * blocks[k];
+            alignas(64) Real block[fields][2 * lanes];  // twice: lane l + r is found r numbers on
+            load(records, slot, list.owned, block);
             V i[fields], sum[pairSums];
-            load(records, slot, list.owned, i);
-            for (V& s : sum) s = V(0.0);
+            for (int f = 0; f < fields; ++f) i[f] = V::load(block[f]), i[f].store(block[f] + lanes);
+            alignas(64) Real own[pairSums][2 * lanes] = {};
+            within(law, i, block, sum, own);
             meet<true>(law, i, list.j, first, records, sum, sums);
             meet<false>(law, i, list.j, first + 2, records, sum, sums);
 
-            alignas(64) Real own[pairSums][lanes];
-            for (int s = 0; s < pairSums; ++s) sum[s].store(own[s]);
+            for (int s = 0; s < pairSums; ++s) (sum[s] + V::load(own[s]) + V::load(own[s] + lanes)).store(own[s]);
             const int used = inBlock(slot, list.owned);
             for (int l = 0; l < used; ++l)
                 for (int s = 0; s < pairSums; ++s)
@@ -73,8 +76,10 @@ class PairLoop {
     static void finish(const Law& law, int owned, const Real* records, const double* sums, double* const* results) {
         for (int slot = 0; slot < owned; slot += lanes) {
             const int used = inBlock(slot, owned);
+            alignas(64) double block[fields][lanes];
+            load(records, slot, owned, block);
             Wide i[fields], sum[pairSums];
-            load(records, slot, owned, i);
+            for (int f = 0; f < fields; ++f) i[f] = Wide::load(block[f]);
             alignas(64) double own[pairSums][lanes] = {};
             for (int l = 0; l < used; ++l)
                 for (int s = 0; s < pairSums; ++s) own[s][l] = sums[static_cast<long>(slot + l) * pairSums + s];
@@ -95,16 +100,32 @@ class PairLoop {
 
     static CORPUSCLE_INLINE int inBlock(int slot, int owned) { return owned - slot < lanes ? owned - slot : lanes; }
 
-    // Records of a block, field by field; the last block repeats its last particle.
-    template <class To>
-    static CORPUSCLE_INLINE void load(const Real* records, int slot, int owned, To (&i)[fields]) {
+    // Records of a block, field by field. The last block is filled up with copies of its last particle, out of reach of everything.
+    template <class To, int room>
+    static CORPUSCLE_INLINE void load(const Real* records, int slot, int owned, To (&block)[fields][room]) {
         const int used = inBlock(slot, owned);
-        alignas(64) typename To::Real transposed[fields][lanes];
         for (int l = 0; l < lanes; ++l) {
             const Real* record = records + static_cast<long>(slot + (l < used ? l : used - 1)) * fields;
-            for (int f = 0; f < fields; ++f) transposed[f][l] = record[f];
+            for (int f = 0; f < fields; ++f) block[f][l] = record[f];
+            if (l >= used) block[0][l] = To(1e6) * To(l + 1);
         }
-        for (int f = 0; f < fields; ++f) i[f] = To::load(transposed[f]);
+    }
+
+    // Every pair within the block: lane l with lane l + r. The last r meets each pair from both ends; before it the other lane gets
+    // the reaction, in `other` at l + r.
+    static CORPUSCLE_INLINE void within(const Law& law, const V (&i)[fields], const Real (&block)[fields][2 * lanes],
+                                        V (&sum)[pairSums], Real (&other)[pairSums][2 * lanes]) {
+        for (V& s : sum) s = V(0.0);
+        for (int r = 1; r <= lanes / 2; ++r) {
+            V j[fields], d[3], p[pairSums];
+            for (int f = 0; f < fields; ++f) j[f] = V::load(block[f] + r);
+            for (int k = 0; k < 3; ++k) d[k] = j[k] - i[k];
+            law.pair(i, j, d, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), p);
+            for (int s = 0; s < 3; ++s) sum[s] -= p[s];
+            sum[3] += p[3];
+            if (r == lanes / 2) return;
+            for (int s = 0; s < pairSums; ++s) (V::load(other[s] + r) + p[s]).store(other[s] + r);
+        }
     }
 
     // The first of two parts of the list as it is, the second after a look at the distance: few of them are within the support.
@@ -145,7 +166,7 @@ class PairLoop {
             V nextD[3];
             const V nextQ = toward(next, nextD);
             V p[pairSums];
-            law.template pair<V>(i, record, d, q, p);
+            law.pair(i, record, d, q, p);
             for (int s = 0; s < 3; ++s) sum[s] -= p[s];
             sum[3] += p[3];
             if constexpr (mutual) addSums(sums + static_cast<long>(*j) * pairSums, p[0], p[1], p[2], p[3]);

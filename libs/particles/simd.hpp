@@ -155,6 +155,7 @@ struct Simd {
     Native part[registers];
 
     Simd() = default;
+    CORPUSCLE_INLINE Simd(int s) : Simd(static_cast<Real>(s)) {}
     CORPUSCLE_INLINE Simd(double s) {
         for (auto& p : part) p = native::broadcast<Native>(static_cast<Real>(s));
     }
@@ -234,6 +235,17 @@ CORPUSCLE_INLINE bool anyBelow(const Simd<Isa, Real, lanes>& a, Real s) {
     for (const auto& part : a.part) any |= native::below(part, native::broadcast<typename V::Native>(s));
     return any != 0;
 }
+template <class Isa, class Real, int lanes>
+CORPUSCLE_INLINE bool anyNegative(const Simd<Isa, Real, lanes>& a) {
+    return anyBelow(a, Real(0));
+}
+
+// The same for a number that all lanes share.
+CORPUSCLE_INLINE double max(double a, double b) { return a > b ? a : b; }
+CORPUSCLE_INLINE float max(float a, float b) { return a > b ? a : b; }
+CORPUSCLE_INLINE bool anyNegative(double a) { return a < 0; }
+CORPUSCLE_INLINE bool anyNegative(float a) { return a < 0; }
+
 // to[0..3] += sums over the lanes of a, b, c and d.
 template <class Isa, class Real, int lanes>
 CORPUSCLE_INLINE void addSums(double* to, const Simd<Isa, Real, lanes>& a, const Simd<Isa, Real, lanes>& b,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "particles/isa.hpp"
+
 namespace corpuscle::simulation {
 
 std::vector<Group> dimensionlessGroups(const Case& c) {

@@ -18,9 +18,8 @@ struct DisorderPair {
     DisorderConstants c;
 
     // Times V_i, which makes it symmetric.
-    template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V& q,
-                               V (&p)[4]) const {
+    template <class V, class J>
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const {
         const V volumes = i[3] * V(j[3]), F = Kernel::template slope<V>(q) * volumes;
         for (int k = 0; k < 3; ++k) p[k] = F * d[k];
         p[3] = Kernel::template value<V>(q) * volumes;
@@ -30,7 +29,7 @@ struct DisorderPair {
     CORPUSCLE_INLINE void finish(const V (&i)[fields], V (&sum)[4]) const {
         const V inverse = V(1.0) / i[3], gradient = V(c.gradientNormalisation * c.support) * inverse;
         for (int k = 0; k < 3; ++k) sum[k] = sum[k] * gradient;
-        sum[3] = sum[3] * V(c.normalisation) * inverse;
+        sum[3] = (sum[3] * inverse + i[3] * Kernel::template value<V>(V(0.0))) * V(c.normalisation);
     }
 };
 

@@ -32,28 +32,22 @@ struct FluidPair {
     static constexpr int fields = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);
     FluidConstants c;
 
-    template <class V>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const typename V::Real* j, const V (&d)[3], const V& q,
-                               V (&p)[4]) const {
+    template <class V, class J>
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const {
         V F = Kernel::template slope<V>(q);
         if constexpr (varyingMass) F = F * (i[8] * V(j[8]));
         V viscous = F * (i[7] * V(j[7]));
         if constexpr (varyingViscosity) {
             constexpr int at = varyingMass ? 9 : 8;
-            viscous = viscous * (i[at] * V(4 * j[at])) / (i[at] + V(j[at]));
+            viscous = viscous * (i[at] * V(J(4) * j[at])) / (i[at] + V(j[at]));
         }
         if constexpr (atWall) {
-            using Real = typename V::Real;
-            const V heightI = i[0] * V(c.normal[0]) + i[1] * V(c.normal[1]) + i[2] * V(c.normal[2]) - V(c.middle);
-            const V gapI =
-                V(c.half) - max(heightI, V(0.0) - heightI);  // above 0 in the fluid, below 0 behind the surface
-            const double heightJ = static_cast<double>(j[0]) * c.normal[0] + static_cast<double>(j[1]) * c.normal[1] +
-                                   static_cast<double>(j[2]) * c.normal[2] - c.middle;
-            const double gapJ = c.half - (heightJ > 0 ? heightJ : -heightJ);
-            if (gapJ < 0 || anyBelow(gapI, Real(0))) {
+            const V gapI = gap(i);
+            const J gapJ = gap(j);
+            if (particles::anyNegative(gapJ) || particles::anyNegative(gapI)) {
                 const V both = max(i[7], V(j[7]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), F);
-                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * beta<V>(gapI, gapJ);
+                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * beta(gapI, gapJ);
             }
         }
 
@@ -72,11 +66,18 @@ struct FluidPair {
     }
 
   private:
-    template <class V>
-    CORPUSCLE_INLINE V beta(const V& gapI, double gapJ) const {
+    // Distance from the nearer wall's surface: above 0 in the fluid, below 0 behind it.
+    template <class T>
+    CORPUSCLE_INLINE T gap(const T* x) const {
+        const T height = x[0] * T(c.normal[0]) + x[1] * T(c.normal[1]) + x[2] * T(c.normal[2]) - T(c.middle);
+        return T(c.half) - particles::max(height, T(0) - height);
+    }
+    template <class V, class J>
+    CORPUSCLE_INLINE V beta(const V& gapI, const J& gapJ) const {
+        using particles::max;
         const V depthI = max(V(0.0) - gapI, V(0.0)), distanceI = max(gapI, V(c.smallestDistance));
-        const double depthJ = gapJ < 0 ? -gapJ : 0.0, distanceJ = gapJ > c.smallestDistance ? gapJ : c.smallestDistance;
-        return min(V(1.0) + V(depthJ) / distanceI + depthI * V(1 / distanceJ), V(c.betaMax));
+        const J depthJ = max(J(0) - gapJ, J(0)), distanceJ = max(gapJ, J(c.smallestDistance));
+        return min(V(1.0) + V(depthJ) / distanceI + depthI * V(J(1) / distanceJ), V(c.betaMax));
     }
 };
 

@@ -65,6 +65,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
     const auto image = [&](int j) { return imageOfRecord(p, records.data() + static_cast<std::size_t>(j) * tagFields); };
     for (int b = 0; b < list.blockCount(); ++b) {
+        for (int i = b * lanes; i < std::min(view.owned, (b + 1) * lanes); ++i) met[b].insert(image(i));
         for (int k = view.begin(b); k < view.end(b); ++k) {
             const int j = view.j[k];
             EXPECT_TRUE(met[b].insert(image(j)).second) << "listed twice";

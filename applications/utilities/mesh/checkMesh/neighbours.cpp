@@ -38,23 +38,24 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
     }
     Shortest shortest{reach, reach, reach, reach};
     const auto lanes = static_cast<std::size_t>(system.list().lanes());
+    const auto meet = [&](std::size_t i, std::size_t j) {
+        const double *a = records.data() + fields * i, *b = records.data() + fields * j;
+        const auto [low, high] = std::minmax(a[3], b[3]);
+        if ((low < 0 && high != 0) || (low > 0 && low == high)) return;
+        double& least = low < 0    ? shortest.fluidWall
+                        : low > 0  ? shortest.cellCell
+                        : high > 0 ? shortest.fluidNode
+                                   : shortest.fluidFluid;
+        least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    };
     system.forEachPair(records.data(), fields, 1, [&](particles::PairList::Group group) {
         const particles::PairView list = system.list().view();
         for (const int block : system.list().blocks(group)) {
-            const std::size_t from = static_cast<std::size_t>(block) * lanes;
-            for (std::size_t i = from; i < std::min(from + lanes, n); ++i)
-                for (int k = list.begin(block); k < list.end(block); ++k) {
-                    const auto j = static_cast<std::size_t>(list.j[k]);
-                    if (i == j) continue;
-                    const double *a = records.data() + fields * i, *b = records.data() + fields * j;
-                    const auto [low, high] = std::minmax(a[3], b[3]);
-                    if ((low < 0 && high != 0) || (low > 0 && low == high)) continue;
-                    double& least = low < 0    ? shortest.fluidWall
-                                    : low > 0  ? shortest.cellCell
-                                    : high > 0 ? shortest.fluidNode
-                                               : shortest.fluidFluid;
-                    least = std::min(least, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
-                }
+            const std::size_t from = static_cast<std::size_t>(block) * lanes, end = std::min(from + lanes, n);
+            for (std::size_t i = from; i < end; ++i) {
+                for (std::size_t j = i + 1; j < end; ++j) meet(i, j);
+                for (int k = list.begin(block); k < list.end(block); ++k) meet(i, static_cast<std::size_t>(list.j[k]));
+            }
         }
     });
     return shortest;
