@@ -134,8 +134,8 @@ int main(int argc, char* argv[]) {
         const auto ns = [&](double seconds) { return 1e9 * seconds / work; };
         std::printf(
             "%s, %s, %s, support %g dx, %.0f particles, %d ranks, %d steps; %.1f lanes per particle, %.1f %% ghosts\n",
-            kernel.c_str(), instructionSetName().c_str(), terms.c_str(), support, total, size, steps,
-            entries / total, 100 * ghosts / total);
+            kernel.c_str(), instructionSetName().c_str(), terms.c_str(), support, total, size, steps, entries / total,
+            100 * ghosts / total);
         std::printf("million particle-steps: %.2f per core-second, %.2f per second\n", 1e-6 * work / cpu,
                     1e-6 * work / wall);
         std::printf("ns per particle-step: forces %.1f, sort and list %.1f (%.0f per build), integrator %.1f\n",

@@ -76,31 +76,32 @@ class Schema : public SchemaBase {
     using Maybe = std::optional<M>;
 
     // A number with a unit of this dimension; without any unit when the dimension is unit::none.
-    Schema& quantity(Str key, double T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& quantity(const Str& key, double T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("quantity", key, text, o, d), m, codec::quantity(d, o.range));
     }
-    Schema& quantity(Str key, Maybe<double> T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& quantity(const Str& key, Maybe<double> T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("quantity", key, text, o, d), m, codec::quantity(d, o.range));
     }
     // The word leaves the member empty.
-    Schema& quantityOr(Str word, Str key, Maybe<double> T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& quantityOr(const Str& word, const Str& key, Maybe<double> T::*m, Dimension d, const Str& text,
+                       const Options& o = {}) {
         return addOr(word, describe("quantity", key, text, o, d), m, codec::quantity(d, o.range));
     }
-    Schema& quantities(Str key, std::vector<double> T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& quantities(const Str& key, std::vector<double> T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("quantities", key, text, o, d), m, codec::quantities(d, o.range));
     }
 
-    Schema& integer(Str key, long T::*m, Str text, Options o = {}) {
+    Schema& integer(const Str& key, long T::*m, const Str& text, const Options& o = {}) {
         return add(describe("integer", key, text, o), m, codec::integer(o.range));
     }
-    Schema& integer(Str key, Maybe<long> T::*m, Str text, Options o = {}) {
+    Schema& integer(const Str& key, Maybe<long> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("integer", key, text, o), m, codec::integer(o.range));
     }
     // The word leaves the member empty.
-    Schema& integerOr(Str word, Str key, Maybe<long> T::*m, Str text, Options o = {}) {
+    Schema& integerOr(const Str& word, const Str& key, Maybe<long> T::*m, const Str& text, const Options& o = {}) {
         return addOr(word, describe("integer", key, text, o), m, codec::integer(o.range));
     }
-    Schema& integer(Str key, int T::*m, Str text, Options o = {}) {
+    Schema& integer(const Str& key, int T::*m, const Str& text, Options o = {}) {
         o.range.low = std::max(o.range.low, static_cast<double>(std::numeric_limits<int>::min()));
         o.range.high = std::min(o.range.high, static_cast<double>(std::numeric_limits<int>::max()));
         const Codec<long> whole = codec::integer(o.range);
@@ -113,99 +114,102 @@ class Schema : public SchemaBase {
                               [whole](const int& v) { return whole.write(v); }});
     }
 
-    Schema& boolean(Str key, bool T::*m, Str text, Options o = {}) {
+    Schema& boolean(const Str& key, bool T::*m, const Str& text, const Options& o = {}) {
         return add(describe("boolean", key, text, o), m, codec::boolean());
     }
 
     // One of the allowed words.
-    Schema& word(Str key, Str T::*m, std::vector<Str> allowed, Str text, Options o = {}) {
+    Schema& word(const Str& key, Str T::*m, const std::vector<Str>& allowed, const Str& text, const Options& o = {}) {
         return add(withWords(describe("word", key, text, o), allowed), m, codec::word(allowed));
     }
-    Schema& word(Str key, Maybe<Str> T::*m, std::vector<Str> allowed, Str text, Options o = {}) {
+    Schema& word(const Str& key, Maybe<Str> T::*m, const std::vector<Str>& allowed, const Str& text,
+                 const Options& o = {}) {
         return add(withWords(describe("word", key, text, o), allowed), m, codec::word(allowed));
     }
     // A list of words; any names when `allowed` is empty.
-    Schema& words(Str key, std::vector<Str> T::*m, std::vector<Str> allowed, Str text, Options o = {}) {
+    Schema& words(const Str& key, std::vector<Str> T::*m, const std::vector<Str>& allowed, const Str& text,
+                  const Options& o = {}) {
         return add(withWords(describe("words", key, text, o), allowed), m, codec::words(allowed));
     }
     // A free name: a letter, then letters, digits, '-' and '_'.
-    Schema& name(Str key, Str T::*m, Str text, Options o = {}) {
+    Schema& name(const Str& key, Str T::*m, const Str& text, const Options& o = {}) {
         return add(describe("name", key, text, o), m, codec::name());
     }
-    Schema& name(Str key, Maybe<Str> T::*m, Str text, Options o = {}) {
+    Schema& name(const Str& key, Maybe<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("name", key, text, o), m, codec::name());
     }
     // Any text, for paths and titles.
-    Schema& text(Str key, Str T::*m, Str text, Options o = {}) {
+    Schema& text(const Str& key, Str T::*m, const Str& text, const Options& o = {}) {
         return add(describe("text", key, text, o), m, codec::text());
     }
-    Schema& text(Str key, Maybe<Str> T::*m, Str text, Options o = {}) {
+    Schema& text(const Str& key, Maybe<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("text", key, text, o), m, codec::text());
     }
 
     // "[1, 2, 3] um", or a unit with each; the range holds for each component.
-    Schema& vector(Str key, Vec3 T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& vector(const Str& key, Vec3 T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("vector", key, text, o, d), m, codec::vector(d, o.range));
     }
-    Schema& vector(Str key, Maybe<Vec3> T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& vector(const Str& key, Maybe<Vec3> T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("vector", key, text, o, d), m, codec::vector(d, o.range));
     }
-    Schema& vectorOr(Str word, Str key, Maybe<Vec3> T::*m, Dimension d, Str text, Options o = {}) {
+    Schema& vectorOr(const Str& word, const Str& key, Maybe<Vec3> T::*m, Dimension d, const Str& text,
+                     const Options& o = {}) {
         return addOr(word, describe("vector", key, text, o, d), m, codec::vector(d, o.range));
     }
-    Schema& integers(Str key, Index3 T::*m, Str text, Options o = {}) {
+    Schema& integers(const Str& key, Index3 T::*m, const Str& text, const Options& o = {}) {
         return add(describe("integers", key, text, o), m, codec::integers(o.range));
     }
-    Schema& booleans(Str key, std::array<bool, 3> T::*m, Str text, Options o = {}) {
+    Schema& booleans(const Str& key, std::array<bool, 3> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("booleans", key, text, o), m, codec::booleans());
     }
 
     // A length in metres or in particle spacings ("3.0 dx"); the range holds for the number in either.
-    Schema& length(Str key, Length T::*m, Str text, Options o = {}) {
+    Schema& length(const Str& key, Length T::*m, const Str& text, const Options& o = {}) {
         return add(describe("length", key, text, o, unit::metre), m, codec::length(o.range));
     }
-    Schema& length(Str key, Maybe<Length> T::*m, Str text, Options o = {}) {
+    Schema& length(const Str& key, Maybe<Length> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("length", key, text, o, unit::metre), m, codec::length(o.range));
     }
-    Schema& lengthOr(Str word, Str key, Maybe<Length> T::*m, Str text, Options o = {}) {
+    Schema& lengthOr(const Str& word, const Str& key, Maybe<Length> T::*m, const Str& text, const Options& o = {}) {
         return addOr(word, describe("length", key, text, o, unit::metre), m, codec::length(o.range));
     }
-    Schema& interval(Str key, Interval T::*m, Str text, Options o = {}) {
+    Schema& interval(const Str& key, Interval T::*m, const Str& text, const Options& o = {}) {
         return add(describe("interval", key, text, o), m, codec::interval(o.range));
     }
-    Schema& interval(Str key, Maybe<Interval> T::*m, Str text, Options o = {}) {
+    Schema& interval(const Str& key, Maybe<Interval> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("interval", key, text, o), m, codec::interval(o.range));
     }
 
     template <class Nested>
-    Schema& table(Str key, Nested T::*m, Str text, Options o = {}) {
+    Schema& table(const Str& key, Nested T::*m, const Str& text, const Options& o = {}) {
         return add(withTable<Nested>(describe("table", key, text, o)), m, tableCodec<Nested>());
     }
     template <class Nested>
-    Schema& table(Str key, Maybe<Nested> T::*m, Str text, Options o = {}) {
+    Schema& table(const Str& key, Maybe<Nested> T::*m, const Str& text, const Options& o = {}) {
         return add(withTable<Nested>(describe("table", key, text, o)), m, tableCodec<Nested>());
     }
     template <class Nested>
-    Schema& tableOr(Str word, Str key, Maybe<Nested> T::*m, Str text, Options o = {}) {
+    Schema& tableOr(const Str& word, const Str& key, Maybe<Nested> T::*m, const Str& text, const Options& o = {}) {
         return addOr(word, withTable<Nested>(describe("table", key, text, o)), m, tableCodec<Nested>());
     }
     template <class Nested>
-    Schema& list(Str key, std::vector<Nested> T::*m, Str text, Options o = {}) {
+    Schema& list(const Str& key, std::vector<Nested> T::*m, const Str& text, const Options& o = {}) {
         return add(withTable<Nested>(describe("list", key, text, o)), m, listCodec(tableCodec<Nested>()));
     }
     template <class Nested>
-    Schema& map(Str key, std::map<Str, Nested> T::*m, Str text, Options o = {}) {
+    Schema& map(const Str& key, std::map<Str, Nested> T::*m, const Str& text, const Options& o = {}) {
         return add(withTable<Nested>(describe("map", key, text, o)), m, mapCodec(tableCodec<Nested>()));
     }
 
     // A model of a family (registry.hpp), in the form "type: name" with its settings beside it, or the bare name.
     template <class Family>
-    Schema& model(Str key, Choice<Family> T::*m, Str text, Options o = {}) {
+    Schema& model(const Str& key, Choice<Family> T::*m, const Str& text, const Options& o = {}) {
         return add(withFamily<Family>(describe("model", key, text, o)), m, choiceCodec<Family>());
     }
     // The word leaves the choice empty.
     template <class Family>
-    Schema& modelOr(Str word, Str key, Choice<Family> T::*m, Str text, Options o = {}) {
+    Schema& modelOr(const Str& word, const Str& key, Choice<Family> T::*m, const Str& text, const Options& o = {}) {
         FieldInfo info = withFamily<Family>(describe("model", key, text, o));
         info.alternative = word;
         const auto inner = choiceCodec<Family>();
@@ -220,7 +224,7 @@ class Schema : public SchemaBase {
                        [inner, word](const Choice<Family>& v) { return v ? inner.write(v) : Node::word(word); }});
     }
     template <class Family>
-    Schema& models(Str key, std::map<Str, Choice<Family>> T::*m, Str text, Options o = {}) {
+    Schema& models(const Str& key, std::map<Str, Choice<Family>> T::*m, const Str& text, const Options& o = {}) {
         return add(withFamily<Family>(describe("models", key, text, o)), m, mapCodec(choiceCodec<Family>()));
     }
 
@@ -259,14 +263,15 @@ class Schema : public SchemaBase {
     }
     // A rule over several fields; runs only when the table itself has no problem.
     Schema& check(std::function<void(const T&, const Node&, Problems&)> rule) {
-        checks_.push_back(
-            [rule](const void* object, const Node& n, Problems& p) { rule(*static_cast<const T*>(object), n, p); });
+        checks_.push_back([rule = std::move(rule)](const void* object, const Node& n, Problems& p) {
+            rule(*static_cast<const T*>(object), n, p);
+        });
         return *this;
     }
 
   private:
     template <class M>
-    Schema& add(FieldInfo info, M T::*member, Codec<M> codec) {
+    Schema& add(FieldInfo info, M T::*member, const Codec<M>& codec) {
         fields_.push_back({std::move(info),
                            [member, codec](void* object, const Node& n, Problems& p) {
                                codec.read(n, static_cast<T*>(object)->*member, p);
@@ -278,7 +283,7 @@ class Schema : public SchemaBase {
     }
     // Absent keys and the alternative word leave the member empty.
     template <class M>
-    Schema& add(FieldInfo info, Maybe<M> T::*member, Codec<M> codec) {
+    Schema& add(FieldInfo info, Maybe<M> T::*member, const Codec<M>& codec) {
         if (info.alternative.empty()) info.required = false;
         const Str word = info.alternative;
         fields_.push_back({std::move(info),
@@ -298,9 +303,9 @@ class Schema : public SchemaBase {
         return *this;
     }
     template <class M>
-    Schema& addOr(const Str& word, FieldInfo info, Maybe<M> T::*member, Codec<M> codec) {
+    Schema& addOr(const Str& word, FieldInfo info, Maybe<M> T::*member, const Codec<M>& codec) {
         info.alternative = word;
-        return add(std::move(info), member, std::move(codec));
+        return add(std::move(info), member, codec);
     }
 
     static FieldInfo withWords(FieldInfo info, std::vector<Str> words) {
@@ -324,7 +329,7 @@ class Schema : public SchemaBase {
                 [](const Nested& v) { return Nested::schema().writeFrom(&v); }};
     }
     template <class M>
-    static Codec<std::vector<M>> listCodec(Codec<M> item) {
+    static Codec<std::vector<M>> listCodec(const Codec<M>& item) {
         return {[item](const Node& n, std::vector<M>& v, Problems& p) {
                     v.clear();
                     eachItem(n, p, [&](const Node& i) { item.read(i, v.emplace_back(), p); });
@@ -336,7 +341,7 @@ class Schema : public SchemaBase {
                 }};
     }
     template <class M>
-    static Codec<std::map<Str, M>> mapCodec(Codec<M> item) {
+    static Codec<std::map<Str, M>> mapCodec(const Codec<M>& item) {
         return {[item](const Node& n, std::map<Str, M>& v, Problems& p) {
                     v.clear();
                     eachEntry(n, p, [&](const Str& key, const Node& e) { item.read(e, v[key], p); });

@@ -30,8 +30,8 @@ class PairList {
     // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image of, or -1.
     // No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
-               const double* const position[3], const std::vector<unsigned char>& wall,
-               const std::vector<int>& imageOf, const Brick& brick, double support, double reach);
+               const double* const position[3], const std::vector<unsigned char>& wall, const std::vector<int>& imageOf,
+               const Brick& brick, double support, double reach);
 
     PairView view() const { return {owned_, first_.data(), j_.data()}; }
     const std::vector<int>& blocks(Group group) const { return blocks_[group]; }

@@ -220,8 +220,9 @@ CORPUSCLE_INLINE Simd<Isa, Real, lanes> sqrt(const Simd<Isa, Real, lanes>& a) {
 }
 // a where the sign is negative, b elsewhere.
 template <class Isa, class Real, int lanes>
-CORPUSCLE_INLINE Simd<Isa, Real, lanes> whereNegative(const Simd<Isa, Real, lanes>& sign, const Simd<Isa, Real, lanes>& a,
-                                               const Simd<Isa, Real, lanes>& b) {
+CORPUSCLE_INLINE Simd<Isa, Real, lanes> whereNegative(const Simd<Isa, Real, lanes>& sign,
+                                                      const Simd<Isa, Real, lanes>& a,
+                                                      const Simd<Isa, Real, lanes>& b) {
     using V = Simd<Isa, Real, lanes>;
     V r;
     for (int k = 0; k < V::registers; ++k) r.part[k] = sign.part[k] < typename V::Native{} ? a.part[k] : b.part[k];
@@ -249,7 +250,7 @@ CORPUSCLE_INLINE bool anyNegative(float a) { return a < 0; }
 // to[0..3] += sums over the lanes of a, b, c and d.
 template <class Isa, class Real, int lanes>
 CORPUSCLE_INLINE void addSums(double* to, const Simd<Isa, Real, lanes>& a, const Simd<Isa, Real, lanes>& b,
-                                   const Simd<Isa, Real, lanes>& c, const Simd<Isa, Real, lanes>& d) {
+                              const Simd<Isa, Real, lanes>& c, const Simd<Isa, Real, lanes>& d) {
     native::addSums(to, a.folded(), b.folded(), c.folded(), d.folded());
 }
 

@@ -204,14 +204,10 @@ double Case::soundSpeed() const {
 }
 
 sph::FluidModel Case::fluidModel() const {
-    return {numerics.kernel.model,
-            fluid.equationOfState.model,
-            flow.density,
-            fluid.viscosity,
-            soundSpeed(),
-            particleMass(),
-            flow.bodyForce,
-            flow.walls};
+    return {numerics.kernel.model, fluid.equationOfState.model,
+            flow.density,          fluid.viscosity,
+            soundSpeed(),          particleMass(),
+            flow.bodyForce,        flow.walls};
 }
 
 particles::Precision Case::precision() const {

@@ -75,7 +75,8 @@ SizeEstimate estimateSize(const Case& c) {
     // Store and its copy while sorting, records with ghosts, sums over pairs, and the list: of what lies around a block
     // half is listed, and all of the ghosts.
     const double perBlock = 4.2 * (reach + 1) * (reach + 1) * (reach + 1);
-    size.memory = n * (2 * 20 * 8 + 1.3 * 80 + 32 + 0.65 * 4 * perBlock / particles::blockLanes(c.precision()) * 1.5 + 60);
+    size.memory =
+        n * (2 * 20 * 8 + 1.3 * 80 + 32 + 0.65 * 4 * perBlock / particles::blockLanes(c.precision()) * 1.5 + 60);
     size.perWrite = n * 70;
     size.checkpoint = n * 8 * 19;
     const WriteSettings& w = c.control.write;

@@ -25,8 +25,7 @@ struct FluidKernels {
   private:
     template <class Kernel>
     static PairKernels::Fluid<Real> of(FluidVariant v, bool atWall) {
-        if (v.varyingMass)
-            return v.varyingViscosity ? of<Kernel, true, true>(atWall) : of<Kernel, true, false>(atWall);
+        if (v.varyingMass) return v.varyingViscosity ? of<Kernel, true, true>(atWall) : of<Kernel, true, false>(atWall);
         return v.varyingViscosity ? of<Kernel, false, true>(atWall) : of<Kernel, false, false>(atWall);
     }
     template <class Kernel, bool varyingMass, bool varyingViscosity>

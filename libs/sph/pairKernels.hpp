@@ -18,8 +18,8 @@ struct PairKernels {
     template <class Real>
     using Fluid = particles::PairKernel<FluidConstants, Real>;  // results: ax, ay, az, drho/dt
     using Disorder = particles::PairKernel<DisorderConstants>;  // results: Cx, Cy, Cz, sigma
-    Fluid<double> (*fluid)(FluidVariant, bool atWall);      // for lists of Precision::full
-    Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);  // of Precision::mixed
+    Fluid<double> (*fluid)(FluidVariant, bool atWall);          // for lists of Precision::full
+    Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);      // of Precision::mixed
     Disorder (*disorder)(KernelKind, particles::Precision list);
 };
 

@@ -63,7 +63,9 @@ void expectComplete(ParticleSystem& system, const Population& p) {
     // What each block meets, by its own list and by the lists of earlier blocks.
     const std::vector<int> imageOf = system.halo().imageOf();
     std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
-    const auto image = [&](int j) { return imageOfRecord(p, records.data() + static_cast<std::size_t>(j) * tagFields); };
+    const auto image = [&](int j) {
+        return imageOfRecord(p, records.data() + static_cast<std::size_t>(j) * tagFields);
+    };
     for (int b = 0; b < list.blockCount(); ++b) {
         for (int i = b * lanes; i < std::min(view.owned, (b + 1) * lanes); ++i) met[b].insert(image(i));
         for (int k = view.begin(b); k < view.end(b); ++k) {
@@ -79,8 +81,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             for (int i = b * lanes; i < std::min(view.owned, (b + 1) * lanes); ++i) {
                 const Image here = image(i);
                 met[static_cast<std::size_t>(own / lanes)].insert(
-                    {here[0], here[1] - there[1] + at[1], here[2] - there[2] + at[2],
-                     here[3] - there[3] + at[3]});
+                    {here[0], here[1] - there[1] + at[1], here[2] - there[2] + at[2], here[3] - there[3] + at[3]});
             }
         }
     }
@@ -128,7 +129,8 @@ void expectComplete(ParticleSystem& system, const Population& p) {
 TEST_P(Pairs, everyPairWithinTheSupportIsListedOnce) {
     const Case& c = GetParam();
     const Population p(c.box, c.count, 3, c.layer);
-    for (const Precision precision : {Precision::full, Precision::mixed}) {  // blocks of different size on some processors
+    for (const Precision precision :
+         {Precision::full, Precision::mixed}) {  // blocks of different size on some processors
         ParticleSystem system(MPI_COMM_WORLD, c.box, {}, c.support, skin, 1, precision);
         EXPECT_EQ(system.list().lanes(), blockLanes(precision));
         p.deal(system.store());

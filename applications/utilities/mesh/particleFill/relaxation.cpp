@@ -107,9 +107,10 @@ void Relaxation::sums() {
     const auto n = static_cast<std::size_t>(system_.owned());
     records_.resize((n + static_cast<std::size_t>(system_.ghosts())) * 4);
     for (auto& d : disorder_) d.resize(n);
+    const particles::RecordFrame frame(system_);
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records_.data() + 4 * i;
-        particles::recordPosition(system_, i, r);
+        frame.position(i, r);
         r[3] = s.mass[i] / s.density[i];
     }
     const sph::Kernel& kernel = *input_.numerics.kernel;
@@ -117,7 +118,7 @@ void Relaxation::sums() {
     const sph::DisorderConstants constants{support, kernel.normalisation(support),
                                            kernel.gradientNormalisation(support)};
     double* const results[4] = {disorder_[0].data(), disorder_[1].data(), disorder_[2].data(), disorder_[3].data()};
-    const auto pairs = sph::pairKernels().disorder(kernel.kind());
+    const auto pairs = sph::pairKernels().disorder(kernel.kind(), system_.precision());
     particles::sumOverPairs(system_, pairs, pairs, constants, records_, 4, sums_, results);
 }
 
