@@ -13,23 +13,31 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/vec.hpp"
 
 namespace corpuscle::membrane {
 
-template <int N>
+// Scalar: double, or a type that carries derivatives (hessian.hpp).
+template <class Scalar>
+using Vec3Of = Eigen::Matrix<Scalar, 3, 1>;
+
+template <int N, class Scalar = double>
 struct Coordinate {
-    double value;
-    std::array<Vec3, N> gradient;
+    Scalar value;
+    std::array<Vec3Of<Scalar>, N> gradient;
 };
 
 struct BondLength {
     static constexpr int nodes = 2;
-    static Coordinate<2> at(const std::array<Vec3, 2>& x) {
-        const Vec3 r = x[1] - x[0];
-        const double l = r.norm();
-        const Vec3 e = l > 0 ? Vec3(r / l) : Vec3(Vec3::Zero());
+    template <class Scalar = double>
+    static Coordinate<2, Scalar> at(const std::array<Vec3Of<Scalar>, 2>& x) {
+        using Vec = Vec3Of<Scalar>;
+        using std::sqrt;
+        const Vec r = x[1] - x[0];
+        const Scalar l = sqrt(r.squaredNorm());
+        const Vec e = l > 0 ? Vec(r / l) : Vec(Vec::Zero());
         return {l, {-e, e}};
     }
 };
@@ -37,16 +45,21 @@ struct BondLength {
 // dq/du = (u x n)/|u|^2, dq/dv = (n x v)/|v|^2 with n the unit normal along u x v.
 struct CornerAngle {
     static constexpr int nodes = 3;
-    static Coordinate<3> at(const std::array<Vec3, 3>& x) {
-        const Vec3 u = x[1] - x[0], v = x[2] - x[0];
-        const Vec3 normal = u.cross(v);
-        const double sine = normal.norm();
-        const double angle = std::atan2(sine, u.dot(v));
-        if (sine == 0) {
-            return {angle, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
+    template <class Scalar = double>
+    static Coordinate<3, Scalar> at(const std::array<Vec3Of<Scalar>, 3>& x) {
+        using Vec = Vec3Of<Scalar>;
+        using std::atan2, std::sqrt;
+        const Vec u = x[1] - x[0], v = x[2] - x[0];
+        const Vec normal = u.cross(v);
+        const Scalar square = normal.squaredNorm();
+        if (!(square > 0)) {
+            const Scalar angle = u.dot(v) < 0 ? Scalar(std::numbers::pi) : Scalar(0);
+            return {angle, {Vec::Zero(), Vec::Zero(), Vec::Zero()}};
         }
-        const Vec3 gu = u.cross(normal) / (sine * u.squaredNorm());
-        const Vec3 gv = normal.cross(v) / (sine * v.squaredNorm());
+        const Scalar sine = sqrt(square);
+        const Scalar angle = atan2(sine, u.dot(v));
+        const Vec gu = u.cross(normal) / (sine * u.squaredNorm());
+        const Vec gv = normal.cross(v) / (sine * v.squaredNorm());
         return {angle, {-gu - gv, gu, gv}};
     }
 };
@@ -58,18 +71,21 @@ struct CornerAngle {
 // with s, t the feet of the heights on the edge, 0 at a and 1 at b.
 struct DihedralAngle {
     static constexpr int nodes = 4;
-    static Coordinate<4> at(const std::array<Vec3, 4>& x) {
-        const Vec3 e = x[1] - x[0], p = x[2] - x[0], r = x[3] - x[0];
-        const Vec3 n1 = e.cross(p), n2 = r.cross(e);
-        const double ee = e.squaredNorm(), m1 = n1.squaredNorm(), m2 = n2.squaredNorm();
-        const double length = std::sqrt(ee);
-        const double angle = std::atan2(-length * n1.dot(r), n1.dot(n2));
-        if (m1 == 0 || m2 == 0) {
-            return {angle, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}};
+    template <class Scalar = double>
+    static Coordinate<4, Scalar> at(const std::array<Vec3Of<Scalar>, 4>& x) {
+        using Vec = Vec3Of<Scalar>;
+        using std::atan2, std::sqrt;
+        const Vec e = x[1] - x[0], p = x[2] - x[0], r = x[3] - x[0];
+        const Vec n1 = e.cross(p), n2 = r.cross(e);
+        const Scalar ee = e.squaredNorm(), m1 = n1.squaredNorm(), m2 = n2.squaredNorm();
+        if (!(m1 > 0) || !(m2 > 0)) {
+            return {Scalar(0), {Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()}};
         }
-        const Vec3 gc = (-length / m1) * n1, gd = (-length / m2) * n2;
-        const double s = p.dot(e) / ee, t = r.dot(e) / ee;
-        return {angle, {(s - 1) * gc + (t - 1) * gd, -s * gc - t * gd, gc, gd}};
+        const Scalar length = sqrt(ee);
+        const Scalar angle = atan2(Scalar(-length * n1.dot(r)), Scalar(n1.dot(n2)));
+        const Vec gc = n1 * Scalar(-length / m1), gd = n2 * Scalar(-length / m2);
+        const Scalar s = p.dot(e) / ee, t = r.dot(e) / ee;
+        return {angle, {Vec(gc * Scalar(s - 1) + gd * Scalar(t - 1)), Vec(gc * Scalar(-s) - gd * t), gc, gd}};
     }
 };
 

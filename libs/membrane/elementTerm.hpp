@@ -3,14 +3,15 @@
 //     E = sum over elements of E(q, q0),   F_n = -E'(q, q0) dq/dx_n
 //
 // Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
-// The stiffness of an element without its geometric part is E'' (dq/dx)(dq/dx)^T, with the one eigenvalue E''
-// |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of a node.
+// Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without its geometric part, the second, it has the one eigenvalue
+// E'' |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of a node.
 #pragma once
 #include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "membrane/coordinates.hpp"
+#include "membrane/hessian.hpp"
 #include "membrane/network.hpp"
 #include "membrane/term.hpp"
 
@@ -43,6 +44,25 @@ class ElementTerm final : public Term {
         return sum;
     }
 
+    void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
+        constexpr int size = 3 * Coordinate::nodes;
+        for (const auto& element : elementsOf(network_, Coordinate{})) {
+            const auto corners = cornersOf(element, x);
+            const auto q = Coordinate::at(corners);
+            Eigen::Matrix<double, size, 1> gradient;
+            for (int k = 0; k < Coordinate::nodes; ++k) {
+                gradient.template segment<3>(3 * k) = q.gradient[k];
+            }
+            Eigen::Matrix<double, size, size> matrix =
+                law_.secondDerivative(q.value, element.rest) * gradient * gradient.transpose();
+            matrix += law_.derivative(q.value, element.rest) * hessian<Coordinate>(corners);
+            if (definiteness == Definiteness::semiDefinite) {
+                matrix = semiDefinite(matrix);
+            }
+            stiffness.add(element.node, matrix);
+        }
+    }
+
     double maxStiffness(std::span<const Vec3> x) const override {
         std::vector<double> ofNode(x.size(), 0.0);
         for (const auto& element : elementsOf(network_, Coordinate{})) {
@@ -59,12 +79,15 @@ class ElementTerm final : public Term {
     }
 
   private:
-    static auto at(const Element<Coordinate::nodes>& element, std::span<const Vec3> x) {
+    static auto cornersOf(const Element<Coordinate::nodes>& element, std::span<const Vec3> x) {
         std::array<Vec3, Coordinate::nodes> corner;
         for (int k = 0; k < Coordinate::nodes; ++k) {
             corner[k] = x[element.node[k]];
         }
-        return Coordinate::at(corner);
+        return corner;
+    }
+    static auto at(const Element<Coordinate::nodes>& element, std::span<const Vec3> x) {
+        return Coordinate::at(cornersOf(element, x));
     }
 
     const Network& network_;

@@ -41,6 +41,12 @@ double Membrane::energy() const {
     return sum;
 }
 
+void Membrane::addStiffness(Definiteness definiteness, Stiffness& stiffness) const {
+    for (const auto& term : terms_) {
+        term->addStiffness(position, definiteness, stiffness);
+    }
+}
+
 double Membrane::maxStiffness() const {
     double sum = 0;
     for (const auto& term : terms_) {

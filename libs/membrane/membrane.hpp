@@ -30,6 +30,7 @@ class Membrane {
 
     void computeForces();         // force = -d energy/d position, all terms
     double energy() const;        // J
+    void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 
     bool canRupture() const { return rupture_ != nullptr; }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/vec.hpp"
+#include "membrane/stiffness.hpp"
 
 namespace corpuscle::membrane {
 
@@ -14,6 +15,8 @@ class Term {
     virtual ~Term() = default;
     virtual void addForces(std::span<const Vec3> x, std::span<Vec3> f) const = 0;  // N
     virtual double energy(std::span<const Vec3> x) const = 0;                      // J
+    // The second derivative of the energy, element by element.
+    virtual void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const = 0;
     // Bound of the largest eigenvalue of the stiffness matrix [N/m], its geometric part left out: for limits of the
     // time step.
     virtual double maxStiffness(std::span<const Vec3> x) const = 0;

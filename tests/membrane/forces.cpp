@@ -1,6 +1,8 @@
 // Every law: force = -grad(energy), no net force, no net torque; on a regular and an irregular mesh, strongly deformed.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "membrane/dihedralBending.hpp"
 #include "membrane/harmonicAngle.hpp"
 #include "membrane/harmonicBond.hpp"
@@ -93,6 +95,49 @@ TEST(Forces, AreMinusTheGradientOnARegularMesh) {
 TEST(Forces, AreMinusTheGradientOnAnIrregularMesh) {
     for (const LawCase& law : laws()) {
         checkForces(testing::irregular(2), 0.28, law);
+    }
+}
+
+// Rows of the stiffness against differences of the force, and the projected one has no negative eigenvalue.
+void checkStiffness(const Mesh& mesh, double edge, const LawCase& law) {
+    Network network(mesh.nodes, mesh.triangles);
+    const auto term = law.make(network);
+    std::vector<Vec3> x = testing::deformed(mesh.nodes, edge);
+    const auto size = static_cast<Eigen::Index>(3 * x.size());
+    AssembledStiffness exact(x.size()), semiDefinite(x.size());
+    term->addStiffness(x, Definiteness::exact, exact);
+    term->addStiffness(x, Definiteness::semiDefinite, semiDefinite);
+
+    Eigen::MatrixXd matrix(size, size), difference(size, size), projected(size, size);
+    const double h = 2e-4 * edge;
+    for (Eigen::Index k = 0; k < size; ++k) {
+        const Eigen::VectorXd unit = Eigen::VectorXd::Unit(size, k);
+        matrix.col(k) = exact * unit, projected.col(k) = semiDefinite * unit;
+        difference.col(k).setZero();
+        double& place = x[static_cast<std::size_t>(k / 3)][k % 3];
+        const double start = place;
+        for (const auto& [shift, weight] : {std::pair{h, 8.0}, {-h, -8.0}, {2 * h, -1.0}, {-2 * h, 1.0}}) {
+            place = start + shift;
+            std::vector<Vec3> f(x.size(), Vec3::Zero());
+            term->addForces(x, f);
+            for (Eigen::Index n = 0; n < size; ++n)
+                difference(n, k) -= weight * f[static_cast<std::size_t>(n / 3)][n % 3] / (12 * h);
+        }
+        place = start;
+    }
+    const double largest = matrix.cwiseAbs().maxCoeff();
+    EXPECT_GT(largest, 0.01) << law.name;
+    EXPECT_LT((matrix - difference).cwiseAbs().maxCoeff(), 1e-7 * largest) << law.name;
+    EXPECT_LT((matrix - matrix.transpose()).cwiseAbs().maxCoeff(), 1e-12 * largest) << law.name;
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(projected).eigenvalues();
+    EXPECT_GT(values.minCoeff(), -1e-12 * values.maxCoeff()) << law.name;
+    EXPECT_GT(values.maxCoeff(), 0.01) << law.name;
+}
+
+TEST(Stiffness, IsTheDerivativeOfTheForce) {
+    for (const LawCase& law : laws()) {
+        checkStiffness(testing::icosphere(1), 0.55, law);
+        checkStiffness(testing::irregular(1), 0.55, law);
     }
 }
 

@@ -1,0 +1,49 @@
+// Where terms put their stiffness, the second derivative of the energy [N/m]: element by element.
+//
+// An element names its nodes; its matrix has three rows and columns a node, in that order. A term that couples all nodes through one
+// scalar (global area, volume) gives a multiple of the outer product of a gradient instead, which is never written out.
+#pragma once
+#include <Eigen/Sparse>
+#include <span>
+#include <vector>
+
+#include "core/vec.hpp"
+
+namespace corpuscle::membrane {
+
+class Stiffness {
+  public:
+    virtual ~Stiffness() = default;
+    virtual void add(std::span<const int> nodes, const Eigen::Ref<const Eigen::MatrixXd>& matrix) = 0;
+    virtual void addRankOne(double factor, std::span<const Vec3> gradient) = 0;  // factor gradient gradient^T
+};
+
+// exact: the second derivative, which compressed elements make indefinite. semiDefinite: negative eigenvalues of each element's
+// matrix put to zero, so that the sum is positive semi-definite, as conjugate gradients and Newton's descent need.
+enum class Definiteness { exact, semiDefinite };
+
+// The matrix nearest to it, in the Frobenius norm, without negative eigenvalues.
+Eigen::MatrixXd semiDefinite(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
+
+// All of it for one membrane: a sparse matrix and low-rank parts.
+class AssembledStiffness : public Stiffness {
+  public:
+    explicit AssembledStiffness(std::size_t nodes) : size_(3 * static_cast<int>(nodes)) {}
+    void add(std::span<const int> nodes, const Eigen::Ref<const Eigen::MatrixXd>& matrix) override;
+    void addRankOne(double factor, std::span<const Vec3> gradient) override;
+
+    struct RankOne {
+        double factor;
+        Eigen::VectorXd vector;
+    };
+    const std::vector<RankOne>& rankOne() const { return rankOne_; }
+    Eigen::SparseMatrix<double> sparse() const;                 // without the rank-one parts
+    Eigen::VectorXd operator*(const Eigen::VectorXd& u) const;  // with them
+
+  private:
+    int size_;
+    std::vector<Eigen::Triplet<double>> entries_;
+    std::vector<RankOne> rankOne_;
+};
+
+}  // namespace corpuscle::membrane
