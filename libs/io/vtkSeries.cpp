@@ -112,7 +112,9 @@ void VtkSeries::writeIndex() const {
     writeFileAtomically(results_ / (stream_ + ".pvd"), text + "  </Collection>\n</VTKFile>\n");
 }
 
-void VtkSeries::write(double time, double strain, const PolyData& piece) {
+void VtkSeries::write(double time, std::optional<double> strain, const PolyData& piece) {
+    std::map<std::string, double> field{{"TimeValue", time}};
+    if (strain) field["strain"] = *strain;
     if (!started_) start();
     const std::string name = stepName(number_);
     const auto folder = results_ / stream_;
@@ -121,10 +123,7 @@ void VtkSeries::write(double time, double strain, const PolyData& piece) {
     const Cells cells = agreeOnCells(piece);
 
     onRoot(comm_, [&] { makeFolder(folder / name); });
-    together(comm_, [&] {
-        writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells,
-                 {{"TimeValue", time}, {"strain", strain}});
-    });
+    together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
 
     const std::string rootArrays = Communicator(comm_).broadcast(arrays);
     throwTogether(comm_, arrays != rootArrays,

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,8 @@ class VtkSeries {
     // keep: the number of times that stay, 0 for all. startTime: of this run [s]; a fresh run gives its first time.
     VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime);
 
-    // Collective: every rank gives its piece, with the same array names. Throws Failure(ExitCode::io) on all ranks.
-    void write(double time, double strain, const PolyData& piece);
+    // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws Failure(ExitCode::io) on all ranks.
+    void write(double time, std::optional<double> strain, const PolyData& piece);
 
   private:
     void start();

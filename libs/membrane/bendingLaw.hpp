@@ -9,7 +9,7 @@
 namespace corpuscle::membrane {
 
 struct MembraneScale {
-    double shearModulus = 0;  // Gs of the bond law in closed form (hexagonal network), N/m
+    double shearModulus = 0;  // Gs of bonds (closed form of a hexagonal network) and triangles, N/m
     double radius = 0;        // a: disc radius of a red cell, radius of a capsule, m
 };
 

@@ -13,6 +13,23 @@ double stretchOf(const Bond& bond, std::span<const Vec3> x) {
     return (x[bond.node[1]] - x[bond.node[0]]).norm() / bond.rest;
 }
 
+void addBonds(const Network& network, const BondLaw& law, int triangle, std::span<const Vec3> x, Mat3& virial) {
+    for (const int number : network.triangleBonds(triangle)) {
+        const Bond& bond = network.allBonds()[number];
+        const Vec3 r = x[bond.node[1]] - x[bond.node[0]];
+        const double l = r.norm();
+        virial += 0.5 * law.weight(network, bond) * law.tension(l, bond.rest) / l * r * r.transpose();
+    }
+}
+
+void addSheet(const Network& network, const TriangleLaw& law, int triangle, std::span<const Vec3> x, Mat3& virial) {
+    const RestTriangle rest(network.stressFree(), network.triangles()[triangle]);
+    const Vec3 a = x[rest.node[1]] - x[rest.node[0]], b = x[rest.node[2]] - x[rest.node[0]];
+    const Vec3 t = rest.area * rest.pullBack(law.slope(rest.strain(edgeProducts(a, b))));
+    virial += 2 * t[0] * a * a.transpose() + 2 * t[2] * b * b.transpose();
+    virial += t[1] * (a * b.transpose() + b * a.transpose());
+}
+
 }  // namespace
 
 std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x) {
@@ -23,28 +40,26 @@ std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x) 
     return strain;
 }
 
-PrincipalTensions principalTensions(const Network& network, const BondLaw& law, std::span<const Vec3> x) {
+PrincipalTensions principalTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x) {
     PrincipalTensions result;
     result.tension1.assign(network.triangles().size(), 0.0);
     result.tension2 = result.tension1;
     for (const int t : network.wholeTriangles()) {
-        const Index3& corner = network.triangles()[t];
-        const Vec3 normal = areaVector(x, corner);
-        const double area = normal.norm();
+        const double area = areaVector(x, network.triangles()[t]).norm();
         if (area == 0) {
             continue;
         }
-        const Vec3 e1 = (x[corner[1]] - x[corner[0]]).normalized(), e2 = normal.cross(e1) / area;
-        double xx = 0, yy = 0, xy = 0;
-        for (const int number : network.triangleBonds(t)) {
-            const Bond& bond = network.allBonds()[number];
-            const Vec3 r = x[bond.node[1]] - x[bond.node[0]];
-            const double l = r.norm(), share = 0.5 * law.tension(l, bond.rest) / (l * area);
-            const double r1 = r.dot(e1), r2 = r.dot(e2);
-            xx += share * r1 * r1;
-            yy += share * r2 * r2;
-            xy += share * r1 * r2;
+        Mat3 virial = Mat3::Zero();  // area times tension
+        if (laws.bonds) {
+            addBonds(network, *laws.bonds, t, x, virial);
         }
+        if (laws.triangles) {
+            addSheet(network, *laws.triangles, t, x, virial);
+        }
+        const Index3& corner = network.triangles()[t];
+        const Vec3 normal = areaVector(x, corner) / area, e1 = (x[corner[1]] - x[corner[0]]).normalized();
+        const Vec3 e2 = normal.cross(e1);
+        const double xx = e1.dot(virial * e1) / area, yy = e2.dot(virial * e2) / area, xy = e1.dot(virial * e2) / area;
         const double mean = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
         result.tension1[t] = mean + radius;
         result.tension2[t] = mean - radius;

@@ -1,7 +1,8 @@
 // The loop over elements, written once for every law of one internal coordinate q with rest value q0:
 //
-//     E = sum over elements of E(q, q0),   F_n = -E'(q, q0) dq/dx_n
+//     E = sum over elements of w E(q, q0),   F_n = -w E'(q, q0) dq/dx_n
 //
+// with a weight w of each element, 1 unless a law asks for others.
 // Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
 // Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without its geometric part, the second, it has the one eigenvalue
 // E'' |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of a node.
@@ -21,15 +22,26 @@ inline const std::vector<Bond>& elementsOf(const Network& network, BondLength) {
 inline const std::vector<Corner>& elementsOf(const Network& network, CornerAngle) { return network.corners(); }
 inline const std::vector<Hinge>& elementsOf(const Network& network, DihedralAngle) { return network.hinges(); }
 
-template <class Coordinate, class Law>
+// Nothing stored, nothing done.
+struct Unweighted {
+    static constexpr double of(int) { return 1; }
+};
+// One an element, by its number in the network as made.
+struct Weights {
+    std::vector<double> values;
+    double of(int number) const { return values[number]; }
+};
+
+template <class Coordinate, class Law, class Weighting = Unweighted>
 class ElementTerm final : public Term {
   public:
-    ElementTerm(const Network& network, Law law) : network_(network), law_(law) {}
+    ElementTerm(const Network& network, Law law, Weighting weighting = {})
+        : network_(network), law_(law), weighting_(std::move(weighting)) {}
 
     void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
         for (const auto& element : elementsOf(network_, Coordinate{})) {
             const auto q = at(element, x);
-            const double slope = law_.derivative(q.value, element.rest);
+            const double slope = weighting_.of(element.number) * law_.derivative(q.value, element.rest);
             for (int k = 0; k < Coordinate::nodes; ++k) {
                 f[element.node[k]] -= slope * q.gradient[k];
             }
@@ -39,7 +51,7 @@ class ElementTerm final : public Term {
     double energy(std::span<const Vec3> x) const override {
         double sum = 0;
         for (const auto& element : elementsOf(network_, Coordinate{})) {
-            sum += law_.energy(at(element, x).value, element.rest);
+            sum += weighting_.of(element.number) * law_.energy(at(element, x).value, element.rest);
         }
         return sum;
     }
@@ -56,6 +68,7 @@ class ElementTerm final : public Term {
             Eigen::Matrix<double, size, size> matrix =
                 law_.secondDerivative(q.value, element.rest) * gradient * gradient.transpose();
             matrix += law_.derivative(q.value, element.rest) * hessian<Coordinate>(corners);
+            matrix *= weighting_.of(element.number);
             if (definiteness == Definiteness::semiDefinite) {
                 matrix = semiDefinite(matrix);
             }
@@ -71,8 +84,9 @@ class ElementTerm final : public Term {
             for (const Vec3& g : q.gradient) {
                 square += g.squaredNorm();
             }
+            const double stiffness = weighting_.of(element.number) * law_.secondDerivative(q.value, element.rest);
             for (const int node : element.node) {
-                ofNode[node] += std::max(0.0, law_.secondDerivative(q.value, element.rest)) * square;
+                ofNode[node] += std::max(0.0, stiffness) * square;
             }
         }
         return ofNode.empty() ? 0.0 : *std::max_element(ofNode.begin(), ofNode.end());
@@ -92,10 +106,11 @@ class ElementTerm final : public Term {
 
     const Network& network_;
     Law law_;
+    [[no_unique_address]] Weighting weighting_;
 };
 
-template <class Law>
-using BondTerm = ElementTerm<BondLength, Law>;
+template <class Law, class Weighting = Unweighted>
+using BondTerm = ElementTerm<BondLength, Law, Weighting>;
 template <class Law>
 using CornerTerm = ElementTerm<CornerAngle, Law>;
 template <class Law>

@@ -13,6 +13,7 @@
 namespace corpuscle::membrane {
 
 struct HarmonicBond : BondLawOf<HarmonicBond>, Harmonic {
+    std::string constants(double l0) const override;
     static const Schema<HarmonicBond>& schema();
 };
 

@@ -14,15 +14,26 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> str
       velocity(stressFree.size(), Vec3::Zero()),
       force(stressFree.size(), Vec3::Zero()),
       network_(std::make_unique<Network>(std::move(stressFree), std::move(triangles))),
-      bondLaw_(settings.bonds.model),
-      rupture_(settings.rupture.model) {
-    scale_ = {bondLaw_->hexagonalModuli(network_->meanBondLength()).shear, radius};
-    terms_.push_back(bondLaw_->makeTerm(*network_));
+      laws_(settings),
+      scale_{laws_.moduli(network_->meanBondLength()).shear, radius} {
+    if (settings.bonds) {
+        terms_.push_back(settings.bonds->makeTerm(*network_));
+    }
+    if (settings.triangles) {
+        terms_.push_back(settings.triangles->makeTerm(*network_));
+    }
     if (settings.angles) {
         terms_.push_back(settings.angles->makeTerm(*network_));
     }
     if (settings.bending) {
         terms_.push_back(settings.bending->makeTerm(*network_, scale_));
+    }
+    const AreaConstraint area = settings.area.value_or(AreaConstraint{});
+    for (auto& term : area.makeTerms(*network_)) {
+        terms_.push_back(std::move(term));
+    }
+    if (settings.volume) {
+        terms_.push_back(settings.volume->makeTerm(*network_, area.restArea(*network_)));
     }
 }
 
@@ -59,7 +70,7 @@ std::vector<BrokenBond> Membrane::applyRupture() {
     if (!canRupture()) {
         return {};
     }
-    std::vector<BrokenBond> broken = rupture_->select(*network_, position);
+    std::vector<BrokenBond> broken = laws_.rupture->select(*network_, position);
     if (!broken.empty()) {
         std::vector<int> numbers;
         for (const BrokenBond& bond : broken) {

@@ -25,15 +25,15 @@ class Membrane {
     std::vector<Vec3> position, velocity, force;  // m, m/s, N
 
     const Network& network() const { return *network_; }
-    const BondLaw& bondLaw() const { return *bondLaw_; }
+    const MembraneSettings& laws() const { return laws_; }
     const MembraneScale& scale() const { return scale_; }
 
-    void computeForces();         // force = -d energy/d position, all terms
-    double energy() const;        // J
+    void computeForces();   // force = -d energy/d position, all terms
+    double energy() const;  // J
     void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 
-    bool canRupture() const { return rupture_ != nullptr; }
+    bool canRupture() const { return static_cast<bool>(laws_.rupture); }
     std::vector<BrokenBond> applyRupture();  // breaks what the criterion names at the present positions; what broke now
     void restore(std::vector<char> aliveBonds) { network_->restore(std::move(aliveBonds)); }
 
@@ -44,9 +44,8 @@ class Membrane {
 
   private:
     std::unique_ptr<Network> network_;  // terms refer to it: its address stays when the membrane is moved
+    MembraneSettings laws_;
     MembraneScale scale_;
-    std::shared_ptr<const BondLaw> bondLaw_;
-    std::shared_ptr<const RuptureLaw> rupture_;
     std::vector<std::unique_ptr<Term>> terms_;
 };
 

@@ -14,12 +14,39 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
     static const Schema<MembraneSettings> s =
         Schema<MembraneSettings>("membrane", "the laws of one kind of cell")
             .table("interior", &MembraneSettings::interior, "the fluid inside", {.fallback = "{}"})
-            .model("bonds", &MembraneSettings::bonds, "law of the bonds along the edges")
+            .modelOr("none", "bonds", &MembraneSettings::bonds, "law of the bonds along the edges",
+                     {.fallback = "none"})
+            .modelOr("none", "triangles", &MembraneSettings::triangles, "law of the sheet, triangle by triangle",
+                     {.fallback = "none"})
             .modelOr("none", "angles", &MembraneSettings::angles, "law of the triangles' corner angles",
                      {.fallback = "none"})
             .modelOr("none", "bending", &MembraneSettings::bending, "law of bending", {.fallback = "none"})
-            .modelOr("none", "rupture", &MembraneSettings::rupture, "when bonds break", {.fallback = "none"});
+            .table("area", &MembraneSettings::area, "area held near a target")
+            .table("volume", &MembraneSettings::volume, "enclosed volume held near a target")
+            .modelOr("none", "rupture", &MembraneSettings::rupture, "when bonds break", {.fallback = "none"})
+            .check([](const MembraneSettings& m, const Node& node, Problems& problems) {
+                if (!m.bonds && !m.triangles) {
+                    problems.add(node.place(), node.path,
+                                 "has no law that resists shear; give bonds (" +
+                                     joinWords(Registry<BondLaw>::instance().names()) + "), triangles (" +
+                                     joinWords(Registry<TriangleLaw>::instance().names()) + ") or both");
+                }
+            });
     return s;
+}
+
+SurfaceModuli MembraneSettings::moduli(double edge) const {
+    SurfaceModuli sum;
+    if (bonds) {
+        sum += bonds->hexagonalModuli(edge);
+    }
+    if (triangles) {
+        sum += triangles->moduli();
+    }
+    if (area) {
+        sum.area += area->local.value_or(0) + area->global.value_or(0);
+    }
+    return sum;
 }
 
 }  // namespace corpuscle::membrane

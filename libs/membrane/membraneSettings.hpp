@@ -3,9 +3,12 @@
 #pragma once
 #include "core/registry.hpp"
 #include "membrane/angleLaw.hpp"
+#include "membrane/areaConstraint.hpp"
 #include "membrane/bendingLaw.hpp"
 #include "membrane/bondLaw.hpp"
 #include "membrane/ruptureLaw.hpp"
+#include "membrane/triangleLaw.hpp"
+#include "membrane/volumeConstraint.hpp"
 
 namespace corpuscle::membrane {
 
@@ -16,10 +19,15 @@ struct InteriorSettings {
 
 struct MembraneSettings {
     InteriorSettings interior;
-    Choice<BondLaw> bonds;
-    Choice<AngleLaw> angles;     // empty: none
-    Choice<BendingLaw> bending;  // empty: none
+    Choice<BondLaw> bonds;          // empty: none; at least one of bonds and triangles is there
+    Choice<TriangleLaw> triangles;  // empty: none
+    Choice<AngleLaw> angles;        // empty: none
+    Choice<BendingLaw> bending;     // empty: none
+    std::optional<AreaConstraint> area;
+    std::optional<VolumeConstraint> volume;
     Choice<RuptureLaw> rupture;  // empty: bonds never break
+    // Of the sheet at small strain, what all laws add: bonds as a hexagonal network of this edge [m], closed form.
+    SurfaceModuli moduli(double edge) const;
     static const Schema<MembraneSettings>& schema();
 };
 

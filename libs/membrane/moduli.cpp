@@ -13,18 +13,21 @@ namespace corpuscle::membrane {
 
 namespace {
 
-// M_0, M_2, M_4 of the header.
+// M_0, M_2, M_4 of the header, and what is the same in all directions.
 struct Moments {
     double m0 = 0;
     std::complex<double> m2, m4;
+    SurfaceModuli isotropic;
 
-    double shearAnisotropy() const { return (m0 - std::abs(m4)) / (m0 + std::abs(m4)); }
+    double shear() const { return m0 / 8 + isotropic.shear; }
+    double area() const { return m0 / 4 + isotropic.area; }
+    double shearAnisotropy() const { return (shear() - std::abs(m4) / 8) / (shear() + std::abs(m4) / 8); }
     double axialAnisotropy() const {
         constexpr int directions = 180;
         double least = std::numeric_limits<double>::max(), greatest = 0;
         for (int k = 0; k < directions; ++k) {
             const auto turn = std::polar(1.0, -2 * std::numbers::pi * k / directions);  // e^(-2 i psi)
-            const double c = 3 * m0 / 8 + (m2 * turn).real() / 2 + (m4 * turn * turn).real() / 8;
+            const double c = shear() + area() + (m2 * turn).real() / 2 + (m4 * turn * turn).real() / 8;
             least = std::min(least, c);
             greatest = std::max(greatest, c);
         }
@@ -44,7 +47,8 @@ Moments momentsAround(const Network& network, const BondLaw& law, int centre, co
         for (const int number : network.triangleBonds(t)) {
             const Bond& bond = network.allBonds()[number];
             const Vec3 r = x[bond.node[1]] - x[bond.node[0]];
-            const double weight = 0.5 * law.stiffness(bond.rest, bond.rest) * bond.rest * bond.rest;
+            const double weight =
+                0.5 * law.weight(network, bond) * law.stiffness(bond.rest, bond.rest) * bond.rest * bond.rest;
             const double angle = std::atan2(r.dot(e2), r.dot(e1));
             sum.m0 += weight;
             sum.m2 += std::polar(weight, 2 * angle);
@@ -59,9 +63,13 @@ Moments momentsAround(const Network& network, const BondLaw& law, int centre, co
 
 }  // namespace
 
-NetworkModuli measureModuli(const Network& network, const BondLaw& law) {
+NetworkModuli measureModuli(const Network& network, const MembraneSettings& laws) {
     NetworkModuli result;
-    result.closedForm = law.hexagonalModuli(network.meanBondLength());
+    if (laws.bonds) {
+        result.closedForm += laws.bonds->hexagonalModuli(network.meanBondLength());
+    }
+    const SurfaceModuli isotropic = laws.triangles ? laws.triangles->moduli() : SurfaceModuli{};
+    result.closedForm += isotropic;
     if (network.wholeTriangles().empty()) {
         return result;
     }
@@ -71,7 +79,7 @@ NetworkModuli measureModuli(const Network& network, const BondLaw& law) {
             trianglesOfNode[node].push_back(t);
         }
     }
-    double area = 0, mean = 0, square = 0, shear = 0, axial = 0;
+    double area = 0, mean = 0, square = 0, dilation = 0, shear = 0, axial = 0;
     result.lowest = std::numeric_limits<double>::max();
     for (const int t : network.wholeTriangles()) {
         std::vector<int> neighbours;
@@ -81,12 +89,17 @@ NetworkModuli measureModuli(const Network& network, const BondLaw& law) {
         std::sort(neighbours.begin(), neighbours.end());
         neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
 
-        const Moments moments = momentsAround(network, law, t, neighbours);
-        const double a = network.restAreas()[t], local = moments.m0 / 8;
+        Moments moments;
+        if (laws.bonds) {
+            moments = momentsAround(network, *laws.bonds, t, neighbours);
+        }
+        moments.isotropic = isotropic;
+        const double a = network.restAreas()[t], local = moments.shear();
         const double shearRatio = moments.shearAnisotropy(), axialRatio = moments.axialAnisotropy();
         area += a;
         mean += a * local;
         square += a * local * local;
+        dilation += a * moments.area();
         shear += a * shearRatio;
         axial += a * axialRatio;
         result.lowest = std::min(result.lowest, local);
@@ -96,7 +109,7 @@ NetworkModuli measureModuli(const Network& network, const BondLaw& law) {
     }
     mean /= area;
     result.shear = mean;
-    result.area = 2 * mean;
+    result.area = dilation / area;
     result.deviation = std::sqrt(std::max(0.0, square / area - mean * mean)) / mean;
     result.shearAnisotropy = shear / area;
     result.axialAnisotropy = axial / area;
@@ -105,7 +118,7 @@ NetworkModuli measureModuli(const Network& network, const BondLaw& law) {
 
 std::string describe(const NetworkModuli& m) {
     return fmt::format(
-        "moduli of the network (affine, an upper bound)   hexagonal closed form\n"
+        "moduli of the network (affine, an upper bound)   closed form\n"
         "  Gs {:.4g} N/m ({:.4f} of closed form)           {:.4g} N/m\n"
         "  Ks {:.4g} N/m ({:.4f} of closed form)           {:.4g} N/m\n"
         "  over the surface: Gs {:.4g} to {:.4g} N/m, standard deviation {:.2f} %\n"
@@ -113,6 +126,19 @@ std::string describe(const NetworkModuli& m) {
         m.shear, m.shear / m.closedForm.shear, m.closedForm.shear, m.area, m.area / m.closedForm.area,
         m.closedForm.area, m.lowest, m.highest, 100 * m.deviation, m.shearAnisotropy, m.worstShearAnisotropy,
         m.axialAnisotropy, m.worstAxialAnisotropy);
+}
+
+std::string describeConstants(const MembraneSettings& laws, double edge) {
+    std::string text;
+    if (laws.bonds) {
+        text += fmt::format("bonds {}: {}{} (at rest length {:.4g} m)\n", laws.bonds.name, laws.bonds->constants(edge),
+                            laws.bonds->scaled ? ", scaled by area" : "", edge);
+    }
+    if (laws.triangles) {
+        text += fmt::format("triangles {}: {}\n", laws.triangles.name, laws.triangles->constants());
+    }
+    const SurfaceModuli moduli = laws.moduli(edge);
+    return text + fmt::format("closed form: Gs {:.4g} N/m, Ks {:.4g} N/m\n", moduli.shear, moduli.area);
 }
 
 }  // namespace corpuscle::membrane

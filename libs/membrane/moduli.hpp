@@ -6,23 +6,24 @@
 // With M_m = sum_b w_b exp(i m phi_b), phi_b the bond's direction in the plane:
 //     Ks = M_0/4      Gs(psi) = (M_0 + Re M_4 e^(-4 i psi))/8      (shear along psi; mean M_0/8)
 //     axial stiffness C_nnnn(psi) = 3/8 M_0 + 1/2 Re M_2 e^(-2 i psi) + 1/8 Re M_4 e^(-4 i psi)      (mean Ks + Gs)
-// Ks = 2 Gs for every such network (Cauchy's relation). The neighbourhood of a triangle is itself and all that share
+// Ks = 2 Gs for every network of bonds (Cauchy's relation). The neighbourhood of a triangle is itself and all that share
 // a node with it, laid flat in its plane.
 //
 // These are upper bounds: nodes of an irregular network move beside the affine motion and so make it softer, the more
 // so the more irregular; on a regular lattice the bound is exact. A relaxed modulus needs a periodic flat sheet,
-// which a closed mesh does not give. Angle and bending laws are not in it.
+// which a closed mesh does not give. A triangle law adds its own Gs and Ks, isotropic, to those of the bonds, exactly. Angle,
+// area and bending laws are not in it.
 #pragma once
 #include <string>
 
-#include "membrane/bondLaw.hpp"
+#include "membrane/membraneSettings.hpp"
 
 namespace corpuscle::membrane {
 
 struct NetworkModuli {
-    SurfaceModuli closedForm;        // hexagonal network with the mean rest length, N/m
+    SurfaceModuli closedForm;        // hexagonal network with the mean rest length, and triangle law, N/m
     double area = 0, shear = 0;      // means over the surface, N/m
-    double deviation = 0;            // standard deviation over the surface relative to the mean (the same for both)
+    double deviation = 0;            // of Gs over the surface: standard deviation relative to the mean
     double lowest = 0, highest = 0;  // of the local mean shear modulus, N/m
     double shearAnisotropy = 1;      // mean over the surface of (least/greatest Gs over the directions); 1: isotropic
     double axialAnisotropy = 1;      // the same of C_nnnn
@@ -30,9 +31,11 @@ struct NetworkModuli {
 };
 
 // Of the whole triangles at rest; zero moduli where none is left.
-NetworkModuli measureModuli(const Network& network, const BondLaw& law);
+NetworkModuli measureModuli(const Network& network, const MembraneSettings& laws);
 
 // A few lines for logs and checkCase.
 std::string describe(const NetworkModuli& moduli);
+// Constants of the in-plane laws and their moduli in closed form, of bonds of this length [m].
+std::string describeConstants(const MembraneSettings& laws, double edge);
 
 }  // namespace corpuscle::membrane

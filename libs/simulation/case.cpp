@@ -155,7 +155,7 @@ Case Case::read(const Application& app) {
     if (!c.mesh.cells.empty()) {
         const CellSettings& first = c.mesh.cells.front();
         context.cellRadius = first.shape->radius();
-        context.shearModulus = c.membraneOf(first).bonds->hexagonalModuli(first.edge).shear;
+        context.shearModulus = c.membraneOf(first).moduli(first.edge).shear;
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
     c.throwIfAny(problems);
@@ -197,7 +197,7 @@ double Case::soundSpeed() const {
     for (const CellSettings& cell : mesh.cells) {
         const double a = cell.shape->radius();
         length = std::min(length, a);
-        square = std::max(square, membraneOf(cell).bonds->hexagonalModuli(cell.edge).shear / (flow.density * a));
+        square = std::max(square, membraneOf(cell).moduli(cell.edge).shear / (flow.density * a));
     }
     square = std::max({square, nu * flow.speed / length, flow.bodyForce.norm() * flow.length});
     return 10 * std::sqrt(square);

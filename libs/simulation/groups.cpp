@@ -18,15 +18,15 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
     if (!c.mesh.cells.empty()) {
         const CellSettings& cell = c.mesh.cells.front();
         const membrane::MembraneSettings& laws = c.membraneOf(cell);
-        const double a = cell.shape->radius(), Gs = laws.bonds->hexagonalModuli(cell.edge).shear;
+        const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear;
         const double rate = c.flow.rate;
         add("Re", c.flow.density * rate * a * a / c.fluid.viscosity,
             c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
                                                formatQuantity(c.flow.density, unit::kilogramPerMetre3))
                                  : "rho gammadot a^2/mu");
         add("Ca", c.fluid.viscosity * rate * a / Gs,
-            fmt::format("mu gammadot a/Gs, Gs = {} (closed form, hexagonal network)",
-                        formatQuantity(Gs, unit::newtonPerMetre)));
+            fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
+                        laws.bonds ? ", hexagonal network" : ""));
         add("lambda", laws.interior.viscosityRatio, "viscosity inside/outside");
         if (laws.bending) {
             const double kappa = laws.bending->bendingModulus({Gs, a});

@@ -75,7 +75,7 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     stretch = membrane::nodeStretch(network, m.position);
     spacing.assign(m.position.size(), scene.spacing);
     areaStrain = membrane::areaStrain(network, m.position);
-    auto tensions = membrane::principalTensions(network, m.bondLaw(), m.position);
+    auto tensions = membrane::principalTensions(network, m.laws(), m.position);
     tension1 = std::move(tensions.tension1);
     tension2 = std::move(tensions.tension2);
     for (std::size_t t = 0; t < data.triangles.size(); ++t)

@@ -6,7 +6,7 @@ const Schema<ShearFlow>& ShearFlow::schema() {
     static const Schema<ShearFlow> s =
         Schema<ShearFlow>("shear", "simple shear between two moving walls")
             .quantity("Ca", &ShearFlow::Ca, unit::none,
-                      "capillary number mu gammadot a/Gs, Gs the bond law's closed form", {.range = positive})
+                      "capillary number mu gammadot a/Gs, Gs the in-plane laws' closed form", {.range = positive})
             .quantity("shearRate", &ShearFlow::shearRate, unit::perSecond, "shear rate gammadot", {.range = positive})
             .exactlyOneOf({"Ca", "shearRate"})
             .tableOr("physical", "inertia", &ShearFlow::inertia, "density as given, or set by a Reynolds number",

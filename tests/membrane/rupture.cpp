@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cases.hpp"
 #include "core/error.hpp"
 #include "membrane/bondStretch.hpp"
 #include "membrane/diagnostics.hpp"
@@ -294,7 +295,7 @@ TEST(Diagnostics, HexagonalPatchUnderEqualStretch) {
     for (Vec3& p : x) {
         p *= 1.1;
     }
-    const auto tensions = principalTensions(network, law, x);
+    const auto tensions = principalTensions(network, testing::only(law), x);
     const auto strain = areaStrain(network, x);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         EXPECT_NEAR(tensions.tension1[t], std::sqrt(3.0) * law.k * 0.1 / 1.1, 1e-12);  // sqrt(3) k (l - l0)/l
@@ -314,7 +315,7 @@ TEST(Diagnostics, TensionsCarryTheVirial) {
     HarmonicBond law;
     law.k = 2;
     const auto x = testing::deformed(mesh.nodes, 0.28);
-    const auto tensions = principalTensions(network, law, x);
+    const auto tensions = principalTensions(network, testing::only(law), x);
     double surface = 0, virial = 0, largest = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         surface += areaVector(x, mesh.triangles[t]).norm() * (tensions.tension1[t] + tensions.tension2[t]);

@@ -70,7 +70,7 @@ std::vector<std::string> misplacedCells(const Case& input, const std::vector<Tri
 }
 
 membrane::NetworkModuli moduliOf(const TriangleMesh& mesh, const membrane::MembraneSettings& laws) {
-    return membrane::measureModuli(membrane::Network(mesh.nodes, mesh.triangles), *laws.bonds);
+    return membrane::measureModuli(membrane::Network(mesh.nodes, mesh.triangles), laws);
 }
 
 nlohmann::ordered_json toJson(const geometry::MeshQuality& q) {

@@ -58,11 +58,16 @@ void reportSize(Application& app, const simulation::Case& input, ordered_json& j
                      size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
 }
 
+void reportLaws(Application& app, const simulation::Case& input) {
+    for (const simulation::CellSettings& cell : input.mesh.cells)
+        app.log().info("cell {}\n{}", cell.name, membrane::describeConstants(input.membraneOf(cell), cell.edge));
+}
+
 // Moduli as the case states them and as the network has them.
 void reportMembranes(Application& app, const coupling::Scene& scene) {
     for (const coupling::Cell& cell : scene.cells)
         app.log().info("cell {}: {} nodes\n{}", cell.membrane.name, cell.nodeCount(),
-                       membrane::describe(membrane::measureModuli(cell.membrane.network(), cell.membrane.bondLaw())));
+                       membrane::describe(membrane::measureModuli(cell.membrane.network(), cell.membrane.laws())));
 }
 
 void reportRun(Application& app, const simulation::Case& input, ordered_json& json) {
@@ -106,6 +111,7 @@ int main(int argc, char* argv[]) {
         ordered_json json;
         const simulation::Case input = simulation::Case::read(app);
         reportGroups(app, input, json);
+        reportLaws(app, input);
         reportSize(app, input, json);
         if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
             reportRun(app, input, json);

@@ -18,6 +18,7 @@
 #include "core/schemaJson.hpp"
 #include "observers/observers.hpp"
 #include "simulation/caseSettings.hpp"
+#include "simulation/relaxSettings.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -57,6 +58,7 @@ std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
     return {{"system/control.yaml", ControlSettings::schema().info()},
             {"system/numerics.yaml", NumericsSettings::schema().info()},
             {"system/mesh.yaml", MeshSettings::schema().info()},
+            {"system/relax.yaml", RelaxSettings::schema().info()},
             {"system/observers.yaml", observers::ObserversSettings::schema().info()},
             {"constant/fluid.yaml", FluidSettings::schema().info()},
             {"constant/membranes.yaml", MembranesSettings::schema().info()},

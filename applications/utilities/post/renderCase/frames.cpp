@@ -39,11 +39,12 @@ class Stream {
         if (found != read_.end()) return found->second;
         return read_[i] = file.extension() == ".pvtp" ? io::readPvtp(file) : io::readVtp(file);
     }
-    std::optional<double> strain(int i) {
-        const auto& field = at(i).field;
-        const auto found = field.find("strain");
-        return found == field.end() ? std::nullopt : std::optional(found->second);
+    std::optional<double> field(int i, const std::string& name) {
+        const auto& all = at(i).field;
+        const auto found = all.find(name);
+        return found == all.end() ? std::nullopt : std::optional(found->second);
     }
+    std::optional<double> strain(int i) { return field(i, "strain"); }
     // Strain, or time where there is none.
     double progress(int i) { return strain(i).value_or(time(i)); }
     int nearestTime(double wanted) const {
@@ -134,6 +135,7 @@ std::vector<Frame> readFrames(const std::filesystem::path& caseDir, const FrameC
         Frame frame;
         frame.time = leading.time(i);
         frame.strain = leading.strain(i);
+        frame.stage = leading.field(i, "stage");
         for (auto& [name, stream] : streams) {
             frame.surfaces[name] = stream.at(stream.nearestTime(frame.time));
             removeBroken(frame.surfaces[name]);

@@ -13,6 +13,7 @@ namespace corpuscle {
 struct Frame {
     double time = 0;                               // s
     std::optional<double> strain;                  // gammadot t, where the results know it
+    std::optional<double> stage;                   // of a protocol, the same
     std::map<std::string, io::PolyData> surfaces;  // by membrane; triangles marked `broken` are left out
     std::optional<io::PolyData> fluid;
 };

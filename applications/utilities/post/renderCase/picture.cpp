@@ -237,6 +237,7 @@ std::string labelOf(const Frame& frame) {
         return fmt::format("\u03b3\u0307t = {:.{}f}", *frame.strain,
                            std::abs(tenths - std::round(tenths)) < 0.05 ? 1 : 2);
     }
+    if (frame.stage) return fmt::format("stage {:g}", *frame.stage);
     return fmt::format("t = {:.4g} ms", frame.time * 1e3);
 }
 

@@ -1,0 +1,191 @@
+#include "membrane/areaConstraint.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "membrane/hessian.hpp"
+
+namespace corpuscle::membrane {
+
+namespace {
+
+std::array<Vec3, 3> places(std::span<const Vec3> x, const Index3& node) { return {x[node[0]], x[node[1]], x[node[2]]}; }
+
+double total(const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); }
+
+// slope d2A/dx2 + curvature (dA/dx)(dA/dx)^T of one triangle.
+void addTriangle(std::span<const Vec3> x, const Index3& node, double slope, double curvature, Definiteness definiteness,
+                 Stiffness& stiffness) {
+    const auto corners = places(x, node);
+    const auto area = TriangleArea::at(corners);
+    Eigen::Matrix<double, 9, 1> gradient;
+    gradient << area.gradient[0], area.gradient[1], area.gradient[2];
+    Eigen::Matrix<double, 9, 9> matrix = slope * hessian<TriangleArea>(corners);
+    matrix += curvature * gradient * gradient.transpose();
+    if (definiteness == Definiteness::semiDefinite) {
+        matrix = semiDefinite(matrix);
+    }
+    stiffness.add(node, matrix);
+}
+
+class LocalArea final : public Term {
+  public:
+    LocalArea(const Network& network, double modulus, double scale)
+        : network_(network), modulus_(modulus), scale_(scale) {}
+
+    void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
+        for (const int t : network_.wholeTriangles()) {
+            const Index3& node = network_.triangles()[t];
+            const auto area = TriangleArea::at(places(x, node));
+            for (int k = 0; k < 3; ++k) {
+                f[node[k]] -= modulus_ * (area.value / rest(t) - 1) * area.gradient[k];
+            }
+        }
+    }
+
+    double energy(std::span<const Vec3> x) const override {
+        double sum = 0;
+        for (const int t : network_.wholeTriangles()) {
+            const double change = TriangleArea::at(places(x, network_.triangles()[t])).value - rest(t);
+            sum += 0.5 * modulus_ * change * change / rest(t);
+        }
+        return sum;
+    }
+
+    void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
+        for (const int t : network_.wholeTriangles()) {
+            const Index3& node = network_.triangles()[t];
+            const double area = TriangleArea::at(places(x, node)).value;
+            addTriangle(x, node, modulus_ * (area / rest(t) - 1), modulus_ / rest(t), definiteness, stiffness);
+        }
+    }
+
+    double maxStiffness(std::span<const Vec3> x) const override {
+        std::vector<double> ofNode(x.size(), 0.0);
+        for (const int t : network_.wholeTriangles()) {
+            const Index3& node = network_.triangles()[t];
+            double sum = 0;
+            const auto area = TriangleArea::at(places(x, node));
+            for (const Vec3& g : area.gradient) {
+                sum += g.norm();
+            }
+            for (int k = 0; k < 3; ++k) {
+                ofNode[node[k]] += modulus_ / rest(t) * sum * area.gradient[k].norm();
+            }
+        }
+        return ofNode.empty() ? 0.0 : *std::max_element(ofNode.begin(), ofNode.end());
+    }
+
+  private:
+    double rest(int t) const { return scale_ * network_.restAreas()[t]; }
+
+    const Network& network_;
+    double modulus_, scale_;
+};
+
+class GlobalArea final : public Term {
+  public:
+    GlobalArea(const Network& network, double modulus, double rest)
+        : network_(network), modulus_(modulus), rest_(rest) {}
+
+    void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
+        if (network_.brokenTriangles() > 0) {
+            return;
+        }
+        const double slope = modulus_ * (area(x) / rest_ - 1);
+        for (const Index3& node : network_.triangles()) {
+            const auto part = TriangleArea::at(places(x, node));
+            for (int k = 0; k < 3; ++k) {
+                f[node[k]] -= slope * part.gradient[k];
+            }
+        }
+    }
+
+    double energy(std::span<const Vec3> x) const override {
+        if (network_.brokenTriangles() > 0) {
+            return 0;
+        }
+        const double change = area(x) - rest_;
+        return 0.5 * modulus_ * change * change / rest_;
+    }
+
+    void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
+        if (network_.brokenTriangles() > 0) {
+            return;
+        }
+        const double slope = modulus_ * (area(x) / rest_ - 1);
+        for (const Index3& node : network_.triangles()) {
+            addTriangle(x, node, slope, 0, definiteness, stiffness);
+        }
+        stiffness.addRankOne(modulus_ / rest_, gradient(x));
+    }
+
+    double maxStiffness(std::span<const Vec3> x) const override {
+        if (network_.brokenTriangles() > 0) {
+            return 0;
+        }
+        double square = 0;
+        for (const Vec3& g : gradient(x)) {
+            square += g.squaredNorm();
+        }
+        return modulus_ / rest_ * square;
+    }
+
+  private:
+    double area(std::span<const Vec3> x) const {
+        double sum = 0;
+        for (const Index3& node : network_.triangles()) {
+            sum += TriangleArea::at(places(x, node)).value;
+        }
+        return sum;
+    }
+    std::vector<Vec3> gradient(std::span<const Vec3> x) const {
+        std::vector<Vec3> sum(x.size(), Vec3::Zero());
+        for (const Index3& node : network_.triangles()) {
+            const auto part = TriangleArea::at(places(x, node));
+            for (int k = 0; k < 3; ++k) {
+                sum[node[k]] += part.gradient[k];
+            }
+        }
+        return sum;
+    }
+
+    const Network& network_;
+    double modulus_, rest_;
+};
+
+}  // namespace
+
+double AreaConstraint::restArea(const Network& network) const { return rest.value_or(total(network.restAreas())); }
+
+std::vector<std::unique_ptr<Term>> AreaConstraint::makeTerms(Network& network) const {
+    std::vector<std::unique_ptr<Term>> terms;
+    const double target = restArea(network);
+    if (local) {
+        terms.push_back(std::make_unique<LocalArea>(network, *local, target / total(network.restAreas())));
+    }
+    if (global) {
+        terms.push_back(std::make_unique<GlobalArea>(network, *global, target));
+    }
+    return terms;
+}
+
+const Schema<AreaConstraint>& AreaConstraint::schema() {
+    static const Schema<AreaConstraint> s =
+        Schema<AreaConstraint>("area constraint", "area held near a target, by triangle and as a whole")
+            .quantity("local", &AreaConstraint::local, unit::newtonPerMetre,
+                      "modulus of each triangle's area, K/2 (A - A0)^2/A0", {.range = positive})
+            .quantity("global", &AreaConstraint::global, unit::newtonPerMetre,
+                      "modulus of the whole area; let go when the cell ruptures", {.range = positive})
+            .quantity("rest", &AreaConstraint::rest, unit::metre.power(2),
+                      "area wanted; that of the stress-free mesh when absent", {.range = positive})
+            .check([](const AreaConstraint& a, const Node& node, Problems& problems) {
+                if (!a.local && !a.global) {
+                    problems.add(node.place(), node.path,
+                                 "neither local nor global is given; give at least one modulus, or leave area out");
+                }
+            });
+    return s;
+}
+
+}  // namespace corpuscle::membrane

@@ -1,0 +1,54 @@
+#include "membrane/inflation.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/registry.hpp"
+#include "core/units.hpp"
+#include "membrane/surface.hpp"
+
+namespace corpuscle::membrane {
+
+namespace {
+
+double meanRadius(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
+
+double stressFreeVolume(const Network& network) {
+    double sum = 0;
+    const auto& x = network.stressFree();
+    for (const Index3& t : network.triangles()) {
+        sum += tetrahedron(x[t[0]], x[t[1]], x[t[2]], x.front());
+    }
+    return sum;
+}
+
+}  // namespace
+
+const Schema<Inflation>& Inflation::schema() {
+    static const Schema<Inflation> s =
+        Schema<Inflation>("inflation", "a pressure difference over a closed membrane")
+            .quantities("pressures", &Inflation::pressures, unit::pascal, "inside over outside, one stage each");
+    return s;
+}
+
+Loads Inflation::apply(int stage, Membrane&) const {
+    Loads loads;
+    loads.pressure = pressures[static_cast<std::size_t>(stage)];
+    return loads;
+}
+
+std::string Inflation::describe(int stage) const {
+    return formatQuantity(pressures[static_cast<std::size_t>(stage)], unit::pascal);
+}
+
+std::vector<std::string> Inflation::columns() const { return {"pressure_Pa", "radius_m", "stretch"}; }
+
+std::vector<double> Inflation::measure(int stage, const Membrane& membrane) const {
+    const double radius = meanRadius(membrane.volume());
+    return {pressures[static_cast<std::size_t>(stage)], radius,
+            radius / meanRadius(stressFreeVolume(membrane.network()))};
+}
+
+CORPUSCLE_REGISTER(Protocol, Inflation, "inflation", "a pressure difference over a closed membrane");
+
+}  // namespace corpuscle::membrane

@@ -1,0 +1,21 @@
+// Inflation of a closed membrane by a pressure difference p, inside over outside, that follows the surface.
+// Read off: mean radius (3 V/(4 pi))^(1/3) and its ratio to that of the stress-free shape.
+// For a sphere of radius a the laws have closed forms, stretch l: neo-Hookean p a/Gs = 2 (1 - l^-6)/l.
+#pragma once
+#include "core/settings.hpp"
+#include "membrane/protocol.hpp"
+
+namespace corpuscle::membrane {
+
+struct Inflation : Protocol {
+    std::vector<double> pressures;  // Pa
+
+    int stages() const override { return static_cast<int>(pressures.size()); }
+    Loads apply(int stage, Membrane& membrane) const override;
+    std::string describe(int stage) const override;
+    std::vector<std::string> columns() const override;
+    std::vector<double> measure(int stage, const Membrane& membrane) const override;
+    static const Schema<Inflation>& schema();
+};
+
+}  // namespace corpuscle::membrane

@@ -1,0 +1,26 @@
+// Family of the protocols of membraneRelax: what is done to a membrane without fluid, stage by stage, and what is read off it.
+//
+// Each stage gives the loads; the equilibrium under them (equilibrium.hpp) is found from that of the stage before. The cell stands as
+// its shape is defined: axis along z, centre at the origin.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "membrane/equilibrium.hpp"
+
+namespace corpuscle::membrane {
+
+class Protocol {
+  public:
+    static constexpr const char* familyName = "relaxation protocol";
+    virtual ~Protocol() = default;
+    virtual int stages() const = 0;
+    // Of stage 0, 1, ...; may displace nodes beforehand. Throws Failure(invalidCase) where the membrane does not suit.
+    virtual Loads apply(int stage, Membrane& membrane) const = 0;
+    virtual std::string describe(int stage) const = 0;  // "60 pN"
+    // Columns beside those of every protocol (area, volume, energy), as name_unit, and their values in equilibrium.
+    virtual std::vector<std::string> columns() const = 0;
+    virtual std::vector<double> measure(int stage, const Membrane& membrane) const = 0;
+};
+
+}  // namespace corpuscle::membrane
