@@ -27,7 +27,12 @@ double stressFreeVolume(const Network& network) {
 const Schema<Inflation>& Inflation::schema() {
     static const Schema<Inflation> s =
         Schema<Inflation>("inflation", "a pressure difference over a closed membrane")
-            .quantities("pressures", &Inflation::pressures, unit::pascal, "inside over outside, one stage each");
+            .quantities("pressures", &Inflation::pressures, unit::pascal, "inside over outside, one stage each")
+            .check([](const Inflation& p, const Node& node, Problems& problems) {
+                if (p.pressures.empty()) {
+                    problems.add(node.mark, node.path, "found no stage; 'pressures' needs at least one value");
+                }
+            });
     return s;
 }
 

@@ -1,5 +1,7 @@
 #include "membrane/tweezers.hpp"
 
+#include <utility>
+
 #include "core/registry.hpp"
 #include "core/units.hpp"
 
@@ -21,7 +23,12 @@ const Schema<Tweezers>& Tweezers::schema() {
             .quantities("forces", &Tweezers::forces, unit::newton, "on each bead, one stage each",
                         {.range = atLeast(0)})
             .quantity("contact", &Tweezers::contact, unit::metre, "diameter of a bead's contact area",
-                      {.fallback = "2 um", .range = positive});
+                      {.fallback = "2 um", .range = positive})
+            .check([](const Tweezers& p, const Node& node, Problems& problems) {
+                if (p.forces.empty()) {
+                    problems.add(node.mark, node.path, "found no stage; 'forces' needs at least one value");
+                }
+            });
     return s;
 }
 
@@ -38,6 +45,7 @@ Loads Tweezers::apply(int stage, Membrane& membrane) const {
     loads.force.assign(rest.size(), Vec3::Zero());
     const auto [left, right] =
         std::minmax_element(rest.begin(), rest.end(), [](const Vec3& a, const Vec3& b) { return a[0] < b[0]; });
+    std::vector<char> loaded(rest.size(), 0);
     for (const auto& [end, sign] : {std::pair{*left, -1.0}, {*right, 1.0}}) {
         double total = 0;
         const auto touches = [&](std::size_t n) { return (rest[n] - end).norm() <= 0.5 * contact; };
@@ -48,7 +56,7 @@ Loads Tweezers::apply(int stage, Membrane& membrane) const {
             if (!touches(n)) {
                 continue;
             }
-            if (loads.force[n][0] != 0) {
+            if (std::exchange(loaded[n], 1)) {
                 throw Failure(ExitCode::invalidCase,
                               "the contact areas of the two beads meet: take a smaller 'contact' than " +
                                   formatQuantity(contact, unit::metre) + " in system/relax.yaml");

@@ -57,7 +57,9 @@ TEST(Protocols, TweezersPullWithTheForceTheyName) {
     const double before = tweezers->measure(0, cell)[1];
     ASSERT_TRUE(findEquilibrium(cell, loads, {}).converged);
     EXPECT_GT(tweezers->measure(0, cell)[1], 1.1 * before);
-    EXPECT_THROW(protocol("{type: tweezers, forces: [0.5] N, contact: 9 m}")->apply(0, cell), Failure);
+    EXPECT_THROW(protocol("{type: tweezers, forces: [0] N, contact: 9 m}")->apply(0, cell), Failure);
+    EXPECT_THROW(protocol("{type: tweezers, forces: []}"), CaseError);
+    EXPECT_THROW(protocol("{type: inflation, pressures: []}"), CaseError);
 }
 
 // Shaken nodes of a sphere of springs go back to their places: to rest, but for a motion as a whole.
