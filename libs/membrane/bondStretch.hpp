@@ -12,7 +12,8 @@ namespace corpuscle::membrane {
 struct BondStretch : RuptureLaw {
     double limit = 0;
 
-    std::vector<BrokenBond> select(const Network& network, std::span<const Vec3> x) const override {
+    std::vector<BrokenBond> select(const Network& network, const MembraneSettings&,
+                                   std::span<const Vec3> x) const override {
         std::vector<BrokenBond> broken;
         for (const Bond& bond : network.bonds()) {
             const Vec3 &a = x[bond.node[0]], &b = x[bond.node[1]];

@@ -70,7 +70,7 @@ std::vector<BrokenBond> Membrane::applyRupture() {
     if (!canRupture()) {
         return {};
     }
-    std::vector<BrokenBond> broken = laws_.rupture->select(*network_, position);
+    std::vector<BrokenBond> broken = laws_.rupture->select(*network_, laws_, position);
     if (!broken.empty()) {
         std::vector<int> numbers;
         for (const BrokenBond& bond : broken) {

@@ -5,6 +5,7 @@
 
 #include "cases.hpp"
 #include "core/error.hpp"
+#include "core/registry.hpp"
 #include "membrane/bondStretch.hpp"
 #include "membrane/diagnostics.hpp"
 #include "membrane/dihedralBending.hpp"
@@ -328,6 +329,44 @@ TEST(Diagnostics, TensionsCarryTheVirial) {
     }
     EXPECT_NEAR(surface, virial, 1e-12 * std::abs(virial));
     EXPECT_EQ(maxBondStrain(network, x), largest);
+}
+
+// A lattice strained by (a, b) along x and y: every triangle has the areal strain a b - 1 and the same tension.
+Membrane strainedSheet(const std::string& laws, double a, double b) {
+    Problems problems;
+    const auto settings = read<MembraneSettings>(parseValue(laws, "test", problems), problems);
+    problems.throwIfAny();
+    Membrane sheet = membraneOf(testing::hexagonalPatch(4), settings);
+    for (Vec3& x : sheet.position) {
+        x = Vec3(a * x.x(), b * x.y(), 0);
+    }
+    return sheet;
+}
+
+TEST(Rupture, ArealStrainBreaksTheMostStretchedBondOfATriangle) {
+    const std::string laws = "{triangles: {type: neoHookean, Gs: 1 N/m}, rupture: {type: arealStrain, limit: 0.04}}";
+    EXPECT_TRUE(strainedSheet(laws, 1.30, 0.79).applyRupture().empty()) << "long, but no greater: 2.7 %";
+    EXPECT_TRUE(strainedSheet(laws, 1.019, 1.02).applyRupture().empty());
+    Membrane sheet = strainedSheet(laws, 1.05, 1.0);  // rows along x are stretched most
+    const std::vector<BrokenBond> broken = sheet.applyRupture();
+    EXPECT_EQ(broken.size(), 20u) << "5 rows of 4 bonds, each once";
+    for (const BrokenBond& bond : broken) {
+        EXPECT_NEAR(bond.stretch, 1.05, 1e-12);
+    }
+    EXPECT_EQ(sheet.network().brokenTriangles(), 32);
+    EXPECT_TRUE(sheet.applyRupture().empty()) << "no triangle is left";
+}
+
+// Equibiaxial stretch l of a neo-Hookean sheet: T = Gs (1 - l^-6).
+TEST(Rupture, TensionBreaksAtTheLawsTension) {
+    const double l = 1.1, tension = 1 - std::pow(l, -6);
+    const auto laws = [](double limit) {
+        return "{triangles: {type: neoHookean, Gs: 1 N/m}, rupture: {type: tension, limit: " + std::to_string(limit) +
+               " N/m}}";
+    };
+    EXPECT_TRUE(strainedSheet(laws(1.01 * tension), l, l).applyRupture().empty());
+    EXPECT_FALSE(strainedSheet(laws(0.99 * tension), l, l).applyRupture().empty());
+    EXPECT_TRUE(strainedSheet(laws(0.99 * tension), 1 / l, 1 / l).applyRupture().empty()) << "compression";
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ TEST(Registry, EveryLawOfThisLibraryIsThere) {
               (std::vector<std::string>{"lattice", "linear", "neoHookean", "skalak"}));
     EXPECT_EQ(Registry<AngleLaw>::instance().names(), (std::vector<std::string>{"harmonic"}));
     EXPECT_EQ(Registry<BendingLaw>::instance().names(), (std::vector<std::string>{"dihedral", "helfrich"}));
-    EXPECT_EQ(Registry<RuptureLaw>::instance().names(), (std::vector<std::string>{"bondStretch"}));
+    EXPECT_EQ(Registry<RuptureLaw>::instance().names(),
+              (std::vector<std::string>{"arealStrain", "bondStretch", "tension"}));
 }
 
 }  // namespace

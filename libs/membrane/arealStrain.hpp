@@ -1,0 +1,20 @@
+// Rupture by areal strain: the sheet gives way where the area of a triangle exceeds its stress-free one too far,
+//     A/A0 - 1 > limit.
+// symbol | meaning               | unit
+// limit  | greatest areal strain | -
+// Red cells lyse at 2 to 4 % (Evans, Waugh and Melnik, Biophys. J. 16:585, 1976).
+#pragma once
+#include "core/settings.hpp"
+#include "membrane/ruptureLaw.hpp"
+
+namespace corpuscle::membrane {
+
+struct ArealStrain : RuptureLaw {
+    double limit = 0;
+
+    std::vector<BrokenBond> select(const Network& network, const MembraneSettings& laws,
+                                   std::span<const Vec3> x) const override;
+    static const Schema<ArealStrain>& schema();
+};
+
+}  // namespace corpuscle::membrane
