@@ -6,6 +6,44 @@
 namespace corpuscle::coupling {
 
 using particles::ParticleSystem;
+using Vectors = std::vector<Vec3>;
+
+namespace {
+
+Vectors none(const Vectors& like) { return Vectors(like.size(), Vec3::Zero()); }
+
+// Of M^-1 K on the nodes of a cell, by power iterations; stiffness(mode) = K mode for modes of largest component one.
+template <class F>
+double largestEigenvalue(const Cell& cell, int iterations, F&& stiffness) {
+    Vectors mode(cell.nodeMass.size());
+    for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
+        mode[k] = Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
+                       std::sin(3 + 37.719 * static_cast<double>(k)));
+    double value = 0;
+    for (int it = 0; it < iterations; ++it) {
+        double longest = 0;
+        for (const Vec3& v : mode) longest = std::max(longest, v.norm());
+        if (longest == 0) return value;
+        for (Vec3& v : mode) v /= longest;
+        const Vectors& image = stiffness(mode);
+        double before = 0, after = 0;
+        for (std::size_t k = 0; k < mode.size(); ++k) {
+            const double mass = cell.nodeMass[k];
+            before += mass * mode[k].squaredNorm();
+            mode[k] = image[k] / mass;
+            after += mass * mode[k].squaredNorm();
+        }
+        value = std::sqrt(after / before);
+    }
+    return value;
+}
+
+double largestOfAll(double value, const ParticleSystem& system) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, system.comm());
+    return value;
+}
+
+}  // namespace
 
 DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals)
     : cells_(cells),
@@ -14,9 +52,9 @@ DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const Densi
       margin_(LeakageGuard::reachInSpacings * spacing),
       intervals_(intervals) {}
 
-void DualIdentity::moved(ParticleSystem& system, bool rebuilt) {
+void DualIdentity::moved(ParticleSystem& system, double extrapolation, bool rebuilt) {
     if (rebuilt) exchange_.plan(system, cells_, margin_ + system.skin());
-    exchange_.gather(system, cells_);
+    exchange_.gather(system, cells_, extrapolation);
     if (rebuilt) guard_.findCandidates(system, cells_);
 }
 
@@ -47,40 +85,38 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system) {
     return events;
 }
 
-double DualIdentity::springRate2(const ParticleSystem& system, int iterations) {
+double DualIdentity::springRate2(const ParticleSystem& system, int iterations) const {
     double largest = 0;
-    for (Cell& cell : cells_) {
+    for (const Cell& cell : cells_) {
         if (!cell.held) continue;
-        membrane::Membrane& m = cell.membrane;
-        const std::vector<Vec3> rest = m.position, restForce = [&] { return m.computeForces(), m.force; }();
+        const membrane::Membrane& m = cell.membrane;
         const double step = 1e-4 * m.network().meanBondLength();
-        std::vector<Vec3> mode(rest.size());
-        for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
-            mode[k] =
-                Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
-                     std::sin(3 + 37.719 * static_cast<double>(k)));
-        double rate2 = 0;
-        for (int it = 0; it < iterations; ++it) {
-            double longest = 0;
-            for (const Vec3& v : mode) longest = std::max(longest, v.norm());
-            if (longest == 0) break;
-            for (std::size_t k = 0; k < mode.size(); ++k) m.position[k] = rest[k] + step / longest * mode[k];
-            m.computeForces();
-            double before = 0, after = 0;
-            for (std::size_t k = 0; k < mode.size(); ++k) {
-                const Vec3 image = (restForce[k] - m.force[k]) / (step * cell.nodeMass[k]);
-                before += cell.nodeMass[k] * (mode[k] / longest).squaredNorm();
-                after += cell.nodeMass[k] * image.squaredNorm();
-                mode[k] = image;
-            }
-            rate2 = std::sqrt(after / before);
-        }
-        m.position = rest;
-        m.force = restForce;
-        largest = std::max(largest, rate2);
+        Vectors x = m.position, restForce = none(x), f = restForce;
+        m.addElasticForces(x, restForce);
+        largest = std::max(largest, largestEigenvalue(cell, iterations, [&](const Vectors& mode) -> const Vectors& {
+                               for (std::size_t k = 0; k < x.size(); ++k) x[k] = m.position[k] + step * mode[k];
+                               std::fill(f.begin(), f.end(), Vec3::Zero());
+                               m.addElasticForces(x, f);
+                               for (std::size_t k = 0; k < f.size(); ++k) f[k] = (restForce[k] - f[k]) / step;
+                               return f;
+                           }));
     }
-    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
-    return largest;
+    return largestOfAll(largest, system);
+}
+
+double DualIdentity::membraneRate(const ParticleSystem& system, int iterations) const {
+    double largest = 0;
+    for (const Cell& cell : cells_) {
+        if (!cell.held || !cell.membrane.isViscous()) continue;
+        Vectors f = none(cell.membrane.position);
+        largest = std::max(largest, largestEigenvalue(cell, iterations, [&](const Vectors& mode) -> const Vectors& {
+                               std::fill(f.begin(), f.end(), Vec3::Zero());
+                               cell.membrane.addViscousForces(mode, f);
+                               for (Vec3& force : f) force = -force;
+                               return f;
+                           }));
+    }
+    return largestOfAll(largest, system);
 }
 
 }  // namespace corpuscle::coupling

@@ -31,7 +31,7 @@ class DualIdentity : public sph::Load {
     };
     DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals);
 
-    void moved(particles::ParticleSystem& system, bool rebuilt) override;
+    void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) override;
     void addAccelerations(particles::ParticleSystem& system) override;
 
     // After each step: rupture, guard, density balance. Returns what broke. Collective.
@@ -45,7 +45,9 @@ class DualIdentity : public sph::Load {
 
     // Squared frequency of the stiffest mode of any cell's nodes on their springs: the largest eigenvalue of M^-1 K, by power
     // iterations on differences of forces [1/s^2]. Collective.
-    double springRate2(const particles::ParticleSystem& system, int iterations);
+    double springRate2(const particles::ParticleSystem& system, int iterations) const;
+    // Fastest decay by the viscosity of any membrane: the largest eigenvalue of M^-1 C, f = -C v [1/s]. Collective.
+    double membraneRate(const particles::ParticleSystem& system, int iterations) const;
 
   private:
     std::vector<Cell>& cells_;

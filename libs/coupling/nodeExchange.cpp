@@ -1,5 +1,6 @@
 #include "coupling/nodeExchange.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace corpuscle::coupling {
@@ -175,8 +176,11 @@ void NodeExchange::place(const Box& box, Cell& cell, int node, const Vec3& posit
     cell.membrane.velocity[static_cast<std::size_t>(node)] = velocity;
 }
 
-void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells) {
+void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells, double extrapolation) {
     const ParticleStore& store = system.store();
+    const auto velocity = [&](int i) -> Vec3 {
+        return store.velocity(i) + extrapolation * Vec3(store.fx[i], store.fy[i], store.fz[i]);
+    };
     requests_.clear();
     for (Channel& channel : channels_) {
         if (!channel.receive.empty()) {
@@ -187,7 +191,7 @@ void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells
         double* out = channel.sendBuffer.data();
         for (const int k : channel.send) {
             const int i = owned_[static_cast<std::size_t>(k)].particle;
-            for (const auto* field : {&store.x, &store.y, &store.z, &store.u, &store.v, &store.w}) *out++ = (*field)[i];
+            for (const Vec3& vector : {store.position(i), velocity(i)}) out = std::copy_n(vector.data(), 3, out);
         }
         if (!channel.send.empty()) {
             requests_.emplace_back();
@@ -197,7 +201,7 @@ void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells
     }
     for (const OwnedNode& n : owned_)
         place(system.box(), cells[static_cast<std::size_t>(n.cell)], n.node, store.position(n.particle),
-              store.velocity(n.particle));
+              velocity(n.particle));
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (Channel& channel : channels_) {
         const double* in = channel.receiveBuffer.data();

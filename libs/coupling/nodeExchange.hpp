@@ -13,8 +13,8 @@ class NodeExchange {
     // Who holds which cell now, who owns which node. Hands the state of a cell to ranks that newly hold it. Collective.
     void plan(particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
 
-    // Positions (unwrapped) and velocities of all nodes of held cells. Collective.
-    void gather(const particles::ParticleSystem& system, std::vector<Cell>& cells);
+    // Positions (unwrapped) and velocities, `extrapolation` seconds on by the present acceleration, of all nodes of held cells. Collective.
+    void gather(const particles::ParticleSystem& system, std::vector<Cell>& cells, double extrapolation);
 
     struct OwnedNode {
         int particle;  // in the store

@@ -39,9 +39,20 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> str
 
 void Membrane::computeForces() {
     std::fill(force.begin(), force.end(), Vec3::Zero());
-    for (const auto& term : terms_) {
-        term->addForces(position, force);
+    addElasticForces(position, force);
+    if (isViscous()) {
+        addViscousForces(velocity, force);
     }
+}
+
+void Membrane::addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) const {
+    for (const auto& term : terms_) {
+        term->addForces(x, f);
+    }
+}
+
+void Membrane::addViscousForces(std::span<const Vec3> v, std::span<Vec3> f) const {
+    laws_.viscosity->addForces(*network_, position, v, f);
 }
 
 double Membrane::energy() const {

@@ -16,7 +16,7 @@ namespace corpuscle::membrane {
 
 class Membrane {
   public:
-    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest at their stress-free places.
+    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest at their stress-free places; they may be put elsewhere.
     Membrane(std::string name, int cell, std::vector<Vec3> stressFree, std::vector<Index3> triangles,
              const MembraneSettings& settings, double radius);
 
@@ -28,8 +28,12 @@ class Membrane {
     const MembraneSettings& laws() const { return laws_; }
     const MembraneScale& scale() const { return scale_; }
 
-    void computeForces();   // force = -d energy/d position, all terms
-    double energy() const;  // J
+    void computeForces();  // force = -d energy/d position, all terms, and those of viscosity
+    void addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) const;
+    bool isViscous() const { return laws_.viscosity.has_value(); }
+    void addViscousForces(std::span<const Vec3> v,
+                          std::span<Vec3> f) const;  // for velocities v at the present positions
+    double energy() const;                           // J
     void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 

@@ -14,6 +14,9 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
     static const Schema<MembraneSettings> s =
         Schema<MembraneSettings>("membrane", "the laws of one kind of cell")
             .table("interior", &MembraneSettings::interior, "the fluid inside", {.fallback = "{}"})
+            .text("stressFree", &MembraneSettings::stressFree,
+                  "VTP file, relative to the case, of the same mesh in its stress-free shape; by default the mesh as "
+                  "made")
             .modelOr("none", "bonds", &MembraneSettings::bonds, "law of the bonds along the edges",
                      {.fallback = "none"})
             .modelOr("none", "triangles", &MembraneSettings::triangles, "law of the sheet, triangle by triangle",
@@ -23,6 +26,7 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
             .modelOr("none", "bending", &MembraneSettings::bending, "law of bending", {.fallback = "none"})
             .table("area", &MembraneSettings::area, "area held near a target")
             .table("volume", &MembraneSettings::volume, "enclosed volume held near a target")
+            .table("viscosity", &MembraneSettings::viscosity, "viscosity of the membrane itself")
             .modelOr("none", "rupture", &MembraneSettings::rupture, "when bonds break", {.fallback = "none"})
             .check([](const MembraneSettings& m, const Node& node, Problems& problems) {
                 if (!m.bonds && !m.triangles) {

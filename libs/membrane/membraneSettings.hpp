@@ -7,6 +7,7 @@
 #include "membrane/bendingLaw.hpp"
 #include "membrane/bondLaw.hpp"
 #include "membrane/ruptureLaw.hpp"
+#include "membrane/surfaceViscosity.hpp"
 #include "membrane/triangleLaw.hpp"
 #include "membrane/volumeConstraint.hpp"
 
@@ -19,12 +20,14 @@ struct InteriorSettings {
 
 struct MembraneSettings {
     InteriorSettings interior;
-    Choice<BondLaw> bonds;          // empty: none; at least one of bonds and triangles is there
-    Choice<TriangleLaw> triangles;  // empty: none
-    Choice<AngleLaw> angles;        // empty: none
-    Choice<BendingLaw> bending;     // empty: none
+    std::optional<std::string> stressFree;  // file of the shape without tension; empty: the mesh's own
+    Choice<BondLaw> bonds;                  // empty: none; at least one of bonds and triangles is there
+    Choice<TriangleLaw> triangles;          // empty: none
+    Choice<AngleLaw> angles;                // empty: none
+    Choice<BendingLaw> bending;             // empty: none
     std::optional<AreaConstraint> area;
     std::optional<VolumeConstraint> volume;
+    std::optional<SurfaceViscosity> viscosity;
     Choice<RuptureLaw> rupture;  // empty: bonds never break
     // Of the sheet at small strain, what all laws add: bonds as a hexagonal network of this edge [m], closed form.
     SurfaceModuli moduli(double edge) const;

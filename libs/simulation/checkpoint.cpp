@@ -76,6 +76,7 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("step", static_cast<std::int64_t>(time.step));
     file.attribute("dt", state.integrator.dt);
     file.attribute("viscousRate", state.integrator.viscousRate);
+    file.attribute("membraneRate", state.integrator.membraneRate);
     file.attribute("springRate2", state.integrator.springRate2);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
@@ -116,8 +117,8 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
     time.t = file.attribute<double>("time");
     time.step = file.attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("springRate2"),
-                        file.attribute<double>("dt")};
+    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("membraneRate"),
+                        file.attribute<double>("springRate2"), file.attribute<double>("dt")};
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;

@@ -38,6 +38,7 @@ void Integrator::start(Time& time) {
 void Integrator::resume(const State& state, Time& time) {
     scheme_->resume();
     viscousRate_ = state.viscousRate;
+    membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
     updateLimits(time);
     time.dt = state.dt;
@@ -56,7 +57,9 @@ void Integrator::advance(Scene& scene, Time& time) {
 
 void Integrator::estimateRates() {
     viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
-    if (scene_.coupling) springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
+    if (!scene_.coupling) return;
+    membraneRate_ = powerReserve * scene_.coupling->membraneRate(*scene_.system, powerIterations);
+    springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
 }
 
 void Integrator::updateLimits(Time& time) {
@@ -70,11 +73,12 @@ void Integrator::updateLimits(Time& time) {
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
     limits_.all.clear();
     if (viscousRate_ > 0) limits_.add("viscous", safety / viscousRate_);
+    const double drag = viscousRate_ + membraneRate_;
+    if (membraneRate_ > 0) limits_.add("membrane viscosity", safety / drag);
     limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
     if (!model.bodyForce.isZero()) limits_.add("body force", bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
     if (springRate2_ > 0)
-        limits_.add("spring",
-                    safety * 2 / springRate2_ * (std::sqrt(viscousRate_ * viscousRate_ + springRate2_) - viscousRate_));
+        limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(drag * drag + springRate2_) - drag));
     time.dt = limits_.binding().seconds;
     rebuilds_ = scene_.system->rebuilds();
 }

@@ -20,9 +20,9 @@ class Integrator {
 
     void start(Time& time);  // forces at the initial state, first step
     struct State {
-        double viscousRate = 0, springRate2 = 0, dt = 0;
+        double viscousRate = 0, membraneRate = 0, springRate2 = 0, dt = 0;
     };
-    State state(const Time& time) const { return {viscousRate_, springRate2_, time.dt}; }
+    State state(const Time& time) const { return {viscousRate_, membraneRate_, springRate2_, time.dt}; }
     void resume(const State& state, Time& time);  // after a restart
 
     // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics) when the state is
@@ -39,7 +39,7 @@ class Integrator {
     coupling::Scene& scene_;
     std::unique_ptr<sph::VelocityVerlet> scheme_;
     sph::StepLimits limits_;
-    double viscousRate_ = 0, springRate2_ = 0;
+    double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
     long rebuilds_ = -1;
 };
 

@@ -1,6 +1,7 @@
 #include "simulation/sceneBuilder.hpp"
 
 #include "simulation/startFiles.hpp"
+#include "simulation/stressFree.hpp"
 
 namespace corpuscle::simulation {
 
@@ -20,19 +21,21 @@ namespace {
 std::vector<Cell> readCells(const Case& input) {
     std::vector<Cell> cells;
     int firstNode = 0;
+    Problems problems;
     for (const CellSettings& settings : input.mesh.cells) {
-        const io::PolyData mesh = readStart(input, settings.name);
+        io::PolyData file = readStart(input, settings.name);
+        const geometry::TriangleMesh mesh{std::move(file.points), std::move(file.triangles)};
+        const membrane::MembraneSettings& laws = input.membraneOf(settings);
         const double a = settings.shape->radius();
-        Cell cell{membrane::Membrane(settings.name, static_cast<int>(cells.size()) + 1, mesh.points, mesh.triangles,
-                                     input.membraneOf(settings), a),
-                  settings.type(),
-                  a,
-                  input.membraneOf(settings).interior.viscosityRatio,
-                  firstNode,
-                  0,
-                  0,
-                  {},
-                  true};
+        Cell cell{.membrane = membrane::Membrane(
+                      settings.name, static_cast<int>(cells.size()) + 1,
+                      stressFreeNodes(input.directory, settings.type(), laws, mesh, problems), mesh.triangles, laws, a),
+                  .type = settings.type(),
+                  .radius = a,
+                  .viscosityRatio = laws.interior.viscosityRatio,
+                  .firstNode = firstNode,
+                  .initialPosition = mesh.nodes};
+        cell.membrane.position = mesh.nodes;
         cell.initialArea = cell.membrane.area();
         cell.initialVolume = cell.membrane.volume();
         for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))
@@ -40,6 +43,7 @@ std::vector<Cell> readCells(const Case& input) {
         firstNode += cell.nodeCount();
         cells.push_back(std::move(cell));
     }
+    input.throwIfAny(problems);
     return cells;
 }
 

@@ -2,6 +2,8 @@
 //
 //     viscous      1/lambda, lambda the largest eigenvalue of the viscous operator per mass (power iterations): half of
 //                  forward Euler's limit, because the scheme uses the extrapolated velocity
+//     membrane     1/(lambda + lambda_m), lambda_m the largest eigenvalue of the membranes' own viscosity per mass of their nodes
+//     viscosity    (power iterations); in the spring limit too lambda is this sum
 //     acoustic     0.25 h/(c0 + |u|),  h = H_s/2
 //     body force   0.25 sqrt(h/|f|)
 //     spring       (omega dt/2)^2 + lambda dt = 1, omega^2 the largest eigenvalue of M^-1 K of the nodes on their network (power

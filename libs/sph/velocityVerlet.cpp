@@ -21,7 +21,7 @@ void VelocityVerlet::start() {
 
 void VelocityVerlet::resume() {
     forces_.findWalls(system_);
-    for (Load* load : loads_) load->moved(system_, true);
+    for (Load* load : loads_) load->moved(system_, 0, true);
 }
 
 void VelocityVerlet::advance(double dt) {
@@ -63,7 +63,7 @@ void VelocityVerlet::advance(double dt) {
 
 void VelocityVerlet::evaluate(double extrapolation, bool rebuilt) {
     if (rebuilt) forces_.findWalls(system_);
-    for (Load* load : loads_) load->moved(system_, rebuilt);
+    for (Load* load : loads_) load->moved(system_, extrapolation, rebuilt);
     forces_.evaluate(system_, extrapolation);
     for (Load* load : loads_) load->addAccelerations(system_);
 }

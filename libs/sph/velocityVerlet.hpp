@@ -20,8 +20,9 @@ namespace corpuscle::sph {
 class Load {
   public:
     virtual ~Load() = default;
-    // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). Collective.
-    virtual void moved(particles::ParticleSystem& system, bool rebuilt) = 0;
+    // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). The velocity that forces are
+    // worked out with is u + extrapolation f. Collective.
+    virtual void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) = 0;
     // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
     virtual void addAccelerations(particles::ParticleSystem& system) = 0;
 };

@@ -21,7 +21,7 @@ struct Wandered : SphereScene {
         for (Cell& cell : cells) cell.initialVolume = cell.membrane.volume();
         moveNodes([](const Vec3& x) -> Vec3 { return x[0] < 7 ? Vec3(3.5 + 1.1 * (x[0] - 3.5), x[1], x[2]) : x; });
         exchange.plan(*system, cells, 1);
-        exchange.gather(*system, cells);
+        exchange.gather(*system, cells, 0);
         ParticleStore& s = system->store();
         for (std::size_t i = 0; i < s.size(); ++i)
             s.density[i] =

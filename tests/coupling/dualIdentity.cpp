@@ -16,11 +16,11 @@ namespace {
 struct Stretched : SphereScene {
     DualIdentity coupling{cells, 1, DensityBalance(12 * 8 * 8, 1), {10, 0}};
     Stretched() : SphereScene({12, 8, 8}, {Vec3(6, 0.2, 7.5)}) {
-        coupling.moved(*system, true);
+        coupling.moved(*system, 0, true);
         moveNodes(
             [](const Vec3& x) -> Vec3 { return x + Vec3(0.1 * (x[0] - 6), -0.08 * x[1], 0.05 * std::sin(x[0])); });
         system->rebuild();
-        coupling.moved(*system, true);
+        coupling.moved(*system, 0, true);
     }
 };
 
@@ -103,4 +103,29 @@ TEST(DualIdentity, springRateIsTheLargestEigenvalueOfStiffnessOverMass) {
     const double exact =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[3 * n - 1] / nodeMass;
     EXPECT_NEAR(rate2, exact, 0.01 * exact);
+}
+
+TEST(DualIdentity, membraneRateIsTheLargestEigenvalueOfItsViscosityOverMass) {
+    Stretched scene;
+    EXPECT_EQ(scene.coupling.membraneRate(*scene.system, 200), 0) << "this membrane has no viscosity";
+    membrane::MembraneSettings laws = scene.cells[0].membrane.laws();
+    laws.viscosity = {0.3, 0.5};
+    membrane::Membrane& m = scene.cells[0].membrane;
+    membrane::Membrane viscous(m.name, m.cell, m.network().stressFree(), m.network().triangles(), laws, 1);
+    viscous.position = m.position, viscous.velocity = m.velocity;
+    m = std::move(viscous);
+    const double rate = scene.coupling.membraneRate(*scene.system, 200);
+    if (!scene.cells[0].held) return;
+
+    const auto n = static_cast<Eigen::Index>(m.position.size());
+    Eigen::MatrixXd C(3 * n, 3 * n);
+    for (Eigen::Index c = 0; c < 3 * n; ++c) {
+        std::vector<Vec3> v(m.position.size(), Vec3::Zero()), f = v;
+        v[static_cast<std::size_t>(c / 3)][c % 3] = 1;
+        m.addViscousForces(v, f);
+        for (Eigen::Index r = 0; r < 3 * n; ++r) C(r, c) = -f[static_cast<std::size_t>(r / 3)][r % 3];
+    }
+    const double exact =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(C, Eigen::EigenvaluesOnly).eigenvalues()[3 * n - 1] / nodeMass;
+    EXPECT_NEAR(rate, exact, 0.01 * exact);
 }

@@ -17,7 +17,7 @@ struct Guarded : SphereScene {
     LeakageGuard guard{1};
     Guarded() : SphereScene({12, 7, 8}, {centre}) {
         exchange.plan(*system, cells, LeakageGuard::reachInSpacings + skin);
-        exchange.gather(*system, cells);
+        exchange.gather(*system, cells, 0);
         guard.findCandidates(*system, cells);
     }
     // The fluid particle of this side that is nearest to the membrane from there, on the rank that owns it: its number, or -1.

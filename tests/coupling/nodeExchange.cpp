@@ -32,7 +32,7 @@ TEST(NodeExchange, aCellTravellingThroughThePeriodicBoxStaysInOnePiece) {
     SphereScene scene({24, 7, 7}, {Vec3(3, 3.5, 3.5), Vec3(15, 3, 4)});
     NodeExchange exchange;
     exchange.plan(*scene.system, scene.cells, 1 + skin);
-    exchange.gather(*scene.system, scene.cells);
+    exchange.gather(*scene.system, scene.cells, 0);
     const Vec3 velocity(0.14, -0.03, 0.02);
     int ranks = 1, handOvers = 0, notHeld = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -49,7 +49,7 @@ TEST(NodeExchange, aCellTravellingThroughThePeriodicBoxStaysInOnePiece) {
             exchange.plan(*scene.system, scene.cells, 1 + skin);
             for (std::size_t c = 0; c < scene.cells.size(); ++c) handOvers += scene.cells[c].held && !before[c];
         }
-        exchange.gather(*scene.system, scene.cells);
+        exchange.gather(*scene.system, scene.cells, 0);
 
         int owned = static_cast<int>(exchange.owned().size());
         MPI_Allreduce(MPI_IN_PLACE, &owned, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
@@ -83,7 +83,7 @@ TEST(NodeExchange, newHoldersLearnWhichBondsAreBroken) {
     SphereScene scene({24, 7, 7}, {Vec3(3, 3.5, 3.5)});
     NodeExchange exchange;
     exchange.plan(*scene.system, scene.cells, 1);
-    exchange.gather(*scene.system, scene.cells);
+    exchange.gather(*scene.system, scene.cells, 0);
     Cell& cell = scene.cells[0];
     std::vector<char> alive(cell.membrane.network().allBonds().size(), 1);
     alive[7] = alive[100] = 0;
@@ -94,7 +94,7 @@ TEST(NodeExchange, newHoldersLearnWhichBondsAreBroken) {
             scene.system->rebuild();
             exchange.plan(*scene.system, scene.cells, 1);
         }
-        exchange.gather(*scene.system, scene.cells);
+        exchange.gather(*scene.system, scene.cells, 0);
         if (cell.held) {
             EXPECT_EQ(cell.membrane.network().aliveBonds(), alive);
         }

@@ -39,8 +39,12 @@ struct SphereScene {
             auto mesh = membrane::testing::icosphere(2);
             for (Vec3& x : mesh.nodes) x = radius * x + centre;
             const int number = static_cast<int>(cells.size()) + 1;
-            cells.push_back({membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius), "sphere",
-                             radius, 1, first, 0, 0, std::vector<double>(mesh.nodes.size(), nodeMass), true});
+            cells.push_back({.membrane = membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius),
+                             .type = "sphere",
+                             .radius = radius,
+                             .firstNode = first,
+                             .initialPosition = mesh.nodes,
+                             .nodeMass = std::vector<double>(mesh.nodes.size(), nodeMass)});
             start.push_back(mesh.nodes);
             first += cells.back().nodeCount();
         }

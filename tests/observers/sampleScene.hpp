@@ -61,6 +61,7 @@ inline Scene sampleScene(const SampleOptions& o) {
                             .type = "cell",
                             .radius = 4 * um,
                             .firstNode = nodes,
+                            .initialPosition = mesh.nodes,
                             .initialArea = mesh.area(),
                             .initialVolume = mesh.volume(),
                             .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx)};
@@ -113,7 +114,7 @@ inline void couple(Scene& scene) {
     scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx,
                                                               coupling::DensityBalance(scene.fluidBox.volume(), rho0),
                                                               coupling::DualIdentity::Intervals{0, 0});
-    scene.coupling->moved(*scene.system, true);
+    scene.coupling->moved(*scene.system, 0, true);
 }
 
 // Puts the nodes of a cell to f(node's stress-free place), as particles and so as membrane.
@@ -127,7 +128,7 @@ void deform(Scene& scene, std::size_t cell, F&& f) {
             s.setPosition(i, f(c.membrane.network().stressFree()[static_cast<std::size_t>(node)]));
     }
     scene.system->rebuild();
-    scene.coupling->moved(*scene.system, true);
+    scene.coupling->moved(*scene.system, 0, true);
 }
 
 inline std::unique_ptr<Observation> begin(const std::string& text, const Scene& scene) {

@@ -39,6 +39,7 @@ viscosity: 1.0e-3 Pa s
     "constant/membranes.yaml": """rbc:
   bonds: {type: harmonic, k: 5e-4 N/m}
   bending: {type: dihedral, Eb: 0.01}
+  viscosity: {shear: 2e-9 N s/m}
 """,
     "constant/flow.yaml": """type: shear
 Ca: 0.1

@@ -16,6 +16,7 @@
 #include "io/vtkSeries.hpp"
 #include "membrane/diagnostics.hpp"
 #include "simulation/relaxSettings.hpp"
+#include "simulation/stressFree.hpp"
 
 using namespace corpuscle;
 
@@ -52,10 +53,17 @@ struct Input {
     }
 };
 
-membrane::Membrane makeCell(const simulation::RelaxSettings& settings, const membrane::MembraneSettings& laws) {
-    geometry::TriangleMesh mesh = geometry::meshSurface(*settings.cell.shape, settings.cell.edge);
-    return {settings.cell.name,        1,    std::move(mesh.nodes),
-            std::move(mesh.triangles), laws, settings.cell.shape->radius()};
+membrane::Membrane makeCell(const Application& app, const Input& input) {
+    const simulation::CellSettings& settings = input.relax.cell;
+    const geometry::TriangleMesh mesh = geometry::meshSurface(*settings.shape, settings.edge);
+    Problems problems;
+    membrane::Membrane cell(
+        settings.name, 1,
+        simulation::stressFreeNodes(app.caseDirectory(), settings.type(), input.laws(), mesh, problems), mesh.triangles,
+        input.laws(), settings.shape->radius());
+    problems.throwIfAny();
+    cell.position = mesh.nodes;
+    return cell;
 }
 
 // "force_N" -> {"force", "N"}.
@@ -91,7 +99,7 @@ int main(int argc, char* argv[]) {
         const Input input = Input::read(app);
         const simulation::RelaxSettings& relax = input.relax;
         const membrane::Protocol& protocol = *relax.protocol;
-        membrane::Membrane cell = makeCell(relax, input.laws());
+        membrane::Membrane cell = makeCell(app, input);
         const double area0 = cell.area(), volume0 = cell.volume();
         app.log().info("cell {}: {}, {} nodes, edge {}; protocol {}, {} stages", cell.name, relax.cell.shape.name,
                        cell.position.size(), formatQuantity(relax.cell.edge, unit::metre), relax.protocol.name,

@@ -1,0 +1,170 @@
+// Viscosity of the membrane: tension of homogeneous rates, power, rigid motions, broken triangles, the pressure of a growing sphere.
+#include <gtest/gtest.h>
+
+#include "membrane/membrane.hpp"
+#include "membrane/surface.hpp"
+#include "meshes.hpp"
+
+namespace corpuscle::membrane {
+namespace {
+
+using testing::Mesh;
+using Vectors = std::vector<Vec3>;
+
+constexpr SurfaceViscosity law{0.7, 1.9};
+
+Vectors forces(const Network& network, const Vectors& x, const Vectors& v) {
+    Vectors f(x.size(), Vec3::Zero());
+    law.addForces(network, x, v, f);
+    return f;
+}
+
+double power(const Vectors& f, const Vectors& v) {
+    double sum = 0;
+    for (std::size_t k = 0; k < f.size(); ++k) {
+        sum -= f[k].dot(v[k]);
+    }
+    return sum;
+}
+
+template <class F>
+Vectors velocities(const Vectors& x, F&& field) {
+    Vectors v;
+    for (const Vec3& p : x) {
+        v.push_back(field(p));
+    }
+    return v;
+}
+
+struct MeshCase {
+    const char* name;
+    Mesh mesh;
+    Vectors x;
+};
+std::vector<MeshCase> deformedMeshes() {
+    std::vector<MeshCase> cases{{"regular", testing::icosphere(2), {}}, {"irregular", testing::irregular(2), {}}};
+    for (MeshCase& c : cases) {
+        c.x = testing::deformed(c.mesh.nodes, 0.3);
+    }
+    return cases;
+}
+
+Vectors anyVelocities(std::size_t n) {
+    Vectors v(n, Vec3::Zero());
+    testing::jitter(v, 1, 5);
+    return v;
+}
+
+TEST(SurfaceViscosity, DissipatesTensionTimesRateInEveryHomogeneousFlowOfASheet) {
+    const Mesh mesh = testing::hexagonalPatch(5);
+    const Network network(mesh.nodes, mesh.triangles);
+    Vectors x = mesh.nodes;  // stretched far from rest: only the present shape counts
+    for (Vec3& p : x) {
+        p = Vec3(1.4 * p.x() + 0.3 * p.y(), 0.8 * p.y(), 0);
+    }
+    const double area = 1.4 * 0.8 * 25 * testing::hexagonalCell;
+    for (const auto& [name, xx, xy, yy] : {std::tuple{"growing", 0.3, 0.0, 0.3},
+                                           {"one way", 0.5, 0.0, 0.0},
+                                           {"pure shear", 0.4, 0.0, -0.4},
+                                           {"any", 0.2, 0.7, -0.1}}) {
+        const Vectors v = velocities(x, [&](const Vec3& p) { return Vec3(xx * p.x() + xy * p.y(), yy * p.y(), 0); });
+        const double trace = xx + yy, square = xx * xx + yy * yy + 0.5 * xy * xy;
+        const double expected = area * (2 * law.shear * square + (law.dilatation - law.shear) * trace * trace);
+        EXPECT_NEAR(power(forces(network, x, v), v), expected, 1e-12 * expected) << name;
+    }
+}
+
+TEST(SurfaceViscosity, RigidMotionsFeelNothingAndTheWholeFeelsNoForceAndNoTorque) {
+    for (const auto& [name, mesh, x] : deformedMeshes()) {
+        const Network network(mesh.nodes, mesh.triangles);
+        const Vec3 spin(0.3, -1.1, 0.6);
+        const Vectors rigid = velocities(x, [&](const Vec3& p) -> Vec3 { return Vec3(1, 2, 3) + spin.cross(p); });
+        for (const Vec3& f : forces(network, x, rigid)) {
+            EXPECT_LT(f.norm(), 1e-12) << name;
+        }
+        const Vectors f = forces(network, x, anyVelocities(x.size()));
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+        double magnitude = 0;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            force += f[k], torque += x[k].cross(f[k]), magnitude += f[k].norm();
+        }
+        EXPECT_LT(force.norm() + torque.norm(), 1e-13 * magnitude) << name;
+    }
+}
+
+// Half the dissipated power is a potential of the forces, so the damping matrix is symmetric; it is not negative.
+TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
+    for (const auto& [name, mesh, x] : deformedMeshes()) {
+        const Network network(mesh.nodes, mesh.triangles);
+        Vectors v = anyVelocities(x.size()), w = v;
+        testing::jitter(w, 1, 6);
+        const double vw = power(forces(network, x, v), w), wv = power(forces(network, x, w), v);
+        EXPECT_NEAR(vw, wv, 1e-12 * std::abs(vw)) << name;
+        EXPECT_GT(power(forces(network, x, v), v), 0) << name;
+    }
+}
+
+// Tension 2 dilatation dR/dt / R, and Laplace's law: 2/R of it as pressure. The sum of radial forces is 4 pi R^2 times that.
+TEST(SurfaceViscosity, GrowingSphereHasThePressureOfLaplacesLaw) {
+    double error[2];
+    for (const int level : {2, 3}) {
+        const Mesh mesh = testing::icosphere(level);
+        const Network network(mesh.nodes, mesh.triangles);
+        constexpr double radius = 1.3, rate = 0.2;
+        Vectors x = mesh.nodes, v = mesh.nodes;
+        for (Vec3& p : x) {
+            p *= radius;
+        }
+        for (Vec3& u : v) {
+            u *= rate;
+        }
+        double inward = 0;
+        const Vectors f = forces(network, x, v);
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            inward -= f[k].dot(mesh.nodes[k]);
+        }
+        const double expected = 4 * std::numbers::pi * 4 * law.dilatation * rate;
+        error[level - 2] = inward / expected - 1;
+    }
+    EXPECT_LT(std::abs(error[1]), 0.01);
+    EXPECT_NEAR(error[0] / error[1], 4, 0.3) << "second order in the edge";
+}
+
+TEST(SurfaceViscosity, BrokenTrianglesHaveNone) {
+    const Mesh mesh = testing::icosphere(1);
+    Network network(mesh.nodes, mesh.triangles);
+    const Vectors v = anyVelocities(mesh.nodes.size());
+    const Vectors before = forces(network, mesh.nodes, v);
+    network.breakBonds(std::array{0});
+    const Vectors after = forces(network, mesh.nodes, v);
+    const auto [a, b] = network.allBonds()[0].node;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+        bool atHole = false;
+        for (const int t : network.bondTriangles(0)) {
+            atHole |= std::ranges::count(network.triangles()[t], static_cast<int>(k)) > 0;
+        }
+        EXPECT_EQ(before[k] != after[k], atHole) << k;
+    }
+    EXPECT_NE(before[a], after[a]);
+    EXPECT_NE(before[b], after[b]);
+}
+
+TEST(SurfaceViscosity, JoinsTheForcesOfAMembraneThatNamesIt) {
+    const Mesh mesh = testing::icosphere(1);
+    MembraneSettings settings;
+    Membrane plain("cell", 1, mesh.nodes, mesh.triangles, settings, 1);
+    settings.viscosity = law;
+    Membrane viscous("cell", 1, mesh.nodes, mesh.triangles, settings, 1);
+    plain.velocity = viscous.velocity = anyVelocities(mesh.nodes.size());
+    plain.computeForces();
+    viscous.computeForces();
+    const Vectors expected = forces(viscous.network(), viscous.position, viscous.velocity);
+    EXPECT_GT(power(expected, viscous.velocity), 0);
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        EXPECT_EQ(plain.force[k], Vec3::Zero());
+        EXPECT_EQ(viscous.force[k], expected[k]);
+    }
+}
+
+}  // namespace
+}  // namespace corpuscle::membrane
