@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "membrane/hessian.hpp"
+#include "membrane/wholeSurface.hpp"
 
 namespace corpuscle::membrane {
 
@@ -83,63 +84,16 @@ class LocalArea final : public Term {
     double modulus_, scale_;
 };
 
-class GlobalArea final : public Term {
-  public:
-    GlobalArea(const Network& network, double modulus, double rest)
-        : network_(network), modulus_(modulus), rest_(rest) {}
-
-    void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
-        if (network_.brokenTriangles() > 0) {
-            return;
-        }
-        const double slope = modulus_ * (area(x) / rest_ - 1);
-        for (const Index3& node : network_.triangles()) {
-            const auto part = TriangleArea::at(places(x, node));
-            for (int k = 0; k < 3; ++k) {
-                f[node[k]] -= slope * part.gradient[k];
-            }
-        }
-    }
-
-    double energy(std::span<const Vec3> x) const override {
-        if (network_.brokenTriangles() > 0) {
-            return 0;
-        }
-        const double change = area(x) - rest_;
-        return 0.5 * modulus_ * change * change / rest_;
-    }
-
-    void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
-        if (network_.brokenTriangles() > 0) {
-            return;
-        }
-        const double slope = modulus_ * (area(x) / rest_ - 1);
-        for (const Index3& node : network_.triangles()) {
-            addTriangle(x, node, slope, 0, definiteness, stiffness);
-        }
-        stiffness.addRankOne(modulus_ / rest_, gradient(x));
-    }
-
-    double maxStiffness(std::span<const Vec3> x) const override {
-        if (network_.brokenTriangles() > 0) {
-            return 0;
-        }
-        double square = 0;
-        for (const Vec3& g : gradient(x)) {
-            square += g.squaredNorm();
-        }
-        return modulus_ / rest_ * square;
-    }
-
-  private:
-    double area(std::span<const Vec3> x) const {
+class GlobalArea final : public WholeSurfaceTerm {
+    using WholeSurfaceTerm::WholeSurfaceTerm;
+    double value(std::span<const Vec3> x) const override {
         double sum = 0;
         for (const Index3& node : network_.triangles()) {
             sum += TriangleArea::at(places(x, node)).value;
         }
         return sum;
     }
-    std::vector<Vec3> gradient(std::span<const Vec3> x) const {
+    std::vector<Vec3> gradient(std::span<const Vec3> x) const override {
         std::vector<Vec3> sum(x.size(), Vec3::Zero());
         for (const Index3& node : network_.triangles()) {
             const auto part = TriangleArea::at(places(x, node));
@@ -149,9 +103,12 @@ class GlobalArea final : public Term {
         }
         return sum;
     }
-
-    const Network& network_;
-    double modulus_, rest_;
+    void addCurvature(std::span<const Vec3> x, double slope, Definiteness definiteness,
+                      Stiffness& stiffness) const override {
+        for (const Index3& node : network_.triangles()) {
+            addTriangle(x, node, slope, 0, definiteness, stiffness);
+        }
+    }
 };
 
 }  // namespace

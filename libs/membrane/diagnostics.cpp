@@ -82,6 +82,18 @@ std::vector<double> nodeStretch(const Network& network, std::span<const Vec3> x)
     return stretch;
 }
 
+std::vector<double> vertexAreas(const Network& network, std::span<const Vec3> x) {
+    std::vector<double> areas(x.size(), 0.0);
+    for (const int t : network.wholeTriangles()) {
+        const Index3& corner = network.triangles()[t];
+        const double third = areaVector(x, corner).norm() / 3;
+        for (const int node : corner) {
+            areas[node] += third;
+        }
+    }
+    return areas;
+}
+
 double maxBondStrain(const Network& network, std::span<const Vec3> x) {
     double largest = network.bonds().empty() ? 1 : 0;
     for (const Bond& bond : network.bonds()) {

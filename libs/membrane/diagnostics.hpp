@@ -22,6 +22,8 @@ struct PrincipalTensions {
 std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x);
 PrincipalTensions principalTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);
 std::vector<double> nodeStretch(const Network& network, std::span<const Vec3> x);
+std::vector<double> vertexAreas(const Network& network,
+                                std::span<const Vec3> x);               // a third of each whole triangle, m^2
 double maxBondStrain(const Network& network, std::span<const Vec3> x);  // largest l/l0 - 1; 0 without bonds
 
 }  // namespace corpuscle::membrane

@@ -100,13 +100,9 @@ class Equilibrium {
             total[n] += loads_.force[n];
         }
         if (loads_.pressure != 0) {
-            const auto& x = membrane_.position;
-            for (const int t : membrane_.network().wholeTriangles()) {
-                const auto [a, b, c] = membrane_.network().triangles()[static_cast<std::size_t>(t)];
-                // dV/dx_a of the tetrahedra over any fixed point: the sum over a closed surface is this.
-                total[a] += loads_.pressure / 6 * x[b].cross(x[c]);
-                total[b] += loads_.pressure / 6 * x[c].cross(x[a]);
-                total[c] += loads_.pressure / 6 * x[a].cross(x[b]);
+            const std::vector<Vec3> gradient = volumeGradient(membrane_.position, membrane_.network().triangles());
+            for (std::size_t n = 0; n < nodes_; ++n) {
+                total[n] += loads_.pressure * gradient[n];
             }
         }
         Eigen::VectorXd result(free_);
@@ -118,28 +114,12 @@ class Equilibrium {
         return result;
     }
 
-    static Eigen::Matrix3d crossMatrix(const Vec3& v) {
-        Eigen::Matrix3d m;
-        m << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
-        return m;
-    }
-
     void assemble(Definiteness definiteness) {
         AssembledStiffness stiffness(nodes_);
         membrane_.addStiffness(definiteness, stiffness);
         if (loads_.pressure != 0) {
-            const auto& x = membrane_.position;
-            for (const int t : membrane_.network().wholeTriangles()) {
-                const Index3& corner = membrane_.network().triangles()[static_cast<std::size_t>(t)];
-                // -p d2V/dx_a dx_b with 6 V = x_a . (x_b x x_c).
-                Eigen::Matrix<double, 9, 9> matrix = Eigen::Matrix<double, 9, 9>::Zero();
-                for (int k = 0; k < 3; ++k) {
-                    const Eigen::Matrix3d block = loads_.pressure / 6 * crossMatrix(x[corner[(k + 2) % 3]]);
-                    matrix.block<3, 3>(3 * k, 3 * ((k + 1) % 3)) = block;
-                    matrix.block<3, 3>(3 * ((k + 1) % 3), 3 * k) = block.transpose();
-                }
-                stiffness.add(corner, matrix);
-            }
+            addVolumeCurvature(membrane_.network(), membrane_.position, -loads_.pressure, Definiteness::exact,
+                               stiffness);
         }
         const Eigen::SparseMatrix<double> all = stiffness.sparse();
         std::vector<Eigen::Triplet<double>> entries;

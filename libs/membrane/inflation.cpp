@@ -13,15 +13,6 @@ namespace {
 
 double meanRadius(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
 
-double stressFreeVolume(const Network& network) {
-    double sum = 0;
-    const auto& x = network.stressFree();
-    for (const Index3& t : network.triangles()) {
-        sum += tetrahedron(x[t[0]], x[t[1]], x[t[2]], x.front());
-    }
-    return sum;
-}
-
 }  // namespace
 
 const Schema<Inflation>& Inflation::schema() {
@@ -51,7 +42,7 @@ std::vector<std::string> Inflation::columns() const { return {"pressure_Pa", "ra
 std::vector<double> Inflation::measure(int stage, const Membrane& membrane) const {
     const double radius = meanRadius(membrane.volume());
     return {pressures[static_cast<std::size_t>(stage)], radius,
-            radius / meanRadius(stressFreeVolume(membrane.network()))};
+            radius / meanRadius(enclosedVolume(membrane.network().stressFree(), membrane.network().triangles()))};
 }
 
 CORPUSCLE_REGISTER(Protocol, Inflation, "inflation", "a pressure difference over a closed membrane");

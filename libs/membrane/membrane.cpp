@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "membrane/diagnostics.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::membrane {
@@ -115,16 +116,6 @@ double Membrane::volume() const {
     return sum;
 }
 
-std::vector<double> Membrane::vertexAreas() const {
-    std::vector<double> areas(position.size(), 0.0);
-    for (const int t : network_->wholeTriangles()) {
-        const Index3& corner = network_->triangles()[t];
-        const double third = areaVector(position, corner).norm() / 3;
-        for (const int node : corner) {
-            areas[node] += third;
-        }
-    }
-    return areas;
-}
+std::vector<double> Membrane::vertexAreas() const { return membrane::vertexAreas(*network_, position); }
 
 }  // namespace corpuscle::membrane

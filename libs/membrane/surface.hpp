@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <span>
+#include <vector>
 
 #include "core/vec.hpp"
 
@@ -14,6 +15,28 @@ inline Vec3 areaVector(std::span<const Vec3> x, const Index3& t) { return areaVe
 
 inline double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& origin) {
     return (a - origin).dot((b - origin).cross(c - origin)) / 6;
+}
+
+// Of a closed surface, m^3.
+inline double enclosedVolume(std::span<const Vec3> x, std::span<const Index3> triangles) {
+    double sum = 0;
+    for (const Index3& t : triangles) {
+        sum += tetrahedron(x[t[0]], x[t[1]], x[t[2]], x.front());
+    }
+    return sum;
+}
+
+// Its derivative by the nodes: a third of the area vectors of a node's triangles; each from edges, so that no digits go into the
+// distance to the origin.
+inline std::vector<Vec3> volumeGradient(std::span<const Vec3> x, std::span<const Index3> triangles) {
+    std::vector<Vec3> sum(x.size(), Vec3::Zero());
+    for (const Index3& t : triangles) {
+        const Vec3 third = areaVector(x, t) / 3;
+        for (const int node : t) {
+            sum[node] += third;
+        }
+    }
+    return sum;
 }
 
 inline Vec3 meanPoint(std::span<const Vec3> x, std::span<const int> loop) {

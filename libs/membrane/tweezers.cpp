@@ -4,6 +4,7 @@
 
 #include "core/registry.hpp"
 #include "core/units.hpp"
+#include "membrane/diagnostics.hpp"
 
 namespace corpuscle::membrane {
 
@@ -35,12 +36,7 @@ const Schema<Tweezers>& Tweezers::schema() {
 Loads Tweezers::apply(int stage, Membrane& membrane) const {
     const Network& network = membrane.network();
     const std::vector<Vec3>& rest = network.stressFree();
-    std::vector<double> area(rest.size(), 0.0);
-    for (std::size_t t = 0; t < network.triangles().size(); ++t) {
-        for (const int node : network.triangles()[t]) {
-            area[static_cast<std::size_t>(node)] += network.restAreas()[t] / 3;
-        }
-    }
+    const std::vector<double> area = vertexAreas(network, rest);
     Loads loads;
     loads.force.assign(rest.size(), Vec3::Zero());
     const auto [left, right] =

@@ -7,9 +7,6 @@
 //               | 1 is a sphere. A_0 is `area: {rest}` where given, else the stress-free mesh's area.            |
 // A cell with a fluid inside has its volume from the fluid; this is for membranes without one, and against slow drift.
 // Open cells: refused on a mesh with a border; let go for good when the first triangle breaks.
-//
-// Its second derivative, by edge (a, b) with c left and d right of a->b, P = modulus (V/V_0 - 1): d2V/dx_a dx_b = [(d - c)/6]x, the matrix
-// of the cross product, so that an element does not depend on where the volume's tetrahedra meet.
 #pragma once
 #include <memory>
 #include <optional>
@@ -29,5 +26,10 @@ struct VolumeConstraint {
     std::unique_ptr<Term> makeTerm(Network& network, double restArea) const;
     static const Schema<VolumeConstraint>& schema();
 };
+
+// slope d2V/dx2 of a closed surface, by edge (a, b) with c left and d right of a->b: d2V/dx_a dx_b = [(d - c)/6]x, the matrix of the
+// cross product, so that an element does not depend on where the volume's tetrahedra meet.
+void addVolumeCurvature(const Network& network, std::span<const Vec3> x, double slope, Definiteness definiteness,
+                        Stiffness& stiffness);
 
 }  // namespace corpuscle::membrane

@@ -69,14 +69,8 @@ void checkTogether(const Case& c, Problems& problems) {
             problems.add(
                 mesh, key + ".name",
                 "the name '" + cell.name + "' is taken; each cell needs its own, and fluid and walls are reserved");
-        if (!c.membranes.types.contains(cell.type())) {
-            std::vector<std::string> known;
-            for (const auto& [name, type] : c.membranes.types) known.push_back(name);
-            problems.add({"constant/membranes.yaml", 0, 0}, cell.type(),
-                         "the cell '" + cell.name + "' of system/mesh.yaml needs an entry of this name; there " +
-                             (known.empty() ? "is none" : "are: " + joinWords(known)) + "." +
-                             didYouMean(cell.type(), known));
-        }
+        c.membranes.requireType(cell.name, cell.type(), "system/mesh.yaml", {"constant/membranes.yaml", 0, 0},
+                                problems);
         if (!cell.shape) continue;
         const double radius = cell.shape->radius();
         if (cell.edge > 0.5 * radius)

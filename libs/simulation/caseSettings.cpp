@@ -185,4 +185,14 @@ const Schema<MembranesSettings>& MembranesSettings::schema() {
     return s;
 }
 
+void MembranesSettings::requireType(const std::string& cell, const std::string& type, const std::string& file,
+                                    const Mark& mark, Problems& problems) const {
+    if (types.contains(type)) return;
+    std::vector<std::string> known;
+    for (const auto& [name, laws] : types) known.push_back(name);
+    problems.add(mark, type,
+                 "the cell '" + cell + "' of " + file + " needs an entry of this name; there " +
+                     (known.empty() ? "is none" : "are: " + joinWords(known)) + "." + didYouMean(type, known));
+}
+
 }  // namespace corpuscle::simulation

@@ -92,6 +92,9 @@ struct FluidSettings {
 // constant/membranes.yaml: one entry for each kind of cell.
 struct MembranesSettings {
     std::map<std::string, membrane::MembraneSettings> types;
+    // A problem at `mark` where there is no entry for a cell that `file` names.
+    void requireType(const std::string& cell, const std::string& type, const std::string& file, const Mark& mark,
+                     Problems& problems) const;
     static const Schema<MembranesSettings>& schema();
 };
 

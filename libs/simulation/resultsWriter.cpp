@@ -55,31 +55,32 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     return data;
 }
 
-io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
-    const membrane::Membrane& m = cell.membrane;
+io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     const membrane::Network& network = m.network();
     io::PolyData data;
-    auto& broken = data.cell.integers["broken"];
-    auto& areaStrain = data.cell.scalars["areaStrain"];
-    auto& tension1 = data.cell.scalars["tension1"];
-    auto& tension2 = data.cell.scalars["tension2"];
-    auto& force = data.point.vectors["force"];
-    auto& velocity = data.point.vectors["velocity"];
-    auto& stretch = data.point.scalars["stretch"];
-    auto& spacing = data.point.scalars["spacing"];
-    if (!writer) return data;
     data.points = m.position;
     data.triangles = network.triangles();
-    force = m.force;
-    velocity = m.velocity;
-    stretch = membrane::nodeStretch(network, m.position);
-    spacing.assign(m.position.size(), scene.spacing);
-    areaStrain = membrane::areaStrain(network, m.position);
+    data.point.vectors["force"] = m.force;
+    data.point.vectors["velocity"] = m.velocity;
+    data.point.scalars["stretch"] = membrane::nodeStretch(network, m.position);
+    data.point.scalars["spacing"].assign(m.position.size(), spacing);
+    data.cell.scalars["areaStrain"] = membrane::areaStrain(network, m.position);
     auto tensions = membrane::principalTensions(network, m.laws(), m.position);
-    tension1 = std::move(tensions.tension1);
-    tension2 = std::move(tensions.tension2);
+    data.cell.scalars["tension1"] = std::move(tensions.tension1);
+    data.cell.scalars["tension2"] = std::move(tensions.tension2);
+    auto& broken = data.cell.integers["broken"];
     for (std::size_t t = 0; t < data.triangles.size(); ++t)
         broken.push_back(network.isBroken(static_cast<int>(t)) ? 1 : 0);
+    return data;
+}
+
+io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
+    if (writer) return membranePiece(cell.membrane, scene.spacing);
+    io::PolyData data;
+    for (const char* name : {"force", "velocity"}) data.point.vectors[name];
+    for (const char* name : {"stretch", "spacing"}) data.point.scalars[name];
+    for (const char* name : {"areaStrain", "tension1", "tension2"}) data.cell.scalars[name];
+    data.cell.integers["broken"];
     return data;
 }
 

@@ -26,7 +26,10 @@ class ResultsWriter {
     long written_ = 0;
 };
 
-// A cell's surface with its arrays; empty on ranks other than `writer`.
+// A membrane's surface with its arrays.
+io::PolyData membranePiece(const membrane::Membrane& membrane, double spacing);
+
+// The same of a cell; no points on ranks other than `writer`.
 io::PolyData cellPiece(const coupling::Scene& scene, const coupling::Cell& cell, bool writer);
 
 // The lowest rank that holds the cell. Collective.

@@ -74,14 +74,14 @@ double freeWidth(const Response& law, double l1) {
     return low;
 }
 
-// On the regular patch the six directions of the lattice law are the same in all triangles; on the irregular one each
-// triangle has its own, and the mean over all directions is met within what its header says.
+// On the regular patch the twelve directions of the lattice law are the same in all triangles; on the irregular one each
+// triangle has its own, and the mean over all directions is met within what its header says: 1e-5 of the energy at a stretch of 1.6.
 TEST(InPlaneLaws, TriangleLawsAtFiniteStrain) {
     for (const bool regular : {true, false}) {
         const Mesh mesh = regular ? hexagonalPatch(5) : jitteredPatch(5);
-        for (const Response& law : responses(regular ? 6 : 720)) {
+        for (const Response& law : responses(regular ? 12 : 720)) {
             const bool isLattice = law.name == std::string("lattice");
-            const double tolerance = (isLattice && !regular ? 2e-2 : 1e-9) * G;
+            const double tolerance = (isLattice && !regular ? 1e-4 : 1e-9) * G;
             double worst = 0;
             const auto near = [&](double found, double wanted, const char* what) {
                 EXPECT_NEAR(found, wanted, tolerance * std::max(1.0, std::abs(wanted) / G)) << law.name << ' ' << what;

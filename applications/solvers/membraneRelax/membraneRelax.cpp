@@ -14,8 +14,8 @@
 #include "geometry/mesher.hpp"
 #include "io/csvSeries.hpp"
 #include "io/vtkSeries.hpp"
-#include "membrane/diagnostics.hpp"
 #include "simulation/relaxSettings.hpp"
+#include "simulation/resultsWriter.hpp"
 #include "simulation/stressFree.hpp"
 
 using namespace corpuscle;
@@ -27,8 +27,6 @@ struct Input {
     simulation::MembranesSettings membranes;
     std::vector<Node::Entry> effective;
 
-    const membrane::MembraneSettings& laws() const { return membranes.types.at(relax.cell.type()); }
-
     static Input read(const Application& app) {
         Problems problems;
         Input input;
@@ -38,32 +36,28 @@ struct Input {
         input.relax = corpuscle::read<simulation::RelaxSettings>(relax, problems);
         input.membranes = corpuscle::read<simulation::MembranesSettings>(membranes, problems);
         problems.throwIfAny();
-        if (!input.membranes.types.contains(input.relax.cell.type())) {
-            std::vector<std::string> known;
-            for (const auto& [name, type] : input.membranes.types) known.push_back(name);
-            problems.add(membranes.mark, input.relax.cell.type(),
-                         "the cell of system/relax.yaml needs an entry of this name; there are: " + joinWords(known) +
-                             "." + didYouMean(input.relax.cell.type(), known));
-        }
-        input.relax.cell.shape->prepare(app.caseDirectory());
+        input.membranes.requireType(input.relax.cell.name, input.relax.cell.type(), "system/relax.yaml", membranes.mark,
+                                    problems);
         problems.throwIfAny();
+        input.relax.cell.shape->prepare(app.caseDirectory());
         input.effective = {{"system/relax.yaml", write(input.relax)},
                            {"constant/membranes.yaml", write(input.membranes)}};
         return input;
     }
 };
 
-membrane::Membrane makeCell(const Application& app, const Input& input) {
-    const simulation::CellSettings& settings = input.relax.cell;
-    const geometry::TriangleMesh mesh = geometry::meshSurface(*settings.shape, settings.edge);
+// Its nodes lie on the shape; where it is free of tension is up to its laws.
+membrane::Membrane makeMembrane(const Application& app, const Input& input) {
+    const simulation::CellSettings& cell = input.relax.cell;
+    const membrane::MembraneSettings& laws = input.membranes.types.at(cell.type());
+    const geometry::TriangleMesh mesh = geometry::meshSurface(*cell.shape, cell.edge);
     Problems problems;
-    membrane::Membrane cell(
-        settings.name, 1,
-        simulation::stressFreeNodes(app.caseDirectory(), settings.type(), input.laws(), mesh, problems), mesh.triangles,
-        input.laws(), settings.shape->radius());
+    membrane::Membrane membrane(cell.name, 1,
+                                simulation::stressFreeNodes(app.caseDirectory(), cell.type(), laws, mesh, problems),
+                                mesh.triangles, laws, cell.shape->radius());
     problems.throwIfAny();
-    cell.position = mesh.nodes;
-    return cell;
+    membrane.position = mesh.nodes;
+    return membrane;
 }
 
 // "force_N" -> {"force", "N"}.
@@ -72,18 +66,72 @@ io::Column column(const std::string& name) {
     return bar == std::string::npos ? io::Column{name, ""} : io::Column{name.substr(0, bar), name.substr(bar + 1)};
 }
 
-io::PolyData piece(const membrane::Membrane& cell, const membrane::MembraneSettings& laws, int stage) {
-    io::PolyData data;
-    data.field["stage"] = stage;
-    data.points = cell.position;
-    data.triangles = cell.network().triangles();
-    data.point.vectors["force"] = cell.force;
-    data.point.scalars["stretch"] = membrane::nodeStretch(cell.network(), cell.position);
-    data.cell.scalars["areaStrain"] = membrane::areaStrain(cell.network(), cell.position);
-    membrane::PrincipalTensions tensions = membrane::principalTensions(cell.network(), laws, cell.position);
-    data.cell.scalars["tension1"] = std::move(tensions.tension1);
-    data.cell.scalars["tension2"] = std::move(tensions.tension2);
-    return data;
+// Where stages are written to, and what areas and volumes are compared with.
+class Results {
+  public:
+    Results(const Application& app, const membrane::Protocol& protocol, const membrane::Membrane& membrane, double edge)
+        : protocol_(protocol),
+          edge_(edge),
+          area0_(membrane.area()),
+          volume0_(membrane.volume()),
+          table_(app.communicator().handle(), app.caseDirectory(), "relax", 0, membrane.name, columns(protocol)),
+          surfaces_(app.communicator().handle(), app.caseDirectory(), membrane.name, 0, 0) {}
+
+    // Returns the line for the log.
+    std::string write(int stage, const membrane::Membrane& membrane, const membrane::EquilibriumReport& report) {
+        const std::vector<double> measured = protocol_.measure(stage, membrane);
+        const double area = membrane.area(), volume = membrane.volume();
+        const double areaStrain = area / area0_ - 1, volumeStrain = volume / volume0_ - 1;
+        std::vector<double> row{static_cast<double>(stage)};
+        row.insert(row.end(), measured.begin(), measured.end());
+        row.insert(row.end(), {area, volume, areaStrain, volumeStrain, membrane.energy(),
+                               static_cast<double>(report.iterations), report.residual});
+        table_.row(row);
+        surfaces_.write(stage, std::nullopt, simulation::membranePiece(membrane, edge_));
+        std::string values;
+        for (std::size_t k = 0; k < measured.size(); ++k)
+            values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k], measured[k]);
+        return fmt::format("stage {}, {}: {}; area {:+.3f} %, volume {:+.3f} %; {} iterations, residual {:.2g} N",
+                           stage, protocol_.describe(stage), values, 100 * areaStrain, 100 * volumeStrain,
+                           report.iterations, report.residual);
+    }
+
+  private:
+    static std::vector<io::Column> columns(const membrane::Protocol& protocol) {
+        std::vector<io::Column> all{{"stage", ""}};
+        for (const std::string& name : protocol.columns()) all.push_back(column(name));
+        for (const char* name : {"area_m2", "volume_m3", "areaStrain", "volumeStrain", "energy_J", "iterations"})
+            all.push_back(column(name));
+        all.push_back({"residual", "N"});
+        return all;
+    }
+
+    const membrane::Protocol& protocol_;
+    double edge_, area0_, volume0_;
+    io::CsvSeries table_;
+    io::VtkSeries surfaces_;
+};
+
+// Each stage from the equilibrium of the one before. Throws Failure(numerics) for one that has none.
+void runStages(Application& app, const simulation::RelaxSettings& relax, membrane::Membrane& membrane,
+               RunRecord& record) {
+    const membrane::Protocol& protocol = *relax.protocol;
+    Results results(app, protocol, membrane, relax.cell.edge);
+    for (int stage = 0; stage < protocol.stages(); ++stage) {
+        const membrane::Loads loads = protocol.apply(stage, membrane);
+        const membrane::EquilibriumReport report =
+            findEquilibrium(membrane, loads, {relax.tolerance, relax.forceScale, static_cast<int>(relax.iterations)});
+        app.log().info("{}", results.write(stage, membrane, report));
+        if (report.converged) continue;
+        const std::string reason = fmt::format(
+            "stage {} ({}): no equilibrium after {} iterations, the largest residual force is {:.3g} N. Take "
+            "smaller steps between the stages of system/relax.yaml, or more 'iterations'",
+            stage, protocol.describe(stage), report.iterations, report.residual);
+        record.finish(ExitCode::numerics, reason);
+        throw Failure(ExitCode::numerics, reason);
+    }
+    record.set("result", "stages", static_cast<long>(protocol.stages()));
+    record.finish(ExitCode::done, "all stages in equilibrium");
 }
 
 }  // namespace
@@ -96,57 +144,18 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
         app.openLog();
-        const Input input = Input::read(app);
-        const simulation::RelaxSettings& relax = input.relax;
-        const membrane::Protocol& protocol = *relax.protocol;
-        membrane::Membrane cell = makeCell(app, input);
-        const double area0 = cell.area(), volume0 = cell.volume();
-        app.log().info("cell {}: {}, {} nodes, edge {}; protocol {}, {} stages", cell.name, relax.cell.shape.name,
-                       cell.position.size(), formatQuantity(relax.cell.edge, unit::metre), relax.protocol.name,
-                       protocol.stages());
+        const Input input = Input::read(app);                    // 1. strict dictionaries, SI from here on
+        membrane::Membrane membrane = makeMembrane(app, input);  // 2. the membrane
+        app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),
+                       formatQuantity(input.relax.cell.edge, unit::metre), input.relax.protocol.name,
+                       input.relax.protocol->stages());
 
         RunRecord record(app.path("run.json"), app.name(), app.communicator());
-        record.set("parameters", "nodes", static_cast<long>(cell.position.size()));
+        record.set("parameters", "nodes", static_cast<long>(membrane.position.size()));
         record.set("parameters", "commandLine", app.commandLine());
         record.write();
         writeUsed(app.path("used.yaml"), input.effective, app.communicator());
-        std::vector<io::Column> columns{{"stage", ""}};
-        for (const std::string& name : protocol.columns()) columns.push_back(column(name));
-        for (const char* name : {"area_m2", "volume_m3", "areaStrain", "volumeStrain", "energy_J"})
-            columns.push_back(column(name));
-        columns.push_back({"iterations", ""}), columns.push_back({"residual", "N"});
-        io::CsvSeries table(app.communicator().handle(), app.caseDirectory(), "relax", 0, cell.name, columns);
-        io::VtkSeries results(app.communicator().handle(), app.caseDirectory(), cell.name, 0, 0);
-
-        for (int stage = 0; stage < protocol.stages(); ++stage) {
-            const membrane::Loads loads = protocol.apply(stage, cell);
-            const membrane::EquilibriumReport report =
-                findEquilibrium(cell, loads, {relax.tolerance, relax.forceScale, static_cast<int>(relax.iterations)});
-            std::vector<double> row{static_cast<double>(stage)};
-            const std::vector<double> measured = protocol.measure(stage, cell);
-            row.insert(row.end(), measured.begin(), measured.end());
-            const double area = cell.area(), volume = cell.volume();
-            row.insert(row.end(), {area, volume, area / area0 - 1, volume / volume0 - 1, cell.energy(),
-                                   static_cast<double>(report.iterations), report.residual});
-            table.row(row);
-            results.write(stage, std::nullopt, piece(cell, input.laws(), stage));
-            std::string values;
-            for (std::size_t k = 0; k < measured.size(); ++k)
-                values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol.columns()[k], measured[k]);
-            app.log().info("stage {}, {}: {}; area {:+.3f} %, volume {:+.3f} %; {} iterations, residual {:.2g} N",
-                           stage, protocol.describe(stage), values, 100 * (area / area0 - 1),
-                           100 * (volume / volume0 - 1), report.iterations, report.residual);
-            if (!report.converged) {
-                const std::string reason = fmt::format(
-                    "stage {} ({}): no equilibrium after {} iterations, the largest residual force is {:.3g} N. Take "
-                    "smaller steps between the stages of system/relax.yaml, or more 'iterations'",
-                    stage, protocol.describe(stage), report.iterations, report.residual);
-                record.finish(ExitCode::numerics, reason);
-                throw Failure(ExitCode::numerics, reason);
-            }
-        }
-        record.set("result", "stages", static_cast<long>(protocol.stages()));
-        record.finish(ExitCode::done, "all stages in equilibrium");
+        runStages(app, input.relax, membrane, record);  // 3. loads, equilibrium, a row and a surface each
         return ExitCode::done;
     });
 }
