@@ -16,7 +16,6 @@ struct Cell {
     double radius = 0;                          // a [m]
     double viscosityRatio = 1;                  // mu_in/mu_out
     int firstNode = 0;                          // global number of its node 0: field `node` of the store
-    std::vector<Vec3> initialPosition;          // of the nodes at t = 0 [m]
     double initialArea = 0, initialVolume = 0;  // at t = 0 [m^2, m^3]
     std::vector<double> nodeMass;               // of each node as a particle [kg]
     bool held = true;

@@ -7,14 +7,16 @@
 
 namespace corpuscle::membrane {
 
-Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> stressFree, std::vector<Index3> triangles,
-                   const MembraneSettings& settings, double radius)
+Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::vector<Index3> triangles,
+                   const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree)
     : name(std::move(nameOfCell)),
       cell(cellNumber),
-      position(stressFree),
-      velocity(stressFree.size(), Vec3::Zero()),
-      force(stressFree.size(), Vec3::Zero()),
-      network_(std::make_unique<Network>(std::move(stressFree), std::move(triangles))),
+      position(nodes),
+      velocity(nodes.size(), Vec3::Zero()),
+      force(nodes.size(), Vec3::Zero()),
+      initialPosition_(std::move(nodes)),
+      network_(std::make_unique<Network>(stressFree.empty() ? initialPosition_ : std::move(stressFree),
+                                         std::move(triangles))),
       laws_(settings),
       scale_{laws_.moduli(network_->meanBondLength()).shear, radius} {
     if (settings.bonds) {

@@ -16,15 +16,17 @@ namespace corpuscle::membrane {
 
 class Membrane {
   public:
-    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest at their stress-free places; they may be put elsewhere.
-    Membrane(std::string name, int cell, std::vector<Vec3> stressFree, std::vector<Index3> triangles,
-             const MembraneSettings& settings, double radius);
+    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest; `stressFree` are their places in the shape without tension,
+    // the same ones when empty.
+    Membrane(std::string name, int cell, std::vector<Vec3> nodes, std::vector<Index3> triangles,
+             const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree = {});
 
     std::string name;
     int cell;  // number of the cell, 1 and up; `side` of the fluid particles inside it
     std::vector<Vec3> position, velocity, force;  // m, m/s, N
 
     const Network& network() const { return *network_; }
+    const std::vector<Vec3>& initialPosition() const { return initialPosition_; }
     const MembraneSettings& laws() const { return laws_; }
     const MembraneScale& scale() const { return scale_; }
 
@@ -47,6 +49,7 @@ class Membrane {
     std::vector<double> vertexAreas() const;  // a third of each whole triangle of a node, m^2
 
   private:
+    std::vector<Vec3> initialPosition_;
     std::unique_ptr<Network> network_;  // terms refer to it: its address stays when the membrane is moved
     MembraneSettings laws_;
     MembraneScale scale_;

@@ -35,7 +35,7 @@ const Schema<Tweezers>& Tweezers::schema() {
 
 Loads Tweezers::apply(int stage, Membrane& membrane) const {
     const Network& network = membrane.network();
-    const std::vector<Vec3>& rest = network.stressFree();
+    const std::vector<Vec3>& rest = membrane.initialPosition();
     const std::vector<double> area = vertexAreas(network, rest);
     Loads loads;
     loads.force.assign(rest.size(), Vec3::Zero());

@@ -56,7 +56,7 @@ class ShapeObservation : public Observation {
     explicit ShapeObservation(const Scene& scene) : Observation(tablesOf(scene)), angles_(scene.cells.size()) {
         if (scene.flow.walls.axis == 1) plane_.gradient = 1;
         for (const coupling::Cell& cell : scene.cells) {
-            markers_.push_back(markerNode(cell.initialPosition, cell.membrane.network().triangles(), plane_));
+            markers_.push_back(markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_));
         }
     }
 
@@ -64,7 +64,7 @@ class ShapeObservation : public Observation {
         const auto measured = ofEachCell(scene, 11, [&](const coupling::Cell& cell, std::size_t c, double* out) {
             const std::vector<Vec3>& x = cell.membrane.position;
             const SectionShape s = sectionShape(closedSurface(cell), plane_);
-            const double turned = materialRotation(cell.initialPosition, x, plane_);
+            const double turned = materialRotation(cell.membrane.initialPosition(), x, plane_);
             const double phase = flowAngle(x[markers_[c]] - s.centroid, plane_) + s.inclination;
             const double values[] = {s.D12_extent, s.D12_inertia, s.inclination, turned,        phase,        s.length,
                                      s.height,     s.width,       s.centroid[0], s.centroid[1], s.centroid[2]};

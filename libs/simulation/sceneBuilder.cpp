@@ -28,14 +28,12 @@ std::vector<Cell> readCells(const Case& input) {
         const membrane::MembraneSettings& laws = input.membraneOf(settings);
         const double a = settings.shape->radius();
         Cell cell{.membrane = membrane::Membrane(
-                      settings.name, static_cast<int>(cells.size()) + 1,
-                      stressFreeNodes(input.directory, settings.type(), laws, mesh, problems), mesh.triangles, laws, a),
+                      settings.name, static_cast<int>(cells.size()) + 1, mesh.nodes, mesh.triangles, laws, a,
+                      stressFreeNodes(input.directory, settings.type(), laws, mesh, problems)),
                   .type = settings.type(),
                   .radius = a,
                   .viscosityRatio = laws.interior.viscosityRatio,
-                  .firstNode = firstNode,
-                  .initialPosition = mesh.nodes};
-        cell.membrane.position = mesh.nodes;
+                  .firstNode = firstNode};
         cell.initialArea = cell.membrane.area();
         cell.initialVolume = cell.membrane.volume();
         for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))

@@ -61,7 +61,6 @@ inline Scene sampleScene(const SampleOptions& o) {
                             .type = "cell",
                             .radius = 4 * um,
                             .firstNode = nodes,
-                            .initialPosition = mesh.nodes,
                             .initialArea = mesh.area(),
                             .initialVolume = mesh.volume(),
                             .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx)};
