@@ -52,12 +52,9 @@ membrane::Membrane makeMembrane(const Application& app, const Input& input) {
     const membrane::MembraneSettings& laws = input.membranes.types.at(cell.type());
     const geometry::TriangleMesh mesh = geometry::meshSurface(*cell.shape, cell.edge);
     Problems problems;
-    membrane::Membrane membrane(cell.name, 1,
-                                simulation::stressFreeNodes(app.caseDirectory(), cell.type(), laws, mesh, problems),
-                                mesh.triangles, laws, cell.shape->radius());
+    std::vector<Vec3> stressFree = simulation::stressFreeNodes(app.caseDirectory(), cell.type(), laws, mesh, problems);
     problems.throwIfAny();
-    membrane.position = mesh.nodes;
-    return membrane;
+    return {cell.name, 1, mesh.nodes, mesh.triangles, laws, cell.shape->radius(), std::move(stressFree)};
 }
 
 // "force_N" -> {"force", "N"}.
