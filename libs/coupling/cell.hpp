@@ -17,7 +17,7 @@ struct Cell {
     double viscosityRatio = 1;                  // mu_in/mu_out
     int firstNode = 0;                          // global number of its node 0: field `node` of the store
     double initialArea = 0, initialVolume = 0;  // at t = 0 [m^2, m^3]
-    std::vector<double> nodeMass;               // of each node as a particle [kg]
+    std::vector<double> nodeMass{};             // of each node as a particle [kg]
     bool held = true;
 
     int nodeCount() const { return static_cast<int>(membrane.position.size()); }
