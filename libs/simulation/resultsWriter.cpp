@@ -67,7 +67,11 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     auto& velocity = data.point.vectors["velocity"];
     auto& stretch = data.point.scalars["stretch"];
     auto& spacing = data.point.scalars["spacing"];
+    auto* damage = m.canRupture() && m.laws().rupture->keepsDamage() ? &data.cell.scalars["damage"] : nullptr;
+    auto* hole = m.canRupture() ? &data.point.integers["hole"] : nullptr;
     if (!writer) return data;
+    if (damage) *damage = m.damage();
+    if (hole) *hole = membrane::holeOfNodes(network);
     data.points = m.position;
     data.triangles = network.triangles();
     force = m.force;
