@@ -71,14 +71,18 @@ void DualIdentity::addAccelerations(ParticleSystem& system) {
     }
 }
 
-std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system) {
+std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt) {
     ++steps_;
     std::vector<RuptureEvent> events;
-    for (Cell& cell : cells_)
-        if (cell.held && cell.membrane.canRupture()) {
-            std::vector<membrane::BrokenBond> broken = cell.membrane.applyRupture();
-            if (!broken.empty()) events.push_back({cell.membrane.cell, std::move(broken)});
-        }
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        membrane::Membrane& membrane = cells_[c].membrane;
+        if (!cells_[c].held || !membrane.canRupture()) continue;
+        std::vector<membrane::BrokenBond> broken = membrane.findBroken(dt);
+        if (broken.empty()) continue;
+        if (intervals_.guard > 0) guard_.putBack(system, cells_[c], c);
+        membrane.breakBonds(broken);
+        events.push_back({membrane.cell, std::move(broken)});
+    }
     const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };
     if (due(intervals_.guard)) guard_.putBack(system, cells_);
     if (due(intervals_.densityBalance)) balance_.apply(system, cells_);

@@ -34,8 +34,8 @@ class DualIdentity : public sph::Load {
     void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) override;
     void addAccelerations(particles::ParticleSystem& system) override;
 
-    // After each step: rupture, guard, density balance. Returns what broke. Collective.
-    std::vector<RuptureEvent> endStep(particles::ParticleSystem& system);
+    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. Collective.
+    std::vector<RuptureEvent> endStep(particles::ParticleSystem& system, double dt);
 
     LeakageGuard& guard() { return guard_; }
     const LeakageGuard& guard() const { return guard_; }

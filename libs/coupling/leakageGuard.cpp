@@ -50,38 +50,37 @@ void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vecto
 }
 
 void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cells) {
+    for (std::size_t c = 0; c < cells.size(); ++c) putBack(system, cells[c], c);
+}
+
+void LeakageGuard::putBack(ParticleSystem& system, const Cell& cell, std::size_t index) {
+    if (!cell.held || cell.membrane.network().isOpen() || candidates_[index].empty()) return;
     ParticleStore& s = system.store();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const Cell& cell = cells[c];
-        if (!cell.held || cell.membrane.network().isOpen() || candidates_[c].empty()) continue;
-        const geometry::TriangleGrid& surface = grid(cell, c);
-        const Vec3 middle = middleOf(cell);
-        for (const int i : candidates_[c]) {
-            const Vec3 x = imageNear(system.box(), s.position(i), middle);
-            const geometry::SurfacePoint at = surface.nearest(x);
-            if (!at) continue;
-            const double own =
-                s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
-            if (own * at.distance >= 0) continue;
-            const Index3& triangle = cell.membrane.network().triangles()[static_cast<std::size_t>(at.triangle)];
-            const auto node = [&](int k) { return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]); };
-            Vec3 outward = (x - at.point) / at.distance;
-            if (!(std::abs(at.distance) > 1e-6 * spacing_)) {
-                const auto& p = cell.membrane.position;
-                outward = (p[node(1)] - p[node(0)]).cross(p[node(2)] - p[node(0)]).normalized();
-            }
-            s.setPosition(static_cast<std::size_t>(i),
-                          s.position(i) + (at.point + own * restoredDistanceInSpacings * spacing_ * outward - x));
-            Vec3 membraneVelocity = Vec3::Zero();
-            for (int k = 0; k < 3; ++k) membraneVelocity += at.weights[k] * cell.membrane.velocity[node(k)];
-            const Vec3 u = s.velocity(i);
-            const double approach = own * (u - membraneVelocity).dot(outward);
-            if (approach < 0) s.setVelocity(static_cast<std::size_t>(i), u - own * approach * outward);
-            ++moves_;
-            deepest_ = std::max(deepest_, std::abs(at.distance));
-            if (report_.size() < longestReport)
-                report_.push_back({s.id[i], cell.membrane.cell, std::abs(at.distance), x});
+    const geometry::TriangleGrid& surface = grid(cell, index);
+    const Vec3 middle = middleOf(cell);
+    for (const int i : candidates_[index]) {
+        const Vec3 x = imageNear(system.box(), s.position(i), middle);
+        const geometry::SurfacePoint at = surface.nearest(x);
+        if (!at) continue;
+        const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
+        if (own * at.distance >= 0) continue;
+        const Index3& triangle = cell.membrane.network().triangles()[static_cast<std::size_t>(at.triangle)];
+        const auto node = [&](int k) { return static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)]); };
+        Vec3 outward = (x - at.point) / at.distance;
+        if (!(std::abs(at.distance) > 1e-6 * spacing_)) {
+            const auto& p = cell.membrane.position;
+            outward = (p[node(1)] - p[node(0)]).cross(p[node(2)] - p[node(0)]).normalized();
         }
+        s.setPosition(static_cast<std::size_t>(i),
+                      s.position(i) + (at.point + own * restoredDistanceInSpacings * spacing_ * outward - x));
+        Vec3 membraneVelocity = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) membraneVelocity += at.weights[k] * cell.membrane.velocity[node(k)];
+        const Vec3 u = s.velocity(i);
+        const double approach = own * (u - membraneVelocity).dot(outward);
+        if (approach < 0) s.setVelocity(static_cast<std::size_t>(i), u - own * approach * outward);
+        ++moves_;
+        deepest_ = std::max(deepest_, std::abs(at.distance));
+        if (report_.size() < longestReport) report_.push_back({s.id[i], cell.membrane.cell, std::abs(at.distance), x});
     }
 }
 

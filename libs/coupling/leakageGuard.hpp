@@ -2,7 +2,8 @@
 //
 // A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as candidates;
 // every few steps each of them is held against the nearest point p of the membrane. One on the wrong side goes back to
-// 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured cell is left alone.
+// 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured cell is left alone; at the
+// step at which it is going to break it is looked at once more, so that what is outside later went through a hole.
 #pragma once
 #include <memory>
 #include <vector>
@@ -28,6 +29,7 @@ class LeakageGuard {
 
     void findCandidates(const particles::ParticleSystem& system, const std::vector<Cell>& cells);
     void putBack(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+    void putBack(particles::ParticleSystem& system, const Cell& cell, std::size_t index);  // of one cell, by its index
 
     // This rank's moves since the start of the run, and the last of them since the last call.
     long moves() const { return moves_; }

@@ -72,7 +72,8 @@ void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cel
             if (before[c][static_cast<std::size_t>(r)]) source = r;
         membrane::Membrane& m = cells[c].membrane;
         const std::vector<char>& alive = m.network().aliveBonds();
-        const std::size_t length = nodeFields * m.position.size() + alive.size();
+        const std::vector<double>& damage = m.damage();
+        const std::size_t length = nodeFields * m.position.size() + alive.size() + damage.size();
         if (self == source)
             for (int r = 0; r < size; ++r) {
                 if (!holds_[c][static_cast<std::size_t>(r)] || before[c][static_cast<std::size_t>(r)]) continue;
@@ -82,6 +83,7 @@ void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cel
                     message.insert(message.end(), m.velocity[k].data(), m.velocity[k].data() + 3);
                 }
                 message.insert(message.end(), alive.begin(), alive.end());
+                message.insert(message.end(), damage.begin(), damage.end());
                 requests.emplace_back();
                 MPI_Isend(message.data(), static_cast<int>(length), MPI_DOUBLE, r, stateTag, system.comm(),
                           &requests.back());
@@ -94,7 +96,9 @@ void NodeExchange::handOver(const ParticleSystem& system, std::vector<Cell>& cel
                 m.position[k] = Vec3(message.data() + nodeFields * k);
                 m.velocity[k] = Vec3(message.data() + nodeFields * k + 3);
             }
-            m.restore({message.end() - static_cast<std::ptrdiff_t>(alive.size()), message.end()});
+            const auto firstDamage = message.end() - static_cast<std::ptrdiff_t>(damage.size());
+            m.restore({firstDamage - static_cast<std::ptrdiff_t>(alive.size()), firstDamage},
+                      {firstDamage, message.end()});
         }
         cells[c].held = holds_[c][me];
     }

@@ -1,19 +1,18 @@
 #include "membrane/arealStrain.hpp"
 
 #include "core/registry.hpp"
-#include "membrane/surface.hpp"
+#include "membrane/diagnostics.hpp"
 
 namespace corpuscle::membrane {
 
-std::vector<BrokenBond> ArealStrain::select(const Network& network, const MembraneSettings&,
-                                            std::span<const Vec3> x) const {
+std::vector<BrokenBond> ArealStrain::select(const RuptureStep& now) const {
     std::vector<int> beyond;
-    for (const int t : network.wholeTriangles()) {
-        if (areaVector(x, network.triangles()[t]).norm() > (1 + limit) * network.restAreas()[t]) {
+    for (const int t : now.network.wholeTriangles()) {
+        if (arealStrain(now.network, t, now.x) > limit) {
             beyond.push_back(t);
         }
     }
-    return mostStretchedBonds(network, beyond, x);
+    return mostStretchedBonds(now.network, beyond, now.x);
 }
 
 const Schema<ArealStrain>& ArealStrain::schema() {

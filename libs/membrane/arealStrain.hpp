@@ -12,8 +12,7 @@ namespace corpuscle::membrane {
 struct ArealStrain : RuptureLaw {
     double limit = 0;
 
-    std::vector<BrokenBond> select(const Network& network, const MembraneSettings& laws,
-                                   std::span<const Vec3> x) const override;
+    std::vector<BrokenBond> select(const RuptureStep& now) const override;
     static const Schema<ArealStrain>& schema();
 };
 

@@ -12,11 +12,10 @@ namespace corpuscle::membrane {
 struct BondStretch : RuptureLaw {
     double limit = 0;
 
-    std::vector<BrokenBond> select(const Network& network, const MembraneSettings&,
-                                   std::span<const Vec3> x) const override {
+    std::vector<BrokenBond> select(const RuptureStep& now) const override {
         std::vector<BrokenBond> broken;
-        for (const Bond& bond : network.bonds()) {
-            const Vec3 &a = x[bond.node[0]], &b = x[bond.node[1]];
+        for (const Bond& bond : now.network.bonds()) {
+            const Vec3 &a = now.x[bond.node[0]], &b = now.x[bond.node[1]];
             if (const double stretch = (b - a).norm() / bond.rest; stretch > limit) {
                 broken.push_back({bond.number, stretch, 0.5 * (a + b)});
             }

@@ -1,7 +1,10 @@
 #include "membrane/diagnostics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "membrane/surface.hpp"
 
@@ -13,29 +16,69 @@ double stretchOf(const Bond& bond, std::span<const Vec3> x) {
     return (x[bond.node[1]] - x[bond.node[0]]).norm() / bond.rest;
 }
 
-void addBonds(const Network& network, const BondLaw& law, int triangle, std::span<const Vec3> x, Mat3& virial) {
-    for (const int number : network.triangleBonds(triangle)) {
-        const Bond& bond = network.allBonds()[number];
-        const Vec3 r = x[bond.node[1]] - x[bond.node[0]];
-        const double l = r.norm();
-        virial += 0.5 * law.weight(network, bond) * law.tension(l, bond.rest) / l * r * r.transpose();
+// A triangle laid into a plane, its edge from corner 0 to 1 along the first axis, with area times tension in that plane.
+struct InPlane {
+    Eigen::Vector2d a, b;  // edges from corner 0 to 1 and to 2, m
+    double xx = 0, xy = 0, yy = 0;
+
+    InPlane(const Vec3& edgeA, const Vec3& edgeB, double area) {
+        const double length = edgeA.norm();
+        a = {length, 0};
+        b = {edgeA.dot(edgeB) / length, 2 * area / length};
+    }
+    void add(double factor, const Eigen::Vector2d& u, const Eigen::Vector2d& v) {  // the symmetric part of u v^T
+        xx += factor * u[0] * v[0];
+        yy += factor * u[1] * v[1];
+        xy += 0.5 * factor * (u[0] * v[1] + u[1] * v[0]);
+    }
+};
+
+void addBonds(const Network& network, const BondLaw& law, int triangle, InPlane& plane) {
+    const std::array<Eigen::Vector2d, 3> edges{plane.a, plane.b - plane.a, plane.b};
+    for (int k = 0; k < 3; ++k) {
+        const Bond& bond = network.allBonds()[network.triangleBonds(triangle)[k]];
+        const double l = edges[k].norm();
+        plane.add(0.5 * law.weight(network, bond) * law.tension(l, bond.rest) / l, edges[k], edges[k]);
     }
 }
 
-void addSheet(const Network& network, const TriangleLaw& law, int triangle, std::span<const Vec3> x, Mat3& virial) {
+void addSheet(const Network& network, const TriangleLaw& law, int triangle, InPlane& plane) {
     const RestTriangle rest(network.stressFree(), network.triangles()[triangle]);
-    const Vec3 a = x[rest.node[1]] - x[rest.node[0]], b = x[rest.node[2]] - x[rest.node[0]];
-    const Vec3 t = rest.area * rest.pullBack(law.slope(rest.strain(edgeProducts(a, b))));
-    virial += 2 * t[0] * a * a.transpose() + 2 * t[2] * b * b.transpose();
-    virial += t[1] * (a * b.transpose() + b * a.transpose());
+    const Vec3 products(plane.a.squaredNorm(), plane.a.dot(plane.b), plane.b.squaredNorm());
+    const Vec3 t = rest.area * rest.pullBack(law.slope(rest.strain(products)));
+    plane.add(2 * t[0], plane.a, plane.a);
+    plane.add(2 * t[1], plane.a, plane.b);
+    plane.add(2 * t[2], plane.b, plane.b);
 }
 
 }  // namespace
 
+double arealStrain(const Network& network, int triangle, std::span<const Vec3> x) {
+    return areaVector(x, network.triangles()[triangle]).norm() / network.restAreas()[triangle] - 1;
+}
+
+std::pair<double, double> principalTensions(const Network& network, const MembraneSettings& laws, int triangle,
+                                            std::span<const Vec3> x) {
+    const Index3& corner = network.triangles()[triangle];
+    const double area = areaVector(x, corner).norm();
+    if (area == 0) {
+        return {0, 0};
+    }
+    InPlane plane(x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]], area);
+    if (laws.bonds) {
+        addBonds(network, *laws.bonds, triangle, plane);
+    }
+    if (laws.triangles) {
+        addSheet(network, *laws.triangles, triangle, plane);
+    }
+    const double mean = 0.5 * (plane.xx + plane.yy), radius = std::hypot(0.5 * (plane.xx - plane.yy), plane.xy);
+    return {(mean + radius) / area, (mean - radius) / area};
+}
+
 std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x) {
     std::vector<double> strain(network.triangles().size(), 0.0);
     for (const int t : network.wholeTriangles()) {
-        strain[t] = areaVector(x, network.triangles()[t]).norm() / network.restAreas()[t] - 1;
+        strain[t] = arealStrain(network, t, x);
     }
     return strain;
 }
@@ -45,24 +88,7 @@ PrincipalTensions principalTensions(const Network& network, const MembraneSettin
     result.tension1.assign(network.triangles().size(), 0.0);
     result.tension2 = result.tension1;
     for (const int t : network.wholeTriangles()) {
-        const double area = areaVector(x, network.triangles()[t]).norm();
-        if (area == 0) {
-            continue;
-        }
-        Mat3 virial = Mat3::Zero();  // area times tension
-        if (laws.bonds) {
-            addBonds(network, *laws.bonds, t, x, virial);
-        }
-        if (laws.triangles) {
-            addSheet(network, *laws.triangles, t, x, virial);
-        }
-        const Index3& corner = network.triangles()[t];
-        const Vec3 normal = areaVector(x, corner) / area, e1 = (x[corner[1]] - x[corner[0]]).normalized();
-        const Vec3 e2 = normal.cross(e1);
-        const double xx = e1.dot(virial * e1) / area, yy = e2.dot(virial * e2) / area, xy = e1.dot(virial * e2) / area;
-        const double mean = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
-        result.tension1[t] = mean + radius;
-        result.tension2[t] = mean - radius;
+        std::tie(result.tension1[t], result.tension2[t]) = principalTensions(network, laws, t, x);
     }
     return result;
 }
@@ -94,12 +120,40 @@ std::vector<double> vertexAreas(const Network& network, std::span<const Vec3> x)
     return areas;
 }
 
+std::vector<std::int64_t> holeOfNodes(const Network& network) {
+    std::vector<std::int64_t> hole(network.nodeCount(), 0);
+    std::int64_t number = 0;
+    for (const std::vector<int>& rim : network.rims()) {
+        ++number;
+        for (const int node : rim) {
+            hole[node] = number;
+        }
+    }
+    return hole;
+}
+
 double maxBondStrain(const Network& network, std::span<const Vec3> x) {
     double largest = network.bonds().empty() ? 1 : 0;
     for (const Bond& bond : network.bonds()) {
         largest = std::max(largest, stretchOf(bond, x));
     }
     return largest - 1;
+}
+
+double maxArealStrain(const Network& network, std::span<const Vec3> x) {
+    double largest = network.wholeTriangles().empty() ? 0 : -1;
+    for (const int t : network.wholeTriangles()) {
+        largest = std::max(largest, arealStrain(network, t, x));
+    }
+    return largest;
+}
+
+double maxTension(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x) {
+    double largest = network.wholeTriangles().empty() ? 0 : -std::numeric_limits<double>::infinity();
+    for (const int t : network.wholeTriangles()) {
+        largest = std::max(largest, principalTensions(network, laws, t, x).first);
+    }
+    return largest;
 }
 
 }  // namespace corpuscle::membrane

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "membrane/diagnostics.hpp"
 #include "membrane/surface.hpp"
 
@@ -37,6 +38,9 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nod
     }
     if (settings.volume) {
         terms_.push_back(settings.volume->makeTerm(*network_, area.restArea(*network_)));
+    }
+    if (canRupture() && laws_.rupture->keepsDamage()) {
+        damage_.assign(network_->triangles().size(), 0.0);
     }
 }
 
@@ -80,19 +84,29 @@ double Membrane::maxStiffness() const {
     return sum;
 }
 
-std::vector<BrokenBond> Membrane::applyRupture() {
-    if (!canRupture()) {
-        return {};
+std::vector<BrokenBond> Membrane::findBroken(double dt) {
+    return canRupture() ? laws_.rupture->select({*network_, laws_, position, dt, damage_}) : std::vector<BrokenBond>{};
+}
+
+void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
+    std::vector<int> numbers;
+    for (const BrokenBond& bond : broken) {
+        numbers.push_back(bond.bond);
     }
-    std::vector<BrokenBond> broken = laws_.rupture->select(*network_, laws_, position);
-    if (!broken.empty()) {
-        std::vector<int> numbers;
-        for (const BrokenBond& bond : broken) {
-            numbers.push_back(bond.bond);
-        }
+    if (!numbers.empty()) {
         network_->breakBonds(numbers);
     }
-    return broken;
+}
+
+void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {
+    if (damage.size() != damage_.size()) {
+        throw Failure(ExitCode::io, "checkpoint holds the damage of " + std::to_string(damage.size()) +
+                                        " triangles of membrane " + name + ", its rupture law keeps that of " +
+                                        std::to_string(damage_.size()) +
+                                        "; start from firstTime, or give the rupture law of the checkpoint");
+    }
+    network_->restore(std::move(aliveBonds));
+    damage_ = std::move(damage);
 }
 
 double Membrane::area() const {

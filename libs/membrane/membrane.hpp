@@ -40,8 +40,13 @@ class Membrane {
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 
     bool canRupture() const { return static_cast<bool>(laws_.rupture); }
-    std::vector<BrokenBond> applyRupture();  // breaks what the criterion names at the present positions; what broke now
-    void restore(std::vector<char> aliveBonds) { network_->restore(std::move(aliveBonds)); }
+    // What the criterion names at the present positions, dt [s] after it was asked last; breakBonds then breaks it.
+    std::vector<BrokenBond> findBroken(double dt);
+    void breakBonds(const std::vector<BrokenBond>& broken);
+    // Of each triangle, 0 to 1, that of a broken one as it broke; empty unless the rupture law keeps it.
+    const std::vector<double>& damage() const { return damage_; }
+    // State of a checkpoint. Throws Failure(ExitCode::io) when it is of another mesh or law.
+    void restore(std::vector<char> aliveBonds, std::vector<double> damage = {});
 
     double area() const;  // of the whole triangles, m^2
     // Enclosed, m^3. A hole counts as closed by a fan over its rim. No meaning for a mesh that was made with a border.
@@ -54,6 +59,7 @@ class Membrane {
     MembraneSettings laws_;
     MembraneScale scale_;
     std::vector<std::unique_ptr<Term>> terms_;
+    std::vector<double> damage_;
 };
 
 }  // namespace corpuscle::membrane

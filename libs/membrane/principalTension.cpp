@@ -5,16 +5,14 @@
 
 namespace corpuscle::membrane {
 
-std::vector<BrokenBond> PrincipalTension::select(const Network& network, const MembraneSettings& laws,
-                                                 std::span<const Vec3> x) const {
-    const std::vector<double> tension = principalTensions(network, laws, x).tension1;
+std::vector<BrokenBond> PrincipalTension::select(const RuptureStep& now) const {
     std::vector<int> beyond;
-    for (const int t : network.wholeTriangles()) {
-        if (tension[static_cast<std::size_t>(t)] > limit) {
+    for (const int t : now.network.wholeTriangles()) {
+        if (principalTensions(now.network, now.laws, t, now.x).first > limit) {
             beyond.push_back(t);
         }
     }
-    return mostStretchedBonds(network, beyond, x);
+    return mostStretchedBonds(now.network, beyond, now.x);
 }
 
 const Schema<PrincipalTension>& PrincipalTension::schema() {

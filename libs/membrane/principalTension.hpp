@@ -14,8 +14,7 @@ namespace corpuscle::membrane {
 struct PrincipalTension : RuptureLaw {
     double limit = 0;  // N/m
 
-    std::vector<BrokenBond> select(const Network& network, const MembraneSettings& laws,
-                                   std::span<const Vec3> x) const override;
+    std::vector<BrokenBond> select(const RuptureStep& now) const override;
     static const Schema<PrincipalTension>& schema();
 };
 

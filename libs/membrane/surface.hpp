@@ -47,6 +47,14 @@ inline Vec3 meanPoint(std::span<const Vec3> x, std::span<const int> loop) {
     return mean / static_cast<double>(loop.size());
 }
 
+inline double loopLength(std::span<const Vec3> x, std::span<const int> loop) {
+    double length = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        length += (x[loop[(k + 1) % loop.size()]] - x[loop[k]]).norm();
+    }
+    return length;
+}
+
 // Surface of triangles from the mean point of a loop to its edges.
 inline double fanArea(std::span<const Vec3> x, std::span<const int> loop) {
     const Vec3 mean = meanPoint(x, loop);

@@ -34,6 +34,21 @@ std::vector<std::vector<double>> ofEachCell(const Scene& scene, std::size_t coun
     return result;
 }
 
+std::vector<double> gatherNumbers(const Scene& scene, const std::vector<double>& own) {
+    const Communicator ranks(scene.system->comm());
+    std::vector<int> lengths, starts;
+    int total = 0;
+    for (const long length : ranks.gatherAll(static_cast<long>(own.size()))) {
+        lengths.push_back(static_cast<int>(length));
+        starts.push_back(total);
+        total += lengths.back();
+    }
+    std::vector<double> all(static_cast<std::size_t>(total));
+    MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), lengths.data(), starts.data(),
+                   MPI_DOUBLE, ranks.handle());
+    return all;
+}
+
 geometry::TriangleMesh closedSurface(const Cell& cell) {
     const membrane::Network& network = cell.membrane.network();
     const std::vector<Vec3>& x = cell.membrane.position;

@@ -20,6 +20,9 @@ std::vector<std::vector<double>> ofEachCell(
     const coupling::Scene& scene, std::size_t count,
     const std::function<void(const coupling::Cell&, std::size_t, double* out)>& work);
 
+// The numbers of all ranks one after another, in the order of the ranks, on every rank. Collective.
+std::vector<double> gatherNumbers(const coupling::Scene& scene, const std::vector<double>& own);
+
 // The surface of a held cell now, closed by a fan over the rim of each hole; without nodes that no whole triangle has. Empty
 // when every triangle is broken.
 geometry::TriangleMesh closedSurface(const coupling::Cell& cell);

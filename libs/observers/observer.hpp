@@ -10,6 +10,8 @@
 // CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
 #pragma once
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,6 +36,12 @@ struct Row {
     std::vector<double> values;  // one for each column of the table, SI
 };
 
+// What there is to say at the end of a run: figures for run.json, lines for the log.
+struct Summary {
+    nlohmann::ordered_json figures;
+    std::vector<std::string> lines;
+};
+
 class Observation {
   public:
     explicit Observation(std::vector<Table> tables) : tables_(std::move(tables)) {}
@@ -46,6 +54,9 @@ class Observation {
     // After every step, only where watchesSteps(): for what happens between two looks. Collective.
     virtual bool watchesSteps() const { return false; }
     virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
+
+    // At the end of a run; empty: nothing to say. Collective.
+    virtual std::optional<Summary> summary(const Scene&, const Time&) { return {}; }
 
     // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a state
     // of another length.

@@ -76,6 +76,14 @@ void Observers::run(const Scene& scene, const Time& time) {
     }
 }
 
+std::vector<std::pair<std::string, Summary>> Observers::summaries(const Scene& scene, const Time& time) {
+    std::vector<std::pair<std::string, Summary>> all;
+    for (Running& observer : running_)
+        if (std::optional<Summary> summary = observer.observation->summary(scene, time))
+            all.emplace_back(observer.name, std::move(*summary));
+    return all;
+}
+
 // A sequence of (length of the key, its characters, length of the state, its numbers).
 std::vector<double> Observers::state() const {
     std::vector<double> all;

@@ -38,6 +38,9 @@ class Observers {
     // Lets look those that are due. Collective.
     void run(const Scene& scene, const Time& time);
 
+    // Of those that have something to say at the end, by name. Collective.
+    std::vector<std::pair<std::string, Summary>> summaries(const Scene& scene, const Time& time);
+
     // What those that remember something need for a restart; the same on all ranks. Observers that the state does not know begin
     // anew, what it knows of others is passed over.
     std::vector<double> state() const;

@@ -1,109 +1,181 @@
 // Observer `rupture`: when, where and how far the membranes break, and what they let out.
 //
 // <cell>.csv, a row at each look:
-// column                       | meaning                                                                                 | unit
-// bondsBroken, trianglesLost   | so far                                                                                  | -
-// holeArea                     | fans over the rims now                                                                  | m^2
-// holeRestArea                 | stress-free area of the lost triangles                                                  | m^2
-// released, releasedVolume     | fluid particles of this cell's inside (side n) that are outside the surface closed by   | -, m^3
-//                              | fans over its rims, and the sum of their volumes m/rho                                  |
-// maxBondStrain                | largest l/l0 - 1 of the living bonds                                                    | -
-// firstBreak, _strain, _x,y,z  | time, strain and place (middle of the bond) of the first break; nan before              | s, -, m
+// column                        | meaning                                                                                | unit
+// bondsBroken, trianglesLost    | so far                                                                                 | -
+// holes                         | closed rims between whole and lost triangles                                           | -
+// holeArea                      | fans over the rims now                                                                 | m^2
+// holeRestArea                  | stress-free area of the lost triangles                                                 | m^2
+// released, releasedVolume      | fluid of this cell's inside that is outside its surface (interior.hpp): particles,     | -, m^3
+//                               | sum of their volumes m/rho; 0 until the first break                                    |
+// leaked                        | the same particles while the cell is whole: an error of the numerics                   | -
+// haemolysisIndex               | 100 (released mass)/(mass inside at the start)                                         | %
+// maxBondStrain, maxArealStrain | largest l/l0 - 1 of the living bonds, A/A0 - 1 of the whole triangles                  | -
+// maxTension                    | greatest principal tension of the whole triangles (diagnostics.hpp)                    | N/m
+// maxDamage                     | largest damage of the whole triangles (damage.hpp); 0 where no law keeps it            | -
+// firstBreak, _strain           | time and strain of the first break, that of the most stretched bond of that step;      | s, -
+//                               | nan before, as the rest                                                                |
+// firstBreak_bond, _x.., _x0..  | its bond (events.csv has its nodes), its middle then and on the stress-free cell       | -, m, m
+// case.csv: cellsBroken, released, leaked, releasedVolume, haemolysisIndex of all cells.
+// holes.csv, a row for each rim at each look: cell (number, 1 and up), hole (1 and up, in the order of the rims' lowest bonds; not the same
+//     hole from look to look when holes come or merge), edges, perimeter, area (fan), mean point of its nodes x, y, z.
+// events.csv, a row for each bond, at the step at which it broke: cell, bond, its nodes, stretch l/l0, middle x, y, z then and x0, y0, z0 on
+//     the stress-free cell (in the case's box, where the cell stood at the start).
 //
-// events.csv, a row for each bond, at the step at which it broke: cell (number, 1 and up), bond, stretch l/l0, place x, y, z [m].
+// The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, of cells that hold the same concentration and
+// let it out with their fluid. It counts what went out with the fluid through torn membranes; not what diffuses, nor what passes through
+// pores smaller than a triangle, and it is that of this flow at this strain, not of a device.
 //
 // Numbers to compare with: bonds break at l/l0 = 1.05 in the DMP literature on red cells; a red cell's membrane bears 2-4 % of area
 // strain (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976).
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <limits>
 
 #include "core/communicator.hpp"
-#include "membrane/diagnostics.hpp"
+#include "membrane/surface.hpp"
 #include "observers/cells.hpp"
 #include "observers/observer.hpp"
+#include "observers/ruptureFigures.hpp"
 
 namespace corpuscle::observers {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t eventNumbers = 6, firstNumbers = 5;
+constexpr std::size_t eventNumbers = 11, holeNumbers = 8;
+
+std::vector<io::Column> point(const std::string& prefix, const std::string& suffix) {
+    return {{prefix + "x" + suffix, "m"}, {prefix + "y" + suffix, "m"}, {prefix + "z" + suffix, "m"}};
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+std::vector<Table> tablesOf(const Scene& scene) {
+    std::vector<io::Column> cell{{"bondsBroken", ""},    {"trianglesLost", ""},    {"holes", ""},
+                                 {"holeArea", "m2"},     {"holeRestArea", "m2"},   {"released", ""},
+                                 {"leaked", ""},         {"releasedVolume", "m3"}, {"haemolysisIndex", "percent"},
+                                 {"maxBondStrain", ""},  {"maxArealStrain", ""},   {"maxTension", "N_m"},
+                                 {"maxDamage", ""},      {"firstBreak", "s"},      {"firstBreak_strain", ""},
+                                 {"firstBreak_bond", ""}};
+    append(cell, point("firstBreak_", ""));
+    append(cell, point("firstBreak_", "0"));
+    std::vector<io::Column> hole{{"cell", ""}, {"hole", ""}, {"edges", ""}, {"perimeter", "m"}, {"area", "m2"}};
+    append(hole, point("", ""));
+    std::vector<io::Column> event{{"cell", ""}, {"bond", ""}, {"node1", ""}, {"node2", ""}, {"stretch", ""}};
+    append(event, point("", ""));
+    append(event, point("", "0"));
+    std::vector<Table> tables;
+    for (const coupling::Cell& c : scene.cells) tables.push_back({c.membrane.name, cell});
+    tables.push_back({"events", event});
+    tables.push_back({"holes", hole});
+    tables.push_back({"case",
+                      {{"cellsBroken", ""},
+                       {"released", ""},
+                       {"leaked", ""},
+                       {"releasedVolume", "m3"},
+                       {"haemolysisIndex", "percent"}}});
+    return tables;
+}
 
 class RuptureObservation : public Observation {
   public:
-    explicit RuptureObservation(const Scene& scene) : Observation(tablesOf(scene)), first_(scene.cells.size()) {
-        for (auto& first : first_) first.fill(none);
-    }
+    explicit RuptureObservation(const Scene& scene) : Observation(tablesOf(scene)), first_(scene.cells.size()) {}
 
     bool watchesSteps() const override { return true; }
 
     std::vector<Row> afterStep(const Scene& scene, const Time& time) override {
         std::vector<Row> rows = eventsOf(scene);
+        std::vector<double> greatest(scene.cells.size(), 0.0);  // stretch at this step
         for (const Row& row : rows) {
-            auto& first = first_[indexOf(scene, row.values[0])];
-            if (first[0] == first[0]) continue;
-            first = {time.t, time.strain(), row.values[3], row.values[4], row.values[5]};
+            const auto& v = row.values;
+            const auto cell = static_cast<std::size_t>(v[0]) - 1;
+            if (v[4] <= greatest[cell] || (first_[cell].happened() && greatest[cell] == 0)) continue;
+            greatest[cell] = v[4];
+            first_[cell] = {time.t, time.strain(), v[1], Vec3(&v[5]), Vec3(&v[8])};
         }
         return rows;
     }
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
-        const auto released = releasedFluid(scene);
-        const auto measured = ofEachCell(scene, 5, [](const coupling::Cell& cell, std::size_t, double* out) {
-            const membrane::Network& network = cell.membrane.network();
-            out[0] = network.brokenBonds();
-            out[1] = network.brokenTriangles();
-            out[2] = network.holeArea(cell.membrane.position);
-            out[3] = network.holeRestArea();
-            out[4] = membrane::maxBondStrain(network, cell.membrane.position);
-        });
+        const std::size_t cells = scene.cells.size();
+        const std::vector<Interior> interior = interiors(scene);
+        const std::vector<Losses> lost = losses(scene);
         std::vector<Row> rows;
-        for (std::size_t c = 0; c < measured.size(); ++c) {
-            const auto& m = measured[c];
-            rows.push_back({c, {m[0], m[1], m[2], m[3], released[2 * c], released[2 * c + 1], m[4]}});
-            rows.back().values.insert(rows.back().values.end(), first_[c].begin(), first_[c].end());
+        for (std::size_t c = 0; c < cells; ++c) {
+            const Interior& in = interior[c];
+            const Losses& d = lost[c];
+            rows.push_back(
+                {c,
+                 {d.bonds, d.triangles, d.holes, d.holeArea, d.holeRestArea, in.released, in.leaked, in.releasedVolume,
+                  in.haemolysisIndex(), d.bondStrain, d.arealStrain, d.tension, d.damage}});
+            append(rows.back().values, first_[c].numbers());
         }
+        for (auto& hole : holesOf(scene)) rows.push_back({cells + 1, std::move(hole)});
+        const Interior all = sumOf(interior);
+        rows.push_back({cells + 2,
+                        {static_cast<double>(brokenOf(lost)), all.released, all.leaked, all.releasedVolume,
+                         all.haemolysisIndex()}});
         return rows;
+    }
+
+    std::optional<Summary> summary(const Scene& scene, const Time&) override {
+        constexpr int mostLines = 10;
+        const std::vector<Interior> interior = interiors(scene);
+        const std::vector<Losses> lost = losses(scene);
+        const Interior all = sumOf(interior);
+        Summary summary;
+        for (std::size_t c = 0; c < scene.cells.size(); ++c) {
+            const std::string& name = scene.cells[c].membrane.name;
+            summary.figures["cells"][name] = figures(interior[c], lost[c], first_[c]);
+            if (first_[c].happened() && summary.lines.size() < mostLines)
+                summary.lines.push_back(fmt::format("{}: {}", name, sentence(interior[c], lost[c], first_[c])));
+        }
+        const auto first = std::min_element(first_.begin(), first_.end(), [](const FirstBreak& a, const FirstBreak& b) {
+            return a.happened() && (!b.happened() || a.time < b.time);
+        });
+        const int broken = brokenOf(lost);
+        summary.figures["firstBreak_s"] = first->time;
+        summary.figures["firstBreak_strain"] = first->strain;
+        summary.figures["cellsBroken"] = broken;
+        summary.figures["released"] = all.released;
+        summary.figures["leaked"] = all.leaked;
+        summary.figures["releasedVolume_m3"] = all.releasedVolume;
+        summary.figures["haemolysisIndex_percent"] = all.haemolysisIndex();
+        summary.lines.push_back(
+            broken == 0 ? fmt::format("no membrane broke; greatest strain now: bond {:.4g}, area {:.4g}",
+                                      greatest(lost, &Losses::bondStrain), greatest(lost, &Losses::arealStrain))
+                        : fmt::format("{} of {} cells broke, first at strain {:.6g}; haemolysis index {:.4g} %", broken,
+                                      scene.cells.size(), first->strain, all.haemolysisIndex()));
+        return summary;
     }
 
     std::vector<double> state() const override {
         std::vector<double> all;
-        for (const auto& first : first_) all.insert(all.end(), first.begin(), first.end());
+        for (const FirstBreak& first : first_) append(all, first.numbers());
         return all;
     }
 
   protected:
     void setState(std::span<const double> saved) override {
-        for (std::size_t c = 0; c < first_.size(); ++c)
-            std::copy_n(saved.data() + c * firstNumbers, firstNumbers, first_[c].begin());
+        for (std::size_t c = 0; c < first_.size(); ++c) first_[c] = FirstBreak::of(&saved[c * FirstBreak::count]);
     }
 
   private:
-    static std::vector<Table> tablesOf(const Scene& scene) {
-        std::vector<Table> tables;
-        for (const coupling::Cell& cell : scene.cells)
-            tables.push_back({cell.membrane.name,
-                              {{"bondsBroken", ""},
-                               {"trianglesLost", ""},
-                               {"holeArea", "m2"},
-                               {"holeRestArea", "m2"},
-                               {"released", ""},
-                               {"releasedVolume", "m3"},
-                               {"maxBondStrain", ""},
-                               {"firstBreak", "s"},
-                               {"firstBreak_strain", ""},
-                               {"firstBreak_x", "m"},
-                               {"firstBreak_y", "m"},
-                               {"firstBreak_z", "m"}}});
-        tables.push_back({"events", {{"cell", ""}, {"bond", ""}, {"stretch", ""}, {"x", "m"}, {"y", "m"}, {"z", "m"}}});
-        return tables;
+    static Interior sumOf(const std::vector<Interior>& interior) {
+        Interior all;
+        for (const Interior& one : interior) all += one;
+        return all;
     }
-
-    static std::size_t indexOf(const Scene& scene, double number) {
-        const auto found = std::find_if(scene.cells.begin(), scene.cells.end(), [&](const coupling::Cell& cell) {
-            return cell.membrane.cell == static_cast<int>(number);
-        });
-        return static_cast<std::size_t>(found - scene.cells.begin());
+    static int brokenOf(const std::vector<Losses>& lost) {
+        return static_cast<int>(std::count_if(lost.begin(), lost.end(), [](const Losses& l) { return l.bonds > 0; }));
+    }
+    static double greatest(const std::vector<Losses>& lost, double Losses::*member) {
+        double most = lost.front().*member;
+        for (const Losses& one : lost) most = std::max(most, one.*member);
+        return most;
     }
 
     // What broke at this step, by cell and bond, on every rank. One small reduction per step where nothing breaks.
@@ -113,50 +185,60 @@ class RuptureObservation : public Observation {
         const std::vector<int> sources = sourceRanks(scene);  // all holders of a cell know of its events
         std::vector<double> own;
         for (const coupling::RuptureEvent& event : scene.broken) {
-            if (sources[indexOf(scene, event.cell)] != ranks.rank()) continue;
-            for (const membrane::BrokenBond& bond : event.bonds)
-                own.insert(own.end(), {static_cast<double>(event.cell), static_cast<double>(bond.bond), bond.stretch,
-                                       bond.place[0], bond.place[1], bond.place[2]});
+            const auto cell = static_cast<std::size_t>(event.cell) - 1;
+            if (sources[cell] != ranks.rank()) continue;
+            const membrane::Network& network = scene.cells[cell].membrane.network();
+            for (const membrane::BrokenBond& bond : event.bonds) {
+                const auto [a, b] = network.allBonds()[static_cast<std::size_t>(bond.bond)].node;
+                const Vec3 rest = 0.5 * (network.stressFree()[static_cast<std::size_t>(a)] +
+                                         network.stressFree()[static_cast<std::size_t>(b)]);
+                append(own, {static_cast<double>(event.cell), static_cast<double>(bond.bond), static_cast<double>(a),
+                             static_cast<double>(b), bond.stretch, bond.place[0], bond.place[1], bond.place[2], rest[0],
+                             rest[1], rest[2]});
+            }
         }
-        std::vector<int> lengths, starts;
-        int total = 0;
-        for (const long length : ranks.gatherAll(static_cast<long>(own.size()))) {
-            lengths.push_back(static_cast<int>(length));
-            starts.push_back(total);
-            total += lengths.back();
-        }
-        std::vector<double> all(static_cast<std::size_t>(total));
-        MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_DOUBLE, all.data(), lengths.data(), starts.data(),
-                       MPI_DOUBLE, ranks.handle());
         std::vector<Row> rows;
-        for (auto event = all.begin(); event != all.end(); event += eventNumbers)
-            rows.push_back({scene.cells.size(), {event, event + eventNumbers}});
-        std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.values < b.values; });
+        for (auto& event : table(scene, own, eventNumbers)) rows.push_back({scene.cells.size(), std::move(event)});
         return rows;
     }
 
-    // Number and volume for each cell.
-    static std::vector<double> releasedFluid(const Scene& scene) {
-        const particles::ParticleStore& s = scene.store();
-        const TrueSides sides(scene);
-        std::vector<double> released(2 * scene.cells.size(), 0.0);
-        for (std::size_t i = 0; i < s.size(); ++i) {
-            if (s.kindOf(i) != particles::Kind::fluid || s.side[i] == 0) continue;
-            const std::size_t cell = indexOf(scene, static_cast<double>(s.side[i]));
-            if (cell == scene.cells.size() || sides.inside(cell, s.position(i))) continue;
-            released[2 * cell] += 1;
-            released[2 * cell + 1] += scene.mass(i) / s.density[i];
+    static std::vector<std::vector<double>> holesOf(const Scene& scene) {
+        const std::vector<int> sources = sourceRanks(scene);
+        const int rank = Communicator(scene.system->comm()).rank();
+        std::vector<double> own;
+        for (std::size_t c = 0; c < scene.cells.size(); ++c) {
+            const membrane::Membrane& m = scene.cells[c].membrane;
+            if (sources[c] != rank || m.network().brokenTriangles() == 0) continue;
+            double number = 0;
+            for (const std::vector<int>& rim : m.network().rims()) {
+                const Vec3 middle = membrane::meanPoint(m.position, rim);
+                append(own, {static_cast<double>(m.cell), ++number, static_cast<double>(rim.size()),
+                             membrane::loopLength(m.position, rim), membrane::fanArea(m.position, rim), middle[0],
+                             middle[1], middle[2]});
+            }
         }
-        return Communicator(scene.system->comm()).sum(std::move(released));
+        return table(scene, own, holeNumbers);
     }
 
-    std::vector<std::array<double, firstNumbers>> first_;  // of each cell: time, strain, place
+    // Rows of all ranks, ordered by their first numbers.
+    static std::vector<std::vector<double>> table(const Scene& scene, const std::vector<double>& own,
+                                                  std::size_t width) {
+        const std::vector<double> all = gatherNumbers(scene, own);
+        std::vector<std::vector<double>> rows;
+        for (auto row = all.begin(); row != all.end(); row += static_cast<std::ptrdiff_t>(width))
+            rows.emplace_back(row, row + static_cast<std::ptrdiff_t>(width));
+        std::sort(rows.begin(), rows.end());
+        return rows;
+    }
+
+    std::vector<FirstBreak> first_;  // of each cell
 };
 
 struct RuptureObserver : Observer {
     static const Schema<RuptureObserver>& schema() {
         static const Schema<RuptureObserver> s =
-            Schema<RuptureObserver>("rupture", "broken bonds, holes and released fluid").include<ObserverSettings>();
+            Schema<RuptureObserver>("rupture", "broken bonds, holes, released fluid, haemolysis index")
+                .include<ObserverSettings>();
         return s;
     }
     std::string obstacle(const Subject& subject) const override { return needsCells(subject); }
@@ -165,7 +247,7 @@ struct RuptureObserver : Observer {
     }
 };
 
-CORPUSCLE_REGISTER(Observer, RuptureObserver, "rupture", "broken bonds, holes and released fluid");
+CORPUSCLE_REGISTER(Observer, RuptureObserver, "rupture", "broken bonds, holes, released fluid, haemolysis index");
 
 }  // namespace
 }  // namespace corpuscle::observers

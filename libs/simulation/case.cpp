@@ -91,6 +91,15 @@ void checkTogether(const Case& c, Problems& problems) {
                              formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
                              "; move it towards the middle or make the box larger");
     }
+    const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
+        const auto type = c.membranes.types.find(cell.type());
+        return type != c.membranes.types.end() && type->second.rupture;
+    });
+    if (c.control.stop.firstBreak && !breaks)
+        problems.add(
+            {"system/control.yaml", 0, 0}, "stop.firstBreak",
+            "found true, but nothing can break: no cell's entry of constant/membranes.yaml names a rupture law (" +
+                joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
     if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
                      "found " + formatQuantity(c.support() / c.spacing(), unit::none) +

@@ -43,7 +43,9 @@ const Schema<StopSettings>& StopSettings::schema() {
             .name("file", &StopSettings::file, "a file of this name in the case directory stops the run",
                   {.fallback = "stop"})
             .quantityOr("never", "wallClock", &StopSettings::wallClock, unit::second,
-                        "wall-clock time after which the run stops", {.fallback = "never", .range = positive});
+                        "wall-clock time after which the run stops", {.fallback = "never", .range = positive})
+            .boolean("firstBreak", &StopSettings::firstBreak, "stop as soon as a membrane has broken",
+                     {.fallback = "false"});
     return s;
 }
 

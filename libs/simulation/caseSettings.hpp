@@ -27,6 +27,7 @@ struct CheckpointSettings {
 struct StopSettings {
     std::string file = "stop";
     std::optional<double> wallClock;  // s
+    bool firstBreak = false;
     static const Schema<StopSettings>& schema();
 };
 struct ControlSettings {

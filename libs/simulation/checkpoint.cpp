@@ -106,6 +106,10 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
         file.writeReplicated(group + "position", position);
         file.writeReplicated(group + "velocity", velocity);
         file.writeReplicated(group + "aliveBonds", alive);
+        if (std::vector<double> damage = cell.membrane.damage(); !damage.empty()) {
+            MPI_Bcast(damage.data(), static_cast<int>(damage.size()), MPI_DOUBLE, source, comm);
+            file.writeReplicated(group + "damage", damage);
+        }
     }
     file.finish();
     io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
@@ -139,7 +143,9 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
             throw Failure(ExitCode::io, path.string() + " and 0/" + cell.membrane.name +
                                             ".vtp hold different meshes; the case was meshed "
                                             "again after the checkpoint: start from firstTime");
-        cell.membrane.restore({alive.begin(), alive.end()});
+        const std::string damage = group + "damage";
+        cell.membrane.restore({alive.begin(), alive.end()},
+                              file.has(damage) ? file.readReplicated<double>(damage) : std::vector<double>{});
     }
     if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
     if (file.sameRanks())

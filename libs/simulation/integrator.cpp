@@ -46,7 +46,7 @@ void Integrator::resume(const State& state, Time& time) {
 
 void Integrator::advance(Scene& scene, Time& time) {
     scheme_->advance(time.dt);
-    if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system);
+    if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system, time.dt);
     time.advance(time.dt);
     if (time.step % stepsPerEstimate == 0) estimateRates();
     if (scene.system->rebuilds() != rebuilds_) {

@@ -150,6 +150,22 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     progress_.report(time);
 }
 
+bool Schedule::stopRequested(const Scene& scene, const Time& time) {
+    if (input_.control.stop.firstBreak) {
+        const auto broke = std::find_if(scene.cells.begin(), scene.cells.end(), [](const coupling::Cell& cell) {
+            return cell.held && cell.membrane.network().brokenBonds() > 0;
+        });
+        if (app_.communicator().anyTrue(broke != scene.cells.end())) {
+            stopReason_ =
+                fmt::format("first break, until strain {:.6g} (stop.firstBreak of system/control.yaml)", time.strain());
+            return true;
+        }
+    }
+    const bool requested = stop_.requested(time.step);
+    stopReason_ = stop_.reason();
+    return requested;
+}
+
 void Schedule::reportRupture(const Scene& scene, const Time& time) {
     // Holders of a cell agree; the root need not be one.
     long broken = 0;
@@ -175,6 +191,13 @@ void Schedule::saveCheckpoint(const Scene& scene, const Time& time) {
     writeCheckpoint(input_, scene, time, {integrator_.state(time), observers_.state()});
 }
 
+void Schedule::reportObservers(const Scene& scene, const Time& time) {
+    for (const auto& [name, summary] : observers_.summaries(scene, time)) {
+        record_.setJson("observers", name, summary.figures);
+        for (const std::string& line : summary.lines) app_.log().info("{}: {}", name, line);
+    }
+}
+
 double Schedule::particleSteps(const Time& time) const {
     return static_cast<double>(particles_) * static_cast<double>(time.step - start_.step);
 }
@@ -182,6 +205,7 @@ double Schedule::particleSteps(const Time& time) const {
 ExitCode Schedule::end(const Scene& scene, const Time& time) {
     reportGuard(scene, time);
     reportRupture(scene, time);
+    reportObservers(scene, time);
     saveCheckpoint(scene, time);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     const long steps = time.step - start_.step;
@@ -200,7 +224,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         record_.set("result", "brokenBonds", brokenBonds_);
     }
     const bool ended = !time.running();
-    const std::string reason = ended ? time.endReason() : stop_.reason();
+    const std::string reason = ended ? time.endReason() : stopReason_;
     const ExitCode code = ended ? ExitCode::done : ExitCode::stopped;
     record_.finish(code, reason);
     app_.log().info("{} after {} steps, t = {}{}: {} wall clock, {:.3g} million particle-steps per second",

@@ -23,8 +23,8 @@ class Schedule {
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
     // Head of the log, used.yaml, run.json, and what is due before the first step.
     void begin(const coupling::Scene& scene, const Time& time);
-    // Whether the run is to end before its time. Collective.
-    bool stopRequested(const Time& time) { return stop_.requested(time.step); }
+    // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
+    bool stopRequested(const coupling::Scene& scene, const Time& time);
     void afterStep(const coupling::Scene& scene, const Time& time);
     // Last results and checkpoint, table of figures; the exit code.
     ExitCode end(const coupling::Scene& scene, const Time& time);
@@ -34,6 +34,7 @@ class Schedule {
     void saveCheckpoint(const coupling::Scene& scene, const Time& time);
     void reportGuard(const coupling::Scene& scene, const Time& time);
     void reportRupture(const coupling::Scene& scene, const Time& time);
+    void reportObservers(const coupling::Scene& scene, const Time& time);
     double particleSteps(const Time& time) const;
 
     Application& app_;
@@ -50,6 +51,7 @@ class Schedule {
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
     double smallestDt_ = 0, largestDt_ = 0;
     bool begun_ = false;
+    std::string stopReason_;
 };
 
 // Time at the start of a run, with its end conditions.

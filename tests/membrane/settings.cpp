@@ -102,6 +102,10 @@ TEST(MembraneSettings, FaultsAreNamed) {
     EXPECT_NE(problemsOf(bonds + "bending: {type: dihedral, Eb: 0.01, k: 1e-20 J}\n").find("Eb"), std::string::npos);
     EXPECT_NE(problemsOf(bonds + "bending: dihedral\n").find("kappa"), std::string::npos);
     EXPECT_NE(problemsOf(bonds + "rupture: {type: bondStretch, limit: 1}\n"), "");
+    EXPECT_NE(problemsOf(bonds + "rupture: {type: damage, scale: 0.02}\n").find("time to failure"), std::string::npos);
+    EXPECT_NE(problemsOf(bonds + "rupture: {type: damage, scale: 0.02, time: 1e-3}\n").find("unit"), std::string::npos);
+    EXPECT_NE(problemsOf(bonds + "rupture: {type: damage, scale: 0, time: 1 ms}\n").find("greater than 0"),
+              std::string::npos);
     EXPECT_NE(problemsOf(bonds + "ruptur: none\n").find("rupture"), std::string::npos);
     EXPECT_NE(problemsOf(bonds + "area: {rest: 130 um^2}\n").find("global"), std::string::npos);
     EXPECT_NE(problemsOf(bonds + "volume: {modulus: 10 Pa, rest: 90 um^3, reducedVolume: 0.6}\n"), "");
@@ -120,7 +124,7 @@ TEST(Registry, EveryLawOfThisLibraryIsThere) {
     EXPECT_EQ(Registry<AngleLaw>::instance().names(), (std::vector<std::string>{"harmonic"}));
     EXPECT_EQ(Registry<BendingLaw>::instance().names(), (std::vector<std::string>{"dihedral", "helfrich"}));
     EXPECT_EQ(Registry<RuptureLaw>::instance().names(),
-              (std::vector<std::string>{"arealStrain", "bondStretch", "tension"}));
+              (std::vector<std::string>{"arealStrain", "bondStretch", "damage", "tension"}));
 }
 
 }  // namespace

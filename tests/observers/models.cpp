@@ -1,6 +1,7 @@
 // Each observer on small scenes, on any number of ranks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -163,13 +164,29 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_TRUE(std::isnan(value(*observation, rows, "firstBreak_s", 1)));
     EXPECT_EQ(value(*observation, rows, "bondsBroken", 1), 0);
     EXPECT_EQ(value(*observation, rows, "released", 1), 0);
+    EXPECT_EQ(observation->summary(scene, time)->lines.size(), 1u) << "no membrane broke";
+
+    // A particle of b outside the whole cell is a leak of the numerics, and no release.
+    particles::ParticleStore& s = scene.store();
+    const auto sideOf = [&](std::int64_t id, int side) {
+        for (std::size_t i = 0; i < s.size(); ++i)
+            if (s.id[i] == id) s.side[i] = side;
+    };
+    sideOf(0, 2);
+    rows = observation->observe(scene, time);
+    EXPECT_EQ(value(*observation, rows, "leaked", 1), 1);
+    EXPECT_EQ(value(*observation, rows, "released", 1), 0);
+    EXPECT_EQ(value(*observation, rows, "releasedVolume_m3", 1), 0);
+    EXPECT_EQ(value(*observation, rows, "haemolysisIndex_percent", 1), 0);
+    EXPECT_EQ(value(*observation, rows, "leaked", 4), 1);
+    sideOf(0, 0);
 
     // One node of b pulled out by a tenth of the radius: its bonds break.
     const std::vector<Vec3> rest = scene.cells[1].membrane.network().stressFree();
     const Vec3 pulled = rest[5];
     const Vec3 centre(5 * um, 0, 0);
     deform(scene, 1, [&](const Vec3& x) { return x == pulled ? Vec3(x + 0.13 * (x - centre)) : x; });
-    scene.broken = scene.coupling->endStep(*scene.system);
+    scene.broken = scene.coupling->endStep(*scene.system, 0);
     const auto events = observation->afterStep(scene, time);
     scene.broken.clear();
     std::size_t expected = 0;
@@ -179,7 +196,12 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     for (const Row& event : events) {
         EXPECT_EQ(event.table, 2u);
         EXPECT_EQ(event.values[0], 2);
-        EXPECT_GT(event.values[2], 1.05);
+        EXPECT_TRUE(event.values[2] == 5 || event.values[3] == 5);
+        EXPECT_GT(event.values[4], 1.05);
+        const Vec3 middle(&event.values[5]), atRest(&event.values[8]), ends = rest[5];
+        const auto other = static_cast<std::size_t>(event.values[2] + event.values[3] - 5);
+        EXPECT_LT((atRest - 0.5 * (ends + rest[other])).norm(), 1e-18);
+        EXPECT_LT((middle - atRest - 0.065 * (ends - centre)).norm(), 1e-12) << "half of what the node was pulled";
     }
     EXPECT_LT(events[0].values[1], events[1].values[1]);
     rows = observation->observe(scene, time);
@@ -192,23 +214,60 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
                 0.2 * value(*observation, rows, "holeArea_m2", 1));
     EXPECT_EQ(value(*observation, rows, "firstBreak_s", 1), 0.25);
     EXPECT_EQ(value(*observation, rows, "firstBreak_strain", 1), 0.5);
-    EXPECT_EQ(value(*observation, rows, "firstBreak_x_m", 1), events[0].values[3]);
+    const auto first = std::max_element(events.begin(), events.end(), [](const Row& a, const Row& b) {
+                           return a.values[4] < b.values[4];
+                       })->values;  // the most stretched
+    EXPECT_EQ(value(*observation, rows, "firstBreak_bond", 1), first[1]);
+    EXPECT_EQ(value(*observation, rows, "firstBreak_x_m", 1), first[5]);
+    EXPECT_EQ(value(*observation, rows, "firstBreak_z0_m", 1), first[10]);
+    EXPECT_TRUE(std::isnan(value(*observation, rows, "firstBreak_x0_m", 0)));
+    EXPECT_EQ(value(*observation, rows, "holes", 1), 1);
+    EXPECT_EQ(value(*observation, rows, "cell", 3), 2);
+    EXPECT_EQ(value(*observation, rows, "hole", 3), 1);
+    EXPECT_EQ(value(*observation, rows, "edges", 3), static_cast<double>(expected));
+    EXPECT_EQ(value(*observation, rows, "area_m2", 3), value(*observation, rows, "holeArea_m2", 1));
+    const double perimeter = value(*observation, rows, "perimeter_m", 3),
+                 area = value(*observation, rows, "area_m2", 3);
+    EXPECT_GT(perimeter * perimeter, 4 * pi * area) << "longer than the circle of the same area";
+    EXPECT_LT(perimeter * perimeter, 1.3 * 4 * pi * area);
     EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the others are at rest
     const double underTheCap = value(*observation, rows, "released", 1);   // beyond the fan that now closes the hole
     EXPECT_LE(underTheCap, 6);
 
     // Three particles at a corner of the box, said to be b's.
-    particles::ParticleStore& s = scene.store();
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.side[i] == 0 && s.kindOf(i) == particles::Kind::fluid && s.id[i] < 3) s.side[i] = 2;
     rows = observation->observe(scene, time);
     EXPECT_EQ(value(*observation, rows, "released", 1), underTheCap + 3);
     EXPECT_NEAR(value(*observation, rows, "releasedVolume_m3", 1), (underTheCap + 3) * 1e-18, 1e-30);
     EXPECT_EQ(value(*observation, rows, "released", 0), 0);
+    EXPECT_EQ(value(*observation, rows, "leaked", 1), 0) << "the cell is open";
+    std::vector<double> inside(2, 0.0);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s.kindOf(i) == particles::Kind::fluid && s.side[i] > 0)
+            inside[static_cast<std::size_t>(s.side[i]) - 1] += 1;
+    inside = Communicator().sum(std::move(inside));
+    const double released = underTheCap + 3;
+    EXPECT_NEAR(value(*observation, rows, "haemolysisIndex_percent", 1), 100 * released / inside[1], 1e-9);
+    EXPECT_NEAR(value(*observation, rows, "haemolysisIndex_percent", 4), 100 * released / (inside[0] + inside[1]),
+                1e-9);
+    EXPECT_EQ(value(*observation, rows, "cellsBroken", 4), 1);
+    const auto summary = observation->summary(scene, time);
+    EXPECT_EQ(summary->figures["cells"]["b"]["bondsBroken"], static_cast<double>(expected));
+    EXPECT_EQ(summary->figures["firstBreak_strain"], 0.5);
+    ASSERT_EQ(summary->lines.size(), 2u);
+    EXPECT_NE(summary->lines[0].find("b: first break at strain 0.5"), std::string::npos) << summary->lines[0];
+    EXPECT_NE(summary->lines[1].find("1 of 2 cells broke"), std::string::npos) << summary->lines[1];
+
+    // What comes later is not the first.
+    scene.broken = {{2, {{0, 9, Vec3::Zero()}}}};
+    observation->afterStep(scene, {.t = 0.5, .step = 8, .shearRate = 2});
+    scene.broken.clear();
 
     const auto after = begin("{type: rupture, every: 10 steps}", scene);
     after->restore(observation->state());
     EXPECT_EQ(value(*after, after->observe(scene, time), "firstBreak_s", 1), 0.25);
+    EXPECT_EQ(value(*after, after->observe(scene, time), "firstBreak_z0_m", 1), first[10]);
 }
 
 // The linear profile between walls that move with it: sigma = mu gammadot at both, no pressure. A lattice at Hs = 3 dx gives the

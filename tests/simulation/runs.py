@@ -286,28 +286,104 @@ def test_skipping(folder):
     assert not stored & {"mass", "viscosity", "side", "node"}, stored
 
 
+def tearing(folder, rupture, strain):
+    """A case at Ca 2 with a rupture law, filled; its observer looks whenever the leakage guard has."""
+    return prepared(folder, **{
+        "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", str(strain)),
+        "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.5}\n",
+        "system/observers.yaml": "tear: {type: rupture, every: 10 steps}\n",
+        "constant/membranes.yaml": CELL_CASE["constant/membranes.yaml"] + f"  rupture: {rupture}\n"})
+
+
+def tables(case):
+    """The observer's tables with numbers for values."""
+    return {p.stem: [{key: float(value) for key, value in row.items()} for row in csv.DictReader(open(p))]
+            for p in case.glob("postProcessing/tear/0/*.csv")}
+
+
 def test_rupture(folder):
-    """At Ca 2 bonds break at a limit of 1.05, the same ones on 1 and 2 ranks; without a limit none does."""
-    changes = {"system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.8"),
-               "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.5}\n",
-               "system/observers.yaml": "tear: {type: rupture, every: 0.05 strain}\n"}
-    laws = CELL_CASE["constant/membranes.yaml"]
-    start = prepared(folder / "start", **changes, **{"constant/membranes.yaml": laws + "  rupture: {type: bondStretch, limit: 1.05}\n"})
+    """At Ca 2 bonds break at a limit of 1.05, the same ones on 1 and 2 ranks; nothing is released before; without a limit none breaks."""
+    start = tearing(folder / "start", "{type: bondStretch, limit: 1.05}", 0.8)
     ends = {}
     for ranks in (1, 2):
         case = folder / f"np{ranks}"
         shutil.copytree(start, case)
         run(case, "dmpFlow", ranks=ranks)
-        tables = {p.stem: list(csv.DictReader(open(p))) for p in case.glob("postProcessing/tear/0/*.csv")}
-        ends[ranks] = tables["rbc"][-1]
-        assert len(tables["events"]) > 0
-    broken = [float(value) for key, value in ends[1].items() if "roken" in key or "bonds" in key.lower()][0]
-    assert broken > 0
-    assert all(math.isclose(float(ends[1][k]), float(ends[2][k]), rel_tol=1e-6, abs_tol=1e-18) for k in ends[1])
+        seen = tables(case)
+        rows, ends[ranks] = seen["rbc"], seen["rbc"][-1]
+        first = seen["events"][0]["strain"]
+        before = [row for row in rows if row["strain"] < first]
+        assert len(before) > 10, len(before)
+        # leaked is the count of inside particles beyond the surface, whatever the reason: none, so nothing could be released.
+        for key in ("leaked", "released", "releasedVolume_m3", "haemolysisIndex_percent", "bondsBroken", "holes"):
+            assert all(row[key] == 0 for row in before), key
+        assert ends[ranks]["firstBreak_strain"] == first
+        assert ends[ranks]["haemolysisIndex_percent"] > 1 and ends[ranks]["releasedVolume_m3"] > 0
+        holes = [row for row in seen["holes"] if row["strain"] == ends[ranks]["strain"]]
+        assert len(holes) == ends[ranks]["holes"] > 0
+        assert math.isclose(sum(row["area_m2"] for row in holes), ends[ranks]["holeArea_m2"], rel_tol=1e-12)
+        said = json.loads((case / "run.json").read_text())["observers"]["tear"]
+        assert said["cells"]["rbc"]["firstBreak_strain"] == first and said["cellsBroken"] == 1
+        assert said["haemolysisIndex_percent"] > 1 and len(said["cells"]["rbc"]["firstBreak_place_m"]) == 3
+    assert ends[1]["bondsBroken"] > 0
+    assert all(math.isclose(ends[1][k], ends[2][k], rel_tol=1e-6, abs_tol=1e-18) for k in ends[1])
     intact = folder / "intact"
     shutil.copytree(start, intact)
     run(intact, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none")
     assert json.loads((intact / "run.json").read_text())["result"]["brokenBonds"] == 0
+
+
+def test_damage(folder):
+    """Damage gathers to the same tear on 1, 2 and 4 ranks, is in results and checkpoints, and a restart goes on to the same bits."""
+    start = tearing(folder / "start", "{type: damage, onset: 0.01, scale: 0.02, time: 0.4 us, exponent: 2}", 0.5)
+    seen = {}
+    for ranks in (1, 2, 4):
+        case = folder / f"np{ranks}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", ranks=ranks)
+        seen[ranks] = tables(case)
+        names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/data/cells/rbc"], capture_output=True, text=True, check=True).stdout
+        assert "damage" in names, names
+        piece = b"".join(p.read_bytes() for p in sorted(case.glob("results/rbc/*/*.vtp")))
+        for name in (b"damage", b"hole", b"areaStrain", b"tension1", b"tension2", b"broken"):
+            assert b'Name="' + name + b'"' in piece, name
+    rows, events = seen[1]["rbc"], seen[1]["events"]
+    before = [row["maxDamage"] for row in rows if row["strain"] < events[0]["strain"]]
+    assert before == sorted(before) and before[0] == 0 and sum(0 < value < 1 for value in before) > 5, before
+    assert len(events) > 3
+    for ranks in (2, 4):
+        other = seen[ranks]
+        assert [e["bond"] for e in events] == [e["bond"] for e in other["events"]]
+        assert all(math.isclose(a["strain"], b["strain"], rel_tol=1e-9) for a, b in zip(events, other["events"]))
+        assert all(math.isclose(a["maxDamage"], b["maxDamage"], rel_tol=1e-6, abs_tol=1e-12) for a, b in zip(rows, other["rbc"]))
+    steps = round(0.5 * next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1) * 10 + 5 * len(before))
+    for ranks in (1, 2):
+        parts = folder / f"parts{ranks}"
+        shutil.copytree(start, parts)
+        run(parts, "dmpFlow", "-steps", str(steps), ranks=ranks)
+        run(parts, "dmpFlow", ranks=ranks)
+        same_checkpoint(last_checkpoint(folder / f"np{ranks}"), last_checkpoint(parts))
+    # A checkpoint's damage needs the law that it is of.
+    said = run(parts, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none", "-set", "system/control.yaml:/endStrain=0.6", code=4).stderr
+    assert "its rupture law keeps that of 0" in said, said
+
+
+def test_firstBreak(folder):
+    """stop.firstBreak ends a run at the step of the first break with exit code 5; a cell that bears its flow is run to the end."""
+    case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)
+    stop = ("-set", "system/control.yaml:/stop/firstBreak=true")
+    for ranks in (1, 2):
+        run(case, "dmpFlow", *stop, "-set", "system/control.yaml:/startFrom=firstTime", ranks=ranks, code=5)
+        record = json.loads((case / "run.json").read_text())
+        assert record["status"] == "stopped" and "first break" in record["reason"], record["reason"]
+        events = tables(case)["events"]
+        assert record["result"]["brokenBonds"] == len(events) > 0
+        assert {e["strain"] for e in events} == {record["result"]["strain"]} == {record["observers"]["tear"]["firstBreak_strain"]}
+    assert json.loads((case / "run.json").read_text())["performance"]["steps"] > 10
+    run(case, "dmpFlow", *stop, code=5)  # the break is past: no step more
+    assert json.loads((case / "run.json").read_text())["performance"]["steps"] == 0
+    run(case, "dmpFlow", *stop, "-set", "system/control.yaml:/startFrom=firstTime", "-set", "system/control.yaml:/endStrain=0.05")
+    assert json.loads((case / "run.json").read_text())["result"]["brokenBonds"] == 0
 
 
 if __name__ == "__main__":

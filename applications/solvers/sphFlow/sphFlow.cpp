@@ -29,7 +29,7 @@ int main(int argc, char* argv[]) {
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);
-        while (time.running() && !after.stopRequested(time)) {
+        while (time.running() && !after.stopRequested(scene, time)) {
             integrator.advance(scene, time);  // Eqs 5, 6, 12-17
             after.afterStep(scene, time);
         }
