@@ -20,6 +20,10 @@ namespace corpuscle::sph {
 class Load {
   public:
     virtual ~Load() = default;
+    // For particles that do not move by their own accelerations: all have been moved by Eqs 12 to 15 over dt, lists are as they
+    // were; and, at the end of the step, by Eqs 16 and 17.
+    virtual void drifted(particles::ParticleSystem&, double /*dt*/) {}
+    virtual void kicked(particles::ParticleSystem&, double /*dt*/) {}
     // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). Collective.
     virtual void moved(particles::ParticleSystem& system, bool rebuilt) = 0;
     // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
