@@ -19,6 +19,7 @@ struct Cell {
     double initialArea = 0, initialVolume = 0;  // at t = 0 [m^2, m^3]
     std::vector<double> nodeMass{};             // of each node as a particle [kg]
     bool held = true;
+    double solidVolume = 0;  // of rigid bodies inside [m^3]
 
     int nodeCount() const { return static_cast<int>(membrane.position.size()); }
 };

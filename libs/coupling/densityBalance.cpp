@@ -42,7 +42,7 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
     };
     std::vector<Region> regions(cells.size() + 1);
     for (std::size_t i = 0; i < n; ++i) {
-        if (s.kindOf(i) == Kind::wall) continue;
+        if (particles::isBoundary(s.kindOf(i))) continue;
         for (const std::size_t r : sidesOf(i)) {
             regions[r].space += 0.5 * s.mass[i] / s.density[i];
             regions[r].mass += 0.5 * s.mass[i];
@@ -53,16 +53,18 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
 
     double outside = fluidVolume_, outsideAtStart = fluidVolume_;
     for (std::size_t c = 0; c < cells.size(); ++c)
-        if (closed[c]) outside -= volume[c], outsideAtStart -= cells[c].initialVolume;
+        if (closed[c]) outside -= volume[c], outsideAtStart -= cells[c].initialVolume;  // rigid bodies inside included
     std::vector<double> factor(regions.size(), 1.0);
     for (std::size_t r = 0; r < regions.size(); ++r) {
         if (regions[r].space <= 0 || (r > 0 && !closed[r - 1])) continue;
-        const double change = r == 0 ? outside / outsideAtStart : volume[r - 1] / cells[r - 1].initialVolume;
+        const double solid = r == 0 ? 0 : cells[r - 1].solidVolume;
+        const double change =
+            r == 0 ? outside / outsideAtStart : (volume[r - 1] - solid) / (cells[r - 1].initialVolume - solid);
         factor[r] = regions[r].space / (change * regions[r].mass / density_);
         largest_ = std::max(largest_, std::abs(factor[r] - 1));
     }
     for (std::size_t i = 0; i < n; ++i) {
-        if (s.kindOf(i) == Kind::wall) continue;
+        if (particles::isBoundary(s.kindOf(i))) continue;
         const auto [one, other] = sidesOf(i);
         s.density[i] *= 0.5 * (factor[one] + factor[other]);
     }

@@ -7,7 +7,7 @@
 //
 //     factor = [sum_fluid m_i/rho_i + 1/2 sum_nodes m_n/rho_n] / [V(t)/V(0) (sum_fluid m_i + 1/2 sum_nodes m_n)/rho0]
 //
-// inside each closed cell, and likewise outside all of them, V = fluid box - closed cells, where nodes of open cells count
+// inside each closed cell, and likewise outside all of them, V = fluid box - closed cells, both less the rigid bodies in them, where nodes of open cells count
 // whole. A node belongs half to either side and takes the mean of both factors; so a few applications bring the sums to
 // what they should be, and a cell that is little more than its nodes is not driven harder than others. A region's pressure
 // then follows its volume as the bulk modulus says; differences within a region, and momentum, are not touched. Pressure
@@ -22,7 +22,7 @@ namespace corpuscle::coupling {
 
 class DensityBalance {
   public:
-    // fluidVolume: of the box between the walls [m^3]; density: rho0.
+    // fluidVolume: of the box between the walls, less the rigid bodies outside all cells [m^3]; density: rho0.
     DensityBalance(double fluidVolume, double density) : fluidVolume_(fluidVolume), density_(density) {}
 
     // Collective.

@@ -1,8 +1,9 @@
-// Everything that is simulated: particles, fluid, walls, cells; what observers read and integrators advance.
+// Everything that is simulated: particles, fluid, walls, rigid bodies, cells; what observers read and integrators advance.
 #pragma once
 #include <memory>
 #include <vector>
 
+#include "bodies/bodies.hpp"
 #include "coupling/dualIdentity.hpp"
 #include "particles/particleSystem.hpp"
 #include "sph/flow.hpp"
@@ -14,6 +15,7 @@ struct Scene {
     std::unique_ptr<particles::ParticleSystem> system;  // its box holds the walls' layers too
     particles::Box fluidBox;                            // between the walls
     sph::FlowState flow;
+    std::unique_ptr<bodies::Bodies> bodies;    // none unless the case has rigid bodies
     std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
     std::unique_ptr<sph::Shifting> shifting;   // none unless the case names it
     std::vector<Cell> cells;                   // empty for a fluid alone

@@ -74,6 +74,7 @@ class Observation {
 struct Subject {
     bool cells = false, walls = false;
     double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
+    bool bodies = false;   // rigid ones
 };
 
 struct ObserverSettings {

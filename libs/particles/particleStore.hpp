@@ -1,7 +1,7 @@
 // The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (pairList.hpp).
 //
 // What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there are
-// cells, node only where there are membranes. Whoever reorders, sends or saves particles goes through forEachField, so a new
+// cells, node only where there are membranes, member only where there are rigid bodies. Whoever reorders, sends or saves particles goes through forEachField, so a new
 // field needs one line here.
 #pragma once
 #include <cstdint>
@@ -43,12 +43,15 @@ using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 using RealArray = AlignedVector<double>;
 using IntegerArray = AlignedVector<std::int64_t>;
 
-enum class Kind : std::int64_t { fluid = 0, membrane = 1, wall = 2 };
+enum class Kind : std::int64_t { fluid = 0, membrane = 1, wall = 2, body = 3 };
+
+// Particles that the fluid meets but that do not move as fluid: two of them do not act on each other.
+constexpr bool isBoundary(Kind kind) { return kind == Kind::wall || kind == Kind::body; }
 
 class ParticleStore {
   public:
     struct Optional {
-        bool mass = false, viscosity = false, side = false, node = false;
+        bool mass = false, viscosity = false, side = false, node = false, member = false;
         bool operator==(const Optional&) const = default;
     };
 
@@ -64,6 +67,7 @@ class ParticleStore {
     IntegerArray kind;                 // Kind
     IntegerArray side;                 // 0 outside, n inside cell n
     IntegerArray node;                 // global number of the membrane node that the particle is, -1 for others
+    IntegerArray member;               // number among the particles of all rigid bodies, -1 for others
 
     ParticleStore() = default;
     explicit ParticleStore(Optional fields) : optional_(fields) {}
@@ -107,6 +111,7 @@ class ParticleStore {
         f("id", s.id), f("kind", s.kind);
         if (s.optional_.side) f("side", s.side);
         if (s.optional_.node) f("node", s.node);
+        if (s.optional_.member) f("member", s.member);
     }
     Optional optional_;
     RealArray spareReals_;  // memory for reorder: swapped in turn with every array

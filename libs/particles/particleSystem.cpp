@@ -93,7 +93,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     records.resize(total * 4);
     for (int i = 0; i < n; ++i) {
         double* r = records.data() + 4 * static_cast<std::size_t>(i);
-        r[0] = x[i], r[1] = y[i], r[2] = z[i], r[3] = store_.kindOf(i) == Kind::wall ? 1.0 : 0.0;
+        r[0] = x[i], r[1] = y[i], r[2] = z[i], r[3] = isBoundary(store_.kindOf(i)) ? 1.0 : 0.0;
     }
     halo_.exchange(records.data(), n, 4);
 

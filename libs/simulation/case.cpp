@@ -31,7 +31,54 @@ const Mark& placeOf(const Node& node, const std::string& key) {
     return node.isNothing() ? node.place() : node.mark;
 }
 
+constexpr double leastBodyInSpacings = 3;
+
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
+
+struct PlacedSurface {
+    const SurfaceSettings& settings;
+    std::string key, kind;  // "cells[0]", "cell"
+};
+std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
+    std::vector<PlacedSurface> all;
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+        all.push_back({mesh.cells[i], "cells[" + std::to_string(i) + "]", "cell"});
+    for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
+        all.push_back({mesh.bodies[i], "bodies[" + std::to_string(i) + "]", "body"});
+    return all;
+}
+
+void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problems) {
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    const auto& [settings, key, kind] = surface;
+    if (!settings.shape) return;
+    const double radius = settings.shape->radius();
+    if (settings.edge > 0.5 * radius)
+        problems.add(mesh, key + ".edge",
+                     "found " + formatQuantity(settings.edge, unit::metre) + ", too coarse for a " + kind +
+                         " of radius " + formatQuantity(radius, unit::metre) + "; at most half the radius, " +
+                         formatQuantity(0.5 * radius, unit::metre));
+    const Eigen::AlignedBox3d box = settings.shape->box();
+    if (kind == "body" && box.sizes().minCoeff() < leastBodyInSpacings * c.spacing())
+        problems.add(mesh, key + ".shape",
+                     "the body is " + formatQuantity(box.sizes().minCoeff(), unit::metre) +
+                         " thick, too thin to be filled with particles of spacing " +
+                         formatQuantity(c.spacing(), unit::metre) + "; at least " +
+                         formatQuantity(leastBodyInSpacings * c.spacing(), unit::metre) +
+                         ": take a smaller spacing in system/numerics.yaml, or a thicker body");
+    const int wall = c.flowModel->wallAxis();
+    if (wall < 0) return;
+    // Extent across the walls, as that of the ellipsoid in the shape's box.
+    const Vec3 across = geometry::rotationFromZ(settings.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
+               middle = box.center();
+    const double extent = std::abs(settings.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
+    if (extent > 0.5 * c.mesh.domain.size[wall])
+        problems.add(mesh, key + ".centre",
+                     "the " + kind + " reaches through the wall along " + axisName(wall) + ", to " +
+                         formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
+                         formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
+                         "; move it towards the middle or make the box larger");
+}
 
 // Rules between files; each names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems) {
@@ -41,6 +88,10 @@ void checkTogether(const Case& c, Problems& problems) {
         problems.add({"system/control.yaml", 0, 0}, "application",
                      "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or "
                      "remove the cells");
+    if (c.control.application == "sphFlow" && !c.mesh.bodies.empty())
+        problems.add({"system/control.yaml", 0, 0}, "application",
+                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has bodies; write dmpFlow, or "
+                     "remove the bodies");
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (k == wall && c.mesh.domain.periodic[axis])
@@ -61,35 +112,21 @@ void checkTogether(const Case& c, Problems& problems) {
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
-        const CellSettings& cell = c.mesh.cells[i];
-        const std::string key = "cells[" + std::to_string(i) + "]";
-        if (!names.insert(cell.name).second || cell.name == "fluid" || cell.name == "walls")
-            problems.add(
-                mesh, key + ".name",
-                "the name '" + cell.name + "' is taken; each cell needs its own, and fluid and walls are reserved");
-        c.membranes.requireType(cell.name, cell.type(), "system/mesh.yaml", {"constant/membranes.yaml", 0, 0},
-                                problems);
-        if (!cell.shape) continue;
-        const double radius = cell.shape->radius();
-        if (cell.edge > 0.5 * radius)
-            problems.add(mesh, key + ".edge",
-                         "found " + formatQuantity(cell.edge, unit::metre) + ", too coarse for a cell of radius " +
-                             formatQuantity(radius, unit::metre) + "; at most half the radius, " +
-                             formatQuantity(0.5 * radius, unit::metre));
-        if (wall < 0) continue;
-        // Extent across the walls, as that of the ellipsoid in the shape's box.
-        const Eigen::AlignedBox3d box = cell.shape->box();
-        const Vec3 across = geometry::rotationFromZ(cell.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
-                   middle = box.center();
-        const double extent = std::abs(cell.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
-        if (extent > 0.5 * c.mesh.domain.size[wall])
-            problems.add(mesh, key + ".centre",
-                         std::string("the cell reaches through the wall along ") + axisName(wall) + ", to " +
-                             formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
-                             formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
-                             "; move it towards the middle or make the box larger");
+    std::set<std::string> names{"fluid", "walls", "bodies"};
+    for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
+        const std::string& name = surface.settings.name;
+        if (!names.insert(name).second)
+            problems.add(mesh, surface.key + ".name",
+                         "the name '" + name +
+                             "' is taken; each cell and body needs its own, and fluid, walls and bodies are reserved");
+        const std::string user = "the " + surface.kind + " '" + name + "' of system/mesh.yaml";
+        if (surface.kind == "cell")
+            requireEntry(c.membranes.types, static_cast<const CellSettings&>(surface.settings).type(), user,
+                         {"constant/membranes.yaml", 0, 0}, problems);
+        else
+            requireEntry(c.bodies.types, static_cast<const BodyPlaceSettings&>(surface.settings).type(), user,
+                         {"constant/bodies.yaml", 0, 0}, problems);
+        checkSurface(c, surface, problems);
     }
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
         const auto type = c.membranes.types.find(cell.type());
@@ -133,6 +170,8 @@ Case Case::read(const Application& app) {
     c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
     if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
         c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
+    if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml"))
+        c.bodies = readFile<bodies::BodiesSettings>(app, "constant/bodies.yaml", c, problems);
     {
         const std::size_t before = problems.count();
         const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
@@ -143,11 +182,11 @@ Case Case::read(const Application& app) {
         c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
     problems.throwIfAny();
 
-    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
+    for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         try {
-            c.mesh.cells[i].shape->prepare(c.directory);
+            surface.settings.shape->prepare(c.directory);
         } catch (const Failure& fault) {
-            problems.add({"system/mesh.yaml", 0, 0}, "cells[" + std::to_string(i) + "].shape", fault.what());
+            problems.add({"system/mesh.yaml", 0, 0}, surface.key + ".shape", fault.what());
         }
     }
     c.throwIfAny(problems);
@@ -157,8 +196,10 @@ Case Case::read(const Application& app) {
     sph::FlowContext context{c.fluidBox(), c.fluid.viscosity, c.fluid.density, 0, 0};
     if (!c.mesh.cells.empty()) {
         const CellSettings& first = c.mesh.cells.front();
-        context.cellRadius = first.shape->radius();
+        context.radius = first.shape->radius();
         context.shearModulus = c.membraneOf(first).moduli(first.edge).shear;
+    } else if (!c.mesh.bodies.empty()) {
+        context.radius = c.mesh.bodies.front().shape->radius();
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
     c.throwIfAny(problems);
@@ -169,7 +210,8 @@ Case Case::read(const Application& app) {
         problems.add({"system/control.yaml", 0, 0}, "write.strain",
                      "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
     c.observers.check(c.files["system/observers.yaml"],
-                      {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate}, problems);
+                      {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
+                      problems);
     c.throwIfAny(problems);
     return c;
 }
@@ -202,7 +244,13 @@ double Case::soundSpeed() const {
         length = std::min(length, a);
         square = std::max(square, membraneOf(cell).moduli(cell.edge).shear / (flow.density * a));
     }
-    square = std::max({square, nu * flow.speed / length, flow.bodyForce.norm() * flow.length});
+    double speed = flow.speed;
+    for (const BodyPlaceSettings& body : mesh.bodies) {
+        const double a = body.shape->radius();
+        length = std::min(length, a);
+        speed = std::max(speed, bodyOf(body).motion->speed(a));
+    }
+    square = std::max({square, speed * speed, nu * speed / length, flow.bodyForce.norm() * flow.length});
     return 10 * std::sqrt(square);
 }
 

@@ -16,6 +16,7 @@ struct Case {
     MeshSettings mesh;
     FluidSettings fluid;
     MembranesSettings membranes;
+    bodies::BodiesSettings bodies;
     Choice<sph::Flow> flowModel;
     observers::ObserversSettings observers;
     std::map<std::string, Node> files;   // the dictionaries as they were read
@@ -38,6 +39,8 @@ struct Case {
     const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const {
         return membranes.types.at(cell.type());
     }
+    const bodies::BodySettings& bodyOf(const BodyPlaceSettings& place) const { return bodies.types.at(place.type()); }
+    double densityOf(const BodyPlaceSettings& place) const { return bodyOf(place).density.value_or(flow.density); }
     bool varyingViscosity() const;
 
     // Throws CaseError when there are problems, each at the line of its file where its key stands.

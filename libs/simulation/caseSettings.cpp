@@ -1,5 +1,7 @@
 #include "simulation/caseSettings.hpp"
 
+#include <algorithm>
+
 #include <stdexcept>
 
 namespace corpuscle::simulation {
@@ -129,22 +131,38 @@ const Schema<DomainSettings>& DomainSettings::schema() {
     return s;
 }
 
-const Schema<CellSettings>& CellSettings::schema() {
-    static const Schema<CellSettings> s =
-        Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
-            .name("name", &CellSettings::name, "names 0/<name>.vtp and its results")
-            .name("membrane", &CellSettings::membrane,
-                  "its entry of constant/membranes.yaml; the cell's own name when absent")
-            .model("shape", &CellSettings::shape, "stress-free shape, axis along z")
-            .quantity("edge", &CellSettings::edge, unit::metre, "edge length of the mesh", {.range = positive})
-            .vector("centre", &CellSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
-            .vector("axis", &CellSettings::axis, unit::none, "direction of its symmetry axis",
+const Schema<SurfaceSettings>& SurfaceSettings::schema() {
+    static const Schema<SurfaceSettings> s =
+        Schema<SurfaceSettings>("surface", "one closed surface: its shape, place and mesh")
+            .name("name", &SurfaceSettings::name, "names 0/<name>.vtp and its results")
+            .model("shape", &SurfaceSettings::shape, "shape, of a cell the stress-free one; axis along z")
+            .quantity("edge", &SurfaceSettings::edge, unit::metre, "edge length of the mesh", {.range = positive})
+            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
+            .vector("axis", &SurfaceSettings::axis, unit::none, "direction of its symmetry axis",
                     {.fallback = "[0, 0, 1]"})
-            .check([](const CellSettings& c, const Node& node, Problems& problems) {
+            .check([](const SurfaceSettings& c, const Node& node, Problems& problems) {
                 if (const Node* axis = node.find("axis"); axis && c.axis.norm() == 0)
                     problems.add(axis->mark, axis->path,
                                  "found the zero vector; a direction is needed, such as [0, 0, 1]");
             });
+    return s;
+}
+
+const Schema<CellSettings>& CellSettings::schema() {
+    static const Schema<CellSettings> s =
+        Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
+            .include<SurfaceSettings>()
+            .name("membrane", &CellSettings::membrane,
+                  "its entry of constant/membranes.yaml; the cell's own name when absent");
+    return s;
+}
+
+const Schema<BodyPlaceSettings>& BodyPlaceSettings::schema() {
+    static const Schema<BodyPlaceSettings> s =
+        Schema<BodyPlaceSettings>("body", "one rigid body: its shape, place and mesh")
+            .include<SurfaceSettings>()
+            .name("body", &BodyPlaceSettings::body,
+                  "its entry of constant/bodies.yaml; the body's own name when absent");
     return s;
 }
 
@@ -162,9 +180,10 @@ const Schema<FillSettings>& FillSettings::schema() {
 
 const Schema<MeshSettings>& MeshSettings::schema() {
     static const Schema<MeshSettings> s =
-        Schema<MeshSettings>("mesh", "system/mesh.yaml: the box and the cells in it")
+        Schema<MeshSettings>("mesh", "system/mesh.yaml: the box, and the cells and rigid bodies in it")
             .table("domain", &MeshSettings::domain, "the box")
             .list("cells", &MeshSettings::cells, "the cells", {.fallback = "[]"})
+            .list("bodies", &MeshSettings::bodies, "the rigid bodies", {.fallback = "[]"})
             .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"});
     return s;
 }
@@ -187,13 +206,11 @@ const Schema<MembranesSettings>& MembranesSettings::schema() {
     return s;
 }
 
-void MembranesSettings::requireType(const std::string& cell, const std::string& type, const std::string& file,
-                                    const Mark& mark, Problems& problems) const {
-    if (types.contains(type)) return;
-    std::vector<std::string> known;
-    for (const auto& [name, laws] : types) known.push_back(name);
+void requireEntry(const std::vector<std::string>& known, const std::string& type, const std::string& user,
+                  const Mark& mark, Problems& problems) {
+    if (std::find(known.begin(), known.end(), type) != known.end()) return;
     problems.add(mark, type,
-                 "the cell '" + cell + "' of " + file + " needs an entry of this name; there " +
+                 user + " needs an entry of this name; there " +
                      (known.empty() ? "is none" : "are: " + joinWords(known)) + "." + didYouMean(type, known));
 }
 

@@ -1,5 +1,6 @@
 // The dictionaries of a case, file by file. Each setting is declared once, in caseSettings.cpp.
 #pragma once
+#include "bodies/bodySettings.hpp"
 #include "core/registry.hpp"
 #include "geometry/shape.hpp"
 #include "membrane/membraneSettings.hpp"
@@ -61,14 +62,22 @@ struct DomainSettings {
     std::array<bool, 3> periodic{};
     static const Schema<DomainSettings>& schema();
 };
-struct CellSettings {
+struct SurfaceSettings {
     std::string name;
-    std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
     Choice<geometry::Shape> shape;
     double edge = 0;  // target edge length [m]
     Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
+    static const Schema<SurfaceSettings>& schema();
+};
+struct CellSettings : SurfaceSettings {
+    std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
     static const Schema<CellSettings>& schema();
     const std::string& type() const { return membrane ? *membrane : name; }
+};
+struct BodyPlaceSettings : SurfaceSettings {
+    std::optional<std::string> body;  // entry of constant/bodies.yaml; empty: the one of the body's name
+    static const Schema<BodyPlaceSettings>& schema();
+    const std::string& type() const { return body ? *body : name; }
 };
 struct FillSettings {
     double jitter = 0;  // in spacings
@@ -79,6 +88,7 @@ struct FillSettings {
 struct MeshSettings {
     DomainSettings domain;
     std::vector<CellSettings> cells;
+    std::vector<BodyPlaceSettings> bodies;
     FillSettings fill;
     static const Schema<MeshSettings>& schema();
 };
@@ -93,10 +103,18 @@ struct FluidSettings {
 // constant/membranes.yaml: one entry for each kind of cell.
 struct MembranesSettings {
     std::map<std::string, membrane::MembraneSettings> types;
-    // A problem at `mark` where there is no entry for a cell that `file` names.
-    void requireType(const std::string& cell, const std::string& type, const std::string& file, const Mark& mark,
-                     Problems& problems) const;
     static const Schema<MembranesSettings>& schema();
 };
+
+// A problem at `mark` where `user` ("the cell 'rbc' of system/mesh.yaml") names an entry that a dictionary lacks.
+void requireEntry(const std::vector<std::string>& known, const std::string& type, const std::string& user,
+                  const Mark& mark, Problems& problems);
+template <class Settings>
+void requireEntry(const std::map<std::string, Settings>& types, const std::string& type, const std::string& user,
+                  const Mark& mark, Problems& problems) {
+    std::vector<std::string> known;
+    for (const auto& [name, settings] : types) known.push_back(name);
+    requireEntry(known, type, user, mark, problems);
+}
 
 }  // namespace corpuscle::simulation

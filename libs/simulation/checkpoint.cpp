@@ -111,6 +111,9 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
             file.writeReplicated(group + "damage", damage);
         }
     }
+    if (scene.bodies)
+        for (const bodies::Body& body : scene.bodies->all())
+            file.writeReplicated("bodies/" + body.name + "/state", body.saved());
     file.finish();
     io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
 }
@@ -147,6 +150,9 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         cell.membrane.restore({alive.begin(), alive.end()},
                               file.has(damage) ? file.readReplicated<double>(damage) : std::vector<double>{});
     }
+    if (scene.bodies)
+        for (bodies::Body& body : scene.bodies->all())
+            body.restore(file.readReplicated<double>("bodies/" + body.name + "/state"));
     if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
     if (file.sameRanks())
         scene.system->resume(file.readReplicated<double>("bricks"), file.attribute<std::int64_t>("rebuilds"));

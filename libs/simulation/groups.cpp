@@ -37,6 +37,17 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
             add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over cell radius");
         add("a/dx", a / c.spacing(), "particles per cell radius");
         add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing");
+    } else if (!c.mesh.bodies.empty()) {
+        const BodyPlaceSettings& body = c.mesh.bodies.front();
+        const double a = body.shape->radius();
+        add("Re", c.flow.rate * a * a / nu,
+            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
+                                               formatQuantity(c.flow.density, unit::kilogramPerMetre3))
+                                 : "rho gammadot a^2/mu");
+        add("rho_b/rho", c.densityOf(body) / c.flow.density, "density of the body over that of the fluid");
+        if (const int k = c.flowModel->wallAxis(); k >= 0)
+            add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over the body's radius");
+        add("a/dx", a / c.spacing(), "particles per radius of the body");
     } else
         add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
     add("H_s/dx", c.support() / c.spacing(),
@@ -64,6 +75,11 @@ ParticleEstimate estimateParticles(const Case& c) {
         const double area = cell.shape->area();
         n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
         n.fluid -= std::lround(area * c.spacing() / c.particleVolume());
+    }
+    for (const BodyPlaceSettings& body : c.mesh.bodies) {
+        const long inside = std::lround(body.shape->volume() / c.particleVolume());
+        n.bodies += inside;
+        n.fluid -= inside;
     }
     return n;
 }

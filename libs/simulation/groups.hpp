@@ -15,8 +15,8 @@ std::vector<Group> dimensionlessGroups(const Case& input);
 
 // Particles of the case by the lattice and the meshes' edge lengths, before anything is made.
 struct ParticleEstimate {
-    long fluid = 0, walls = 0, nodes = 0;
-    long all() const { return fluid + walls + nodes; }
+    long fluid = 0, walls = 0, nodes = 0, bodies = 0;
+    long all() const { return fluid + walls + nodes + bodies; }
 };
 ParticleEstimate estimateParticles(const Case& input);
 

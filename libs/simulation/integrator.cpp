@@ -20,12 +20,17 @@ constexpr double largestDensityChange = 0.5;
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     std::vector<sph::Load*> loads;
     if (!scene.cells.empty()) {
-        const coupling::DensityBalance balance(scene.fluidBox.volume(), scene.model().density);
+        double fluidVolume = scene.fluidBox.volume();
+        if (scene.bodies)
+            for (const bodies::Body& body : scene.bodies->all())
+                if (body.cell == 0) fluidVolume -= body.solid.volume;
+        const coupling::DensityBalance balance(fluidVolume, scene.model().density);
         scene.coupling = std::make_unique<coupling::DualIdentity>(
             scene.cells, scene.spacing, balance,
             coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
         loads.push_back(scene.coupling.get());
     }
+    if (scene.bodies) loads.push_back(scene.bodies.get());
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
 }
 

@@ -26,6 +26,10 @@ ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& 
     for (const Cell& cell : scene.cells)
         cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name,
                             static_cast<int>(input.control.write.keep.value_or(0)), start.t);
+    if (scene.bodies)
+        for (const bodies::Body& body : scene.bodies->all())
+            bodies_.emplace_back(scene.system->comm(), input.directory, body.name,
+                                 static_cast<int>(input.control.write.keep.value_or(0)), start.t);
 }
 
 io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
@@ -90,6 +94,18 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     return data;
 }
 
+io::PolyData bodyPiece(const Scene& scene, const bodies::Body& body, bool writer) {
+    io::PolyData data;
+    auto& velocity = data.point.vectors["velocity"];
+    auto& spacing = data.point.scalars["spacing"];
+    if (!writer) return data;
+    data.points = body.nodes();
+    data.triangles = body.solid.surface.triangles;
+    for (const Vec3& x : data.points) velocity.push_back(body.state.motion.at(x - body.state.centre));
+    spacing.assign(data.points.size(), scene.spacing);
+    return data;
+}
+
 void ResultsWriter::write(const Scene& scene, const Time& time) {
     int rank = 0;
     MPI_Comm_rank(scene.system->comm(), &rank);
@@ -97,6 +113,8 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
     for (std::size_t c = 0; c < cells_.size(); ++c)
         cells_[c].write(time.t, time.strain(),
                         cellPiece(scene, scene.cells[c], lowestHolder(scene, scene.cells[c]) == rank));
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        bodies_[b].write(time.t, time.strain(), bodyPiece(scene, scene.bodies->all()[b], rank == 0));
     ++written_;
 }
 

@@ -1,4 +1,4 @@
-// Results for ParaView and renderCase: one stream for the fluid, one for each cell. Walls stand in 0/walls.vtp.
+// Results for ParaView and renderCase: one stream for the fluid, one for each cell and each rigid body. Walls stand in 0/walls.vtp.
 #pragma once
 #include <memory>
 #include <vector>
@@ -22,7 +22,7 @@ class ResultsWriter {
     Ticker ticker_;
     std::vector<std::string> fields_;
     io::VtkSeries fluid_;
-    std::vector<io::VtkSeries> cells_;
+    std::vector<io::VtkSeries> cells_, bodies_;
     long written_ = 0;
 };
 
@@ -31,6 +31,9 @@ io::PolyData membranePiece(const membrane::Membrane& membrane, double spacing);
 
 // The same of a cell; no points on ranks other than `writer`.
 io::PolyData cellPiece(const coupling::Scene& scene, const coupling::Cell& cell, bool writer);
+
+// A rigid body's surface with its velocity; empty on ranks other than `writer`.
+io::PolyData bodyPiece(const coupling::Scene& scene, const bodies::Body& body, bool writer);
 
 // The lowest rank that holds the cell. Collective.
 int lowestHolder(const coupling::Scene& scene, const coupling::Cell& cell);

@@ -1,5 +1,6 @@
 #include "simulation/sceneBuilder.hpp"
 
+#include "geometry/insideTest.hpp"
 #include "simulation/startFiles.hpp"
 #include "simulation/stressFree.hpp"
 
@@ -45,6 +46,57 @@ std::vector<Cell> readCells(const Case& input) {
     return cells;
 }
 
+// The number of the cell that a point at t = 0 is inside, 0: none.
+int cellAround(const Scene& scene, const Vec3& x) {
+    for (const Cell& cell : scene.cells) {
+        const geometry::TriangleMesh mesh{cell.membrane.position, cell.membrane.network().triangles()};
+        const Vec3 middle = mesh.centroid();
+        if (geometry::InsideTest(mesh).inside(middle + scene.fluidBox.minimumImage(x - middle)))
+            return cell.membrane.cell;
+    }
+    return 0;
+}
+
+void addBodies(const Case& input, Scene& scene) {
+    const io::PolyData filling = readStart(input, "bodies");
+    const std::vector<std::int64_t>& number = filling.point.integer("body");
+    std::vector<bodies::Body> all;
+    for (const BodyPlaceSettings& place : input.mesh.bodies) {
+        const io::PolyData mesh = readStart(input, place.name);
+        bodies::Body body(place.name, place.type(), {mesh.points, mesh.triangles}, input.densityOf(place),
+                          input.bodyOf(place).motion.model, input.support(), input.spacing());
+        const Vec3& centre = body.solid.startCentre();
+        std::vector<Vec3> places;
+        for (std::size_t k = 0; k < number.size(); ++k)
+            if (number[k] == static_cast<std::int64_t>(all.size()) + 1)
+                places.push_back(centre + scene.fluidBox.minimumImage(filling.points[k] - centre));
+        body.fill(places, input.support());
+        body.axis = place.axis.normalized();
+        body.cell = cellAround(scene, centre);
+        body.viscosity = input.fluid.viscosity;
+        if (body.cell > 0) {
+            Cell& around = scene.cells[static_cast<std::size_t>(body.cell) - 1];
+            body.viscosity *= around.viscosityRatio;
+            around.solidVolume += body.solid.volume;
+        }
+        all.push_back(std::move(body));
+    }
+    scene.bodies = std::make_unique<bodies::Bodies>(
+        std::move(all), bodies::Bodies::Medium{input.flow.density, input.flow.bodyForce, input.spacing()});
+}
+
+// Velocity and half the curl of the undisturbed flow, by central differences.
+bodies::RigidMotion motionOfFlow(const Case& input, const Vec3& x) {
+    const double step = 1e-2 * input.spacing();
+    Mat3 gradient;  // (i, k): of u_i along k
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 along = step * Vec3::Unit(k);
+        gradient.col(k) = (input.flow.velocity(x + along) - input.flow.velocity(x - along)) / (2 * step);
+    }
+    return {input.flow.velocity(x), 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                                               gradient(1, 0) - gradient(0, 1))};
+}
+
 double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
 // Adds this rank's share of `total` things: those with numbers in [total r/P, total (r+1)/P).
@@ -60,20 +112,25 @@ void forShare(std::size_t total, MPI_Comm comm, F&& f) {
 }  // namespace
 
 Scene emptyScene(const Case& input, MPI_Comm comm) {
-    const bool hasCells = !input.mesh.cells.empty();
+    const bool hasCells = !input.mesh.cells.empty(), hasBodies = !input.mesh.bodies.empty();
     Scene scene;
     scene.spacing = input.spacing();
     scene.fluidBox = input.fluidBox();
     scene.flow = input.flow;
-    const ParticleStore::Optional fields{
-        .mass = hasCells, .viscosity = input.varyingViscosity(), .side = hasCells, .node = hasCells};
+    const ParticleStore::Optional fields{.mass = hasCells || hasBodies,
+                                         .viscosity = input.varyingViscosity(),
+                                         .side = hasCells,
+                                         .node = hasCells,
+                                         .member = hasBodies};
     scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(),
                                                                input.skin(), input.spacing(), input.precision());
-    scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system);
+    if (hasCells) scene.cells = readCells(input);
+    if (hasBodies) addBodies(input, scene);
+    scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
+                                                      scene.bodies ? &scene.bodies->groups() : nullptr);
     if (input.numerics.shifting)
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
-    if (hasCells) scene.cells = readCells(input);
     return scene;
 }
 
@@ -93,6 +150,7 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
         if (s.optional().mass) s.mass[i] = model.mass;
         if (s.optional().viscosity) s.viscosity[i] = model.viscosity;
         if (s.optional().node) s.node[i] = -1;
+        if (s.optional().member) s.member[i] = -1;
         return i;
     };
 
@@ -131,6 +189,21 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
             if (s.optional().viscosity) s.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
         });
     }
+    for (const Cell& cell : scene.cells) firstId += cell.nodeCount();
+    if (scene.bodies)
+        for (bodies::Body& body : scene.bodies->all()) {
+            const Vec3 centre = body.state.centre;
+            body.state.motion = body.behaviour->start(motionOfFlow(input, centre));
+            forShare(body.particles.size(), comm, [&](std::size_t k) {
+                const Vec3 arm = body.state.orientation * body.particles[k].place;
+                const std::int64_t member = body.firstMember + static_cast<std::int64_t>(k);
+                const std::size_t i =
+                    add(Kind::body, firstId + member, centre + arm, body.state.motion.at(arm), model.density);
+                s.member[i] = member;
+                if (s.optional().side) s.side[i] = body.cell;
+                if (s.optional().viscosity) s.viscosity[i] = body.viscosity;
+            });
+        }
     scene.system->start();
     return scene;
 }

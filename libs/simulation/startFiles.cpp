@@ -32,36 +32,43 @@ void flatten(const Node& node, const std::string& key, Settings& settings) {
     }
 }
 
-void addCell(CellSettings cell, const std::string& key, Settings& settings) {
-    cell.membrane.reset();
-    cell.axis.normalize();
-    flatten(write(cell), key, settings);
+// A cell or rigid body of system/mesh.yaml, by its place there.
+struct Surface {
+    const SurfaceSettings* settings = nullptr;
+    std::string kind, key;  // "cell", "cells[0]"
+    explicit operator bool() const { return settings; }
+};
+
+Surface surfaceNamed(const Case& input, const std::string& name) {
+    const auto find = [&](const auto& all, const char* kind, const char* list) {
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (all[i].name == name) return Surface{&all[i], kind, fmt::format("{}[{}]", list, i)};
+        return Surface{};
+    };
+    const Surface cell = find(input.mesh.cells, "cell", "cells");
+    return cell ? cell : find(input.mesh.bodies, "body", "bodies");
+}
+
+void addSurface(SurfaceSettings surface, const std::string& key, Settings& settings) {
+    surface.axis.normalize();
+    flatten(write(surface), key, settings);
     // A file of the same name may hold another surface.
-    if (cell.shape->triangulation())
+    if (surface.shape->triangulation())
         settings[key + ".shape.file"] +=
-            fmt::format(" with {:.10g} m^2 and {:.10g} m^3", cell.shape->area(), cell.shape->volume());
+            fmt::format(" with {:.10g} m^2 and {:.10g} m^3", surface.shape->area(), surface.shape->volume());
 }
 
-// Index of the cell of that name; the number of cells when there is none.
-std::size_t cellOf(const Case& input, const std::string& name) {
-    const auto& cells = input.mesh.cells;
-    return static_cast<std::size_t>(
-        std::find_if(cells.begin(), cells.end(), [&](const CellSettings& c) { return c.name == name; }) -
-        cells.begin());
-}
-
-bool isCell(const Case& input, const std::string& name) { return cellOf(input, name) < input.mesh.cells.size(); }
-
-// A cell that one side lacks altogether is named once, by its name.
-bool isDetailOfMissingCell(const std::string& key, const Settings& without) {
+// A cell or body that one side lacks altogether is named once, by its name.
+bool isDetailOfMissing(const std::string& key, const Settings& without) {
     const std::size_t end = key.find("].");
-    return key.starts_with("mesh.cells[") && end != std::string::npos && !key.ends_with("].name") &&
-           !without.contains(key.substr(0, end) + "].name");
+    return (key.starts_with("mesh.cells[") || key.starts_with("mesh.bodies[")) && end != std::string::npos &&
+           !key.ends_with("].name") && !without.contains(key.substr(0, end) + "].name");
 }
 
 void compare(const Case& input, const std::string& name, const Settings& found, Problems& problems) {
     const std::string file = "0/" + name + ".vtp";
-    const std::string cure = isCell(input, name) ? "run membraneMesh and particleFill again" : "run particleFill again";
+    const Surface surface = surfaceNamed(input, name);
+    const std::string cure = surface ? "run membraneMesh and particleFill again" : "run particleFill again";
     const Settings wanted = startSettings(input, name);
     if (found.empty()) {
         problems.add({file, 0, 0}, "", "does not say for which settings it was made; " + cure);
@@ -75,12 +82,12 @@ void compare(const Case& input, const std::string& name, const Settings& found, 
     all.insert(found.begin(), found.end());
     for (const auto& [key, ignored] : all) {
         const std::string here = valueIn(wanted, key), there = valueIn(found, key);
-        if (here == there || isDetailOfMissingCell(key, wanted) || isDetailOfMissingCell(key, found)) continue;
+        if (here == there || isDetailOfMissing(key, wanted) || isDetailOfMissing(key, found)) continue;
         const std::size_t dot = key.find('.');
         const std::string dictionary = key.substr(0, dot), below = key.substr(dot + 1);
-        const bool ofCell = dictionary == "cell";
-        problems.add({"system/" + (ofCell ? "mesh" : dictionary) + ".yaml", 0, 0},
-                     ofCell ? fmt::format("cells[{}].{}", cellOf(input, name), below) : below,
+        const bool ofSurface = dictionary == "cell" || dictionary == "body";
+        problems.add({"system/" + (ofSurface ? "mesh" : dictionary) + ".yaml", 0, 0},
+                     ofSurface ? surface.key + "." + below : below,
                      fmt::format("the case says {}, but {} was made for {}; {}", here, file, there, cure));
     }
 }
@@ -93,16 +100,18 @@ std::filesystem::path startFile(const Case& input, const std::string& name) {
 
 std::map<std::string, std::string> startSettings(const Case& input, const std::string& name) {
     Settings settings;
-    if (isCell(input, name)) {
-        addCell(input.mesh.cells[cellOf(input, name)], "cell", settings);
-        settings.erase("cell.name");
+    if (const Surface surface = surfaceNamed(input, name)) {
+        addSurface(*surface.settings, surface.kind, settings);
+        settings.erase(surface.kind + ".name");
         return settings;
     }
     const MeshSettings& mesh = input.mesh;
     const Node fill = write(mesh.fill), numerics = write(input.numerics);
     flatten(write(mesh.domain), "mesh.domain", settings);
     for (std::size_t i = 0; i < mesh.cells.size(); ++i)
-        addCell(mesh.cells[i], fmt::format("mesh.cells[{}]", i), settings);
+        addSurface(mesh.cells[i], fmt::format("mesh.cells[{}]", i), settings);
+    for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
+        addSurface(mesh.bodies[i], fmt::format("mesh.bodies[{}]", i), settings);
     flatten(*fill.find("jitter"), "mesh.fill.jitter", settings);
     if (mesh.fill.jitter > 0) flatten(*fill.find("seed"), "mesh.fill.seed", settings);
     flatten(*numerics.find("spacing"), "numerics.spacing", settings);
@@ -128,11 +137,11 @@ void writeStart(const Case& input, const std::string& name, io::PolyData data) {
 
 io::PolyData readStart(const Case& input, const std::string& name) {
     const std::filesystem::path file = startFile(input, name);
-    const std::string writer = isCell(input, name) ? "membraneMesh" : "particleFill";
+    const std::string writer = surfaceNamed(input, name) ? "membraneMesh" : "particleFill";
     if (!std::filesystem::exists(file))
         throw Failure(ExitCode::io, file.string() + " is missing: run " + writer + " first");
     io::PolyData data = io::readVtp(file);
-    if (isCell(input, name) && data.triangles.empty())
+    if (surfaceNamed(input, name) && data.triangles.empty())
         throw Failure(ExitCode::io, file.string() + " holds no triangles: run " + writer + " again");
     Problems problems;
     compare(input, name, data.texts, problems);

@@ -1,10 +1,10 @@
 // The files of 0/, and what they were made for.
 //
-// 0/<cell>.vtp (membraneMesh), 0/fluid.vtp and 0/walls.vtp (particleFill) hold places: nodes and triangles, particles
+// 0/<cell>.vtp and 0/<body>.vtp (membraneMesh), 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp (particleFill) hold places: nodes and triangles, particles
 // and their sides. Each notes in its field data, as texts by name, the settings that its places follow from; reading
 // compares them with the case:
-//     of a cell       cell.shape.*, cell.edge, cell.centre, cell.axis
-//     of particles    mesh.domain.*, mesh.cells[n].*, numerics.spacing; of mesh.fill.* and numerics.kernel.* what counts
+//     of a cell       cell.shape.*, cell.edge, cell.centre, cell.axis; of a body likewise
+//     of particles    mesh.domain.*, mesh.cells[n].*, mesh.bodies[n].*, numerics.spacing; of mesh.fill.* and numerics.kernel.* what counts
 // What only the run depends on (flow, Ca, Re, fluid, laws, time step) is not among them: a start holds for all such
 // values. Velocity, density and pressure in these files are those of the case as it was filled, for looking at; a run
 // takes its own from the flow.
@@ -26,7 +26,7 @@ std::map<std::string, std::string> startSettings(const Case& input, const std::s
 // Writes 0/<name>.vtp at t = 0 with its settings. Throws Failure(io).
 void writeStart(const Case& input, const std::string& name, io::PolyData data);
 
-// Throws Failure(io) when the file is missing or, of a cell, holds no triangles, and CaseError with each setting for
+// Throws Failure(io) when the file is missing or, of a cell or body, holds no triangles, and CaseError with each setting for
 // which it was not made; both say what to run.
 io::PolyData readStart(const Case& input, const std::string& name);
 

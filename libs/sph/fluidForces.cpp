@@ -1,5 +1,8 @@
 #include "sph/fluidForces.hpp"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cmath>
 
 #include "particles/sumOverPairs.hpp"
@@ -15,11 +18,14 @@ using particles::RealArray;
 namespace {
 // Morris' extrapolated wall velocity is bounded where a particle has come very close to the wall.
 constexpr double smallestDistanceInSpacings = 0.25, betaMax = 10;
+constexpr double nowhere = 1e6;  // in supports: the planes of a scene that has bodies but no walls
 }  // namespace
 
-FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) : model_(model) {
+FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system, RigidGroups* groups)
+    : model_(model), groups_(groups) {
     const double H = system.support();
-    variant_ = {model.kernel->kind(), system.store().optional().mass, system.store().optional().viscosity};
+    variant_ = {model.kernel->kind(), system.store().optional().mass, system.store().optional().viscosity,
+                groups != nullptr};
     constants_.support = H;
     constants_.gradientNormalisation = model.kernel->gradientNormalisation(H);
     constants_.mass = model.mass;
@@ -31,11 +37,13 @@ FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system) 
         constants_.smallestDistance = smallestDistanceInSpacings * system.spacing() / H;
         constants_.betaMax = betaMax;
     }
+    if (groups && !walls) constants_.half = nowhere, constants_.smallestDistance = 1;
+    const bool boundaries = walls || groups;
     if (system.precision() == Precision::mixed)
         float_.away = pairKernels().fluidFloat(variant_, false),
-        float_.atWall = pairKernels().fluidFloat(variant_, walls);
+        float_.atWall = pairKernels().fluidFloat(variant_, boundaries);
     else
-        double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, walls);
+        double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, boundaries);
 }
 
 std::size_t FluidForces::bytes() const {
@@ -43,17 +51,18 @@ std::size_t FluidForces::bytes() const {
 }
 
 template <class Velocity, class Pressure>
-void FluidForces::run(ParticleSystem& system, const RealArray& density, Velocity&& velocity, Pressure&& pressure,
-                      double* const results[4]) {
+void FluidForces::run(ParticleSystem& system, const RealArray& density, const std::vector<RigidMotion>& motion,
+                      Velocity&& velocity, Pressure&& pressure, double* const results[4]) {
     if (system.precision() == Precision::mixed)
-        run(float_, system, density, velocity, pressure, results);
+        run(float_, system, density, motion, velocity, pressure, results);
     else
-        run(double_, system, density, velocity, pressure, results);
+        run(double_, system, density, motion, velocity, pressure, results);
 }
 
 template <class Real, class Velocity, class Pressure>
-void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArray& density, Velocity&& velocity,
-                      Pressure&& pressure, double* const results[4]) {
+void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArray& density,
+                      const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,
+                      double* const results[4]) {
     const ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned()), fields = static_cast<std::size_t>(variant_.fields());
     pairs.records.resize((n + static_cast<std::size_t>(system.ghosts())) * fields);
@@ -67,11 +76,34 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
         r[6] = static_cast<Real>(support * pressure(i));
         r[7] = static_cast<Real>(viscous / density[i]);
         if (variant_.varyingMass) r[8] = static_cast<Real>(s.mass[i] * inverseMass);
-        if (variant_.varyingViscosity) r[fields - 1] = static_cast<Real>(s.viscosity[i]);
+        if (variant_.varyingViscosity) r[variant_.varyingMass ? 9 : 8] = static_cast<Real>(s.viscosity[i]);
     }
     for (const int i : wallParticles_) pairs.records[static_cast<std::size_t>(i) * fields + 7] *= -1;
+    if (groups_) packGroups(pairs.records.data(), system.owned(), motion);
     particles::sumOverPairs(system, pairs.away, pairs.atWall, constants_, pairs.records, variant_.fields(), sums_,
                             results);
+}
+
+template <class Real>
+void FluidForces::packGroups(Real* records, int owned, const std::vector<RigidMotion>& motion) const {
+    const int fields = variant_.fields(), slope = fields - 4;
+    const double support = constants_.support;
+    const auto record = [&](int particle) { return records + static_cast<long>(particle) * fields; };
+    for (int i = 0; i < owned; ++i) std::fill_n(record(i) + slope, 4, Real(0));
+    for (const RigidGroups::Member& m : groups_->members) {
+        Real* r = record(m.particle);
+        const Vec3 velocity = motion[static_cast<std::size_t>(m.group)].at(m.arm);
+        for (int k = 0; k < 3; ++k) r[3 + k] = static_cast<Real>(velocity[k]);
+        r[7] *= -1;
+        r[slope + 3] = static_cast<Real>(m.depth / support);
+    }
+    for (const RigidGroups::Near& n : groups_->near) {
+        Real* r = record(n.particle);
+        const Vec3 rigid = motion[static_cast<std::size_t>(n.group)].at(n.arm);
+        const double factor = support * n.inverseDistance;
+        for (int k = 0; k < 3; ++k)
+            r[slope + k] = static_cast<Real>(factor * (static_cast<double>(r[3 + k]) - rigid[k]));
+    }
 }
 
 void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
@@ -85,7 +117,7 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
                                              model_.soundSpeed);
     double* const results[4] = {s.fx.data(), s.fy.data(), s.fz.data(), s.densityRate.data()};
     run(
-        system, density_,
+        system, density_, groups_ ? groups_->motion : still_,
         [&]<class Real>(std::size_t i, Real* velocity) {
             velocity[0] = static_cast<Real>(s.u[i] + e * s.fx[i]);
             velocity[1] = static_cast<Real>(s.v[i] + e * s.fy[i]);
@@ -93,6 +125,9 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
         },
         [&](std::size_t i) { return pressure_[i]; }, results);
 
+    if (groups_)
+        groups_->wrenches =
+            groups_->gather(groups_->motion, s.fx.data(), s.fy.data(), s.fz.data(), s.mass.data(), system.comm());
     for (Vec3& f : wallForce_) f.setZero();
     for (const int i : wallParticles_) {
         const double mass = variant_.varyingMass ? s.mass[i] : model_.mass;
@@ -102,6 +137,9 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
         for (std::size_t i = 0; i < n; ++i)
             s.fx[i] += model_.bodyForce[0], s.fy[i] += model_.bodyForce[1], s.fz[i] += model_.bodyForce[2];
     for (const int i : wallParticles_) s.fx[i] = s.fy[i] = s.fz[i] = 0;
+    if (groups_)
+        for (const RigidGroups::Member& m : groups_->members)
+            s.fx[m.particle] = s.fy[m.particle] = s.fz[m.particle] = 0;
 }
 
 void FluidForces::findWalls(const ParticleSystem& system) {
@@ -128,6 +166,9 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
             vector[k][i] = (h >> 40) % 2 ? 1.0 : -1.0;
         }
     clearWalls();
+    if (groups_)
+        groups_->spread(std::vector<RigidMotion>(groups_->motion.size()), vector[0].data(), vector[1].data(),
+                        vector[2].data());
     const auto norm = [&](const RealArray* v) {
         double sum = 0;
         for (int k = 0; k < 3; ++k)
@@ -135,21 +176,28 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
         MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.comm());
         return std::sqrt(sum);
     };
+    std::vector<RigidMotion> motion(groups_ ? groups_->motion.size() : 0);
     double rate = 0;
     for (int it = 0; it < iterations; ++it) {
         const double length = norm(vector);
         if (length == 0) return 0;
         for (auto& component : vector)
             for (double& a : component) a /= length;
+        for (RigidMotion& m : motion) m.linear /= length, m.angular /= length;
         double* const results[4] = {image[0].data(), image[1].data(), image[2].data(), unused.data()};
         run(
-            system, s.density,
+            system, s.density, motion,
             [&]<class Real>(std::size_t i, Real* v) {
                 for (int k = 0; k < 3; ++k) v[k] = static_cast<Real>(vector[k][i]);
             },
             [](std::size_t) { return 0.0; }, results);
         std::swap(vector, image);
         clearWalls();
+        if (groups_) {
+            motion = groups_->response(groups_->gather(motion, vector[0].data(), vector[1].data(), vector[2].data(),
+                                                       s.mass.data(), system.comm()));
+            groups_->spread(motion, vector[0].data(), vector[1].data(), vector[2].data());
+        }
         rate = norm(vector);
     }
     return rate;

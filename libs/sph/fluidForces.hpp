@@ -9,6 +9,7 @@
 #include "particles/particleSystem.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/kernel.hpp"
+#include "sph/rigidGroups.hpp"
 #include "sph/walls.hpp"
 
 namespace corpuscle::sph {
@@ -26,11 +27,13 @@ struct FluidModel {
 
 class FluidForces {
   public:
-    FluidForces(const FluidModel& model, const particles::ParticleSystem& system);
+    // groups: rigid bodies, which must outlive this; null: none. They need the optional fields mass and member.
+    FluidForces(const FluidModel& model, const particles::ParticleSystem& system, RigidGroups* groups = nullptr);
 
     const FluidModel& model() const { return model_; }
 
-    // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles are summed up and set to zero.
+    // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles and of rigid groups are summed up and
+    // set to zero.
     void evaluate(particles::ParticleSystem& system, double extrapolation);
 
     // Particles that are walls, found anew after each list build.
@@ -52,15 +55,22 @@ class FluidForces {
         particles::AlignedVector<Real> records;
         PairKernels::Fluid<Real> away{}, atWall{};
     };
-    // Packs the records and works out the sums over pairs. velocity(i, Real[3]); pressure(i) is p/rho^2.
+    // Packs the records and works out the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of `motion`;
+    // pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
-    void run(particles::ParticleSystem& system, const particles::RealArray& density, Velocity&& velocity,
-             Pressure&& pressure, double* const results[4]);
+    void run(particles::ParticleSystem& system, const particles::RealArray& density,
+             const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,
+             double* const results[4]);
     template <class Real, class Velocity, class Pressure>
     void run(Pairs<Real>& pairs, particles::ParticleSystem& system, const particles::RealArray& density,
-             Velocity&& velocity, Pressure&& pressure, double* const results[4]);
+             const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,
+             double* const results[4]);
+    template <class Real>
+    void packGroups(Real* records, int owned, const std::vector<RigidMotion>& motion) const;
 
     FluidModel model_;
+    RigidGroups* groups_;
+    std::vector<RigidMotion> still_;  // of a scene without groups
     FluidVariant variant_;
     FluidConstants constants_;
     Pairs<double> double_;

@@ -25,13 +25,16 @@ struct FluidKernels {
   private:
     template <class Kernel>
     static PairKernels::Fluid<Real> of(FluidVariant v, bool atWall) {
-        if (v.varyingMass) return v.varyingViscosity ? of<Kernel, true, true>(atWall) : of<Kernel, true, false>(atWall);
-        return v.varyingViscosity ? of<Kernel, false, true>(atWall) : of<Kernel, false, false>(atWall);
+        if (v.bodies)
+            return v.varyingViscosity ? of<Kernel, true, true, true>(atWall) : of<Kernel, true, false, true>(atWall);
+        if (v.varyingMass)
+            return v.varyingViscosity ? of<Kernel, true, true, false>(atWall) : of<Kernel, true, false, false>(atWall);
+        return v.varyingViscosity ? of<Kernel, false, true, false>(atWall) : of<Kernel, false, false, false>(atWall);
     }
-    template <class Kernel, bool varyingMass, bool varyingViscosity>
+    template <class Kernel, bool varyingMass, bool varyingViscosity, bool bodies>
     static PairKernels::Fluid<Real> of(bool atWall) {
-        return atWall ? build<FluidPair<Kernel, varyingMass, varyingViscosity, true>>
-                      : build<FluidPair<Kernel, varyingMass, varyingViscosity, false>>;
+        return atWall ? build<FluidPair<Kernel, varyingMass, varyingViscosity, bodies, true>>
+                      : build<FluidPair<Kernel, varyingMass, varyingViscosity, bodies, false>>;
     }
     template <class Law>
     static constexpr PairKernels::Fluid<Real> build = PairBuild<Law, FluidConstants, Real, precision>::kernel;

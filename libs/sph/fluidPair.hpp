@@ -8,7 +8,13 @@
 // that continues the profile linearly, so that it vanishes (relative to the wall) on the surface (Morris, Fox, Zhu 1997):
 //     beta = min(betaMax, 1 + depth_wall/distance_fluid)
 //
-// record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies | viscosity, if it varies
+// At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion is taken away:
+// with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the velocity
+//     u_j - depth_j g_i,   g_i = w/distance_i
+// where u_j is its rigid velocity. Fluid has depth 0 and body particles have g = 0, so that one antisymmetric expression does.
+//
+// record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies | viscosity, if it varies |
+//          where there are bodies: H_s g (3), depth/H_s
 //          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do not act
 //          on each other (the list leaves such pairs out only where a whole block is wall)
 // What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives forces, which
@@ -22,14 +28,15 @@ struct FluidConstants {
     double support = 0;                // H_s
     double gradientNormalisation = 0;  // of the kernel
     double mass = 0;                   // of a particle, or the unit of masses
-    // Two parallel plane walls with normal n through n.x = middle +- half; lengths as in the records.
+    // Two parallel plane walls with normal n through n.x = middle +- half; lengths as in the records. half is far away where there are none.
     double normal[3] = {0, 0, 0}, middle = 0, half = 0;
     double smallestDistance = 0, betaMax = 1;  // bounds of beta's quotient
 };
 
-template <class Kernel, bool varyingMass, bool varyingViscosity, bool atWall>
+template <class Kernel, bool varyingMass, bool varyingViscosity, bool bodies, bool atWall>
 struct FluidPair {
-    static constexpr int fields = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);
+    static constexpr int slope = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);  // the first of H_s g
+    static constexpr int fields = slope + (bodies ? 4 : 0);
     FluidConstants c;
 
     template <class V, class J>
@@ -41,7 +48,15 @@ struct FluidPair {
             constexpr int at = varyingMass ? 9 : 8;
             viscous = viscous * (i[at] * V(J(4) * j[at])) / (i[at] + V(j[at]));
         }
-        if constexpr (atWall) {
+        [[maybe_unused]] V extra[3] = {V(0.0), V(0.0), V(0.0)};  // of the velocity of j against i, in viscosity
+        if constexpr (atWall && bodies) {
+            if (particles::anyNegative(i[7]) || particles::anyNegative(J(j[7]))) {
+                const V both = max(i[7], V(j[7]));
+                F = whereNegative(both, V(0.0), F);
+                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * beta(gap(i), gap(j));
+                for (int k = 0; k < 3; ++k) extra[k] = i[slope + 3] * V(j[slope + k]) - i[slope + k] * V(j[slope + 3]);
+            }
+        } else if constexpr (atWall) {
             const V gapI = gap(i);
             const J gapJ = gap(j);
             if (particles::anyNegative(gapJ) || particles::anyNegative(gapI)) {
@@ -53,7 +68,10 @@ struct FluidPair {
 
         const V pressure = F * (i[6] + V(j[6]));
         const V du[3] = {V(j[3]) - i[3], V(j[4]) - i[4], V(j[5]) - i[5]};
-        for (int k = 0; k < 3; ++k) p[k] = pressure * d[k] - viscous * du[k];
+        if constexpr (atWall && bodies)
+            for (int k = 0; k < 3; ++k) p[k] = pressure * d[k] - viscous * (du[k] + extra[k]);
+        else
+            for (int k = 0; k < 3; ++k) p[k] = pressure * d[k] - viscous * du[k];
         p[3] = F * (d[0] * du[0] + d[1] * du[1] + d[2] * du[2]);
     }
 

@@ -11,7 +11,8 @@ enum class KernelKind { lucy, wendlandC2, quintic };
 struct FluidVariant {
     KernelKind kernel = KernelKind::wendlandC2;
     bool varyingMass = false, varyingViscosity = false;
-    int fields() const { return 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0); }
+    bool bodies = false;  // rigid ones; only with varyingMass
+    int fields() const { return 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0) + (bodies ? 4 : 0); }
 };
 
 struct PairKernels {

@@ -43,6 +43,7 @@ void VelocityVerlet::advance(double dt) {
         sum += d2;
     }
     if (!std::isfinite(sum)) displacement2 = std::numeric_limits<double>::infinity();
+    for (Load* load : loads_) load->drifted(system_, dt);
     if (shifting_ && shifting_->due()) {
         shifting_->apply(system_, dt);
         displacement2 = system_.largestDisplacement2();
@@ -59,6 +60,7 @@ void VelocityVerlet::advance(double dt) {
         t.w[i] += half * t.fz[i];
         t.density[i] += half * t.densityRate[i];  // Eq 17
     }
+    for (Load* load : loads_) load->kicked(system_, dt);
 }
 
 void VelocityVerlet::evaluate(double extrapolation, bool rebuilt) {

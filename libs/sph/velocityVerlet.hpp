@@ -20,6 +20,10 @@ namespace corpuscle::sph {
 class Load {
   public:
     virtual ~Load() = default;
+    // For particles that do not move by their own accelerations: all have been moved by Eqs 12 to 15 over dt, lists are as they
+    // were; and, at the end of the step, by Eqs 16 and 17.
+    virtual void drifted(particles::ParticleSystem&, double /*dt*/) {}
+    virtual void kicked(particles::ParticleSystem&, double /*dt*/) {}
     // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). The velocity that forces are
     // worked out with is u + extrapolation f. Collective.
     virtual void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) = 0;

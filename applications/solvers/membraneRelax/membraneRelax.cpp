@@ -36,8 +36,9 @@ struct Input {
         input.relax = corpuscle::read<simulation::RelaxSettings>(relax, problems);
         input.membranes = corpuscle::read<simulation::MembranesSettings>(membranes, problems);
         problems.throwIfAny();
-        input.membranes.requireType(input.relax.cell.name, input.relax.cell.type(), "system/relax.yaml", membranes.mark,
-                                    problems);
+        simulation::requireEntry(input.membranes.types, input.relax.cell.type(),
+                                 "the cell '" + input.relax.cell.name + "' of system/relax.yaml", membranes.mark,
+                                 problems);
         problems.throwIfAny();
         input.relax.cell.shape->prepare(app.caseDirectory());
         input.effective = {{"system/relax.yaml", write(input.relax)},

@@ -18,6 +18,9 @@ int main(int argc, char* argv[]) {
         if (!input.mesh.cells.empty())
             problems.add({"system/mesh.yaml", 0, 0}, "cells",
                          "the case has cells, and sphFlow is for a fluid alone: run dmpFlow");
+        if (!input.mesh.bodies.empty())
+            problems.add({"system/mesh.yaml", 0, 0}, "bodies",
+                         "the case has bodies, and sphFlow is for a fluid alone: run dmpFlow");
         problems.throwIfAny();
         simulation::StartingPoint start = simulation::prepare(app, input);  // 2. only what the case names exists
         coupling::Scene& scene = start.scene;

@@ -7,7 +7,7 @@ namespace corpuscle::utilities {
 
 using geometry::TriangleMesh;
 using simulation::Case;
-using simulation::CellSettings;
+using simulation::SurfaceSettings;
 
 void requireSerial(const Application& app) {
     if (app.communicator().size() > 1)
@@ -15,25 +15,33 @@ void requireSerial(const Application& app) {
                                                    app.communicator().size()));
 }
 
-void place(TriangleMesh& mesh, const CellSettings& cell) {
-    mesh.rotate(geometry::rotationFromZ(cell.axis));
-    mesh.translate(cell.centre);
+void place(TriangleMesh& mesh, const SurfaceSettings& surface) {
+    mesh.rotate(geometry::rotationFromZ(surface.axis));
+    mesh.translate(surface.centre);
 }
 
-TriangleMesh inShapeFrame(TriangleMesh mesh, const CellSettings& cell) {
-    mesh.translate(-cell.centre);
-    mesh.rotate(geometry::rotationFromZ(cell.axis).transpose());
+TriangleMesh inShapeFrame(TriangleMesh mesh, const SurfaceSettings& surface) {
+    mesh.translate(-surface.centre);
+    mesh.rotate(geometry::rotationFromZ(surface.axis).transpose());
     return mesh;
 }
 
-std::vector<TriangleMesh> readCellMeshes(const Case& input) {
+namespace {
+
+template <class Surfaces>
+std::vector<TriangleMesh> readMeshes(const Case& input, const Surfaces& surfaces) {
     std::vector<TriangleMesh> meshes;
-    for (const CellSettings& cell : input.mesh.cells) {
-        io::PolyData data = simulation::readStart(input, cell.name);
+    for (const SurfaceSettings& surface : surfaces) {
+        io::PolyData data = simulation::readStart(input, surface.name);
         meshes.push_back({std::move(data.points), std::move(data.triangles)});
     }
     return meshes;
 }
+
+}  // namespace
+
+std::vector<TriangleMesh> readCellMeshes(const Case& input) { return readMeshes(input, input.mesh.cells); }
+std::vector<TriangleMesh> readBodyMeshes(const Case& input) { return readMeshes(input, input.mesh.bodies); }
 
 geometry::Period periodOf(const particles::Box& box) {
     geometry::Period period = box.size();
@@ -42,28 +50,39 @@ geometry::Period periodOf(const particles::Box& box) {
     return period;
 }
 
-std::vector<std::string> misplacedCells(const Case& input, const std::vector<TriangleMesh>& meshes) {
+std::vector<std::string> misplaced(const Case& input, const std::vector<TriangleMesh>& cells,
+                                   const std::vector<TriangleMesh>& bodies) {
+    struct Placed {
+        std::string name;
+        const TriangleMesh* mesh;
+        bool isBody;
+    };
+    std::vector<Placed> all;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        all.push_back({"cell '" + input.mesh.cells[c].name + "'", &cells[c], false});
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        all.push_back({"body '" + input.mesh.bodies[b].name + "'", &bodies[b], true});
     std::vector<std::string> faults;
     const particles::Box box = input.fluidBox();
-    const auto& cells = input.mesh.cells;
-    for (std::size_t c = 0; c < meshes.size(); ++c) {
-        Vec3 low = meshes[c].nodes.front(), high = low;
-        for (const Vec3& x : meshes[c].nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    for (const Placed& one : all) {
+        Vec3 low = one.mesh->nodes.front(), high = low;
+        for (const Vec3& x : one.mesh->nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
         for (int k = 0; k < 3; ++k) {
             const char axis = "xyz"[k];
             if (box.periodic[static_cast<std::size_t>(k)] ? high[k] - low[k] > box.size()[k]
                                                           : low[k] < box.low[k] || high[k] > box.high[k])
-                faults.push_back(fmt::format(
-                    "the cell '{}' reaches from {} to {} along {}, and the box from {} to {}", cells[c].name,
-                    formatQuantity(low[k], unit::metre), formatQuantity(high[k], unit::metre), axis,
-                    formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre)));
+                faults.push_back(
+                    fmt::format("the {} reaches from {} to {} along {}, and the box from {} to {}", one.name,
+                                formatQuantity(low[k], unit::metre), formatQuantity(high[k], unit::metre), axis,
+                                formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre)));
         }
-        for (std::size_t other = 0; other < meshes.size(); ++other) {
-            if (other == c) continue;
-            const std::vector<int> side = geometry::tagSides(meshes[other].nodes, {meshes[c]}, periodOf(box));
-            if (const auto inside = std::count(side.begin(), side.end(), 1))
-                faults.push_back(fmt::format("{} nodes of the cell '{}' lie inside the cell '{}'", inside,
-                                             cells[other].name, cells[c].name));
+        for (const Placed& other : all) {
+            if (other.mesh == one.mesh) continue;
+            const std::vector<int> side = geometry::tagSides(other.mesh->nodes, {*one.mesh}, periodOf(box));
+            const auto inside = static_cast<std::size_t>(std::count(side.begin(), side.end(), 1));
+            const bool included = other.isBody && !one.isBody && inside == side.size();
+            if (inside > 0 && !included)
+                faults.push_back(fmt::format("{} nodes of the {} lie inside the {}", inside, other.name, one.name));
         }
     }
     return faults;
@@ -90,6 +109,18 @@ nlohmann::ordered_json toJson(const membrane::NetworkModuli& m) {
             {"deviation", m.deviation},
             {"shearAnisotropy", m.shearAnisotropy},
             {"axialAnisotropy", m.axialAnisotropy}};
+}
+
+nlohmann::ordered_json toJson(const bodies::Solid& solid) {
+    return {{"volume_m3", solid.volume},
+            {"mass_kg", solid.mass},
+            {"inertia_kgm2", {solid.inertia[0], solid.inertia[1], solid.inertia[2]}}};
+}
+
+std::string describe(const bodies::Solid& solid) {
+    const Vec3& I = solid.inertia;
+    return fmt::format("volume {:.6g} m^3, mass {:.6g} kg, principal moments of inertia {:.6g}, {:.6g}, {:.6g} kg m^2",
+                       solid.volume, solid.mass, I[0], I[1], I[2]);
 }
 
 std::string indented(const std::string& lines) {

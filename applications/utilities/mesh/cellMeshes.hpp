@@ -1,4 +1,4 @@
-// The cells' meshes as they stand in 0/: what membraneMesh, particleFill and checkMesh have in common.
+// The meshes of cells and rigid bodies as they stand in 0/: what membraneMesh, particleFill and checkMesh have in common.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,23 +12,26 @@ namespace corpuscle::utilities {
 // These programs run alone: Failure(usage) under mpirun with more ranks than one.
 void requireSerial(const Application& app);
 
-// From the shape's frame (axis along z, centre at the origin) to the cell's place, and back.
-void place(geometry::TriangleMesh& mesh, const simulation::CellSettings& cell);
-geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::CellSettings& cell);
+// From the shape's frame (axis along z, centre at the origin) to its place, and back.
+void place(geometry::TriangleMesh& mesh, const simulation::SurfaceSettings& surface);
+geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::SurfaceSettings& surface);
 
 // All cells of the case, in its order. Throws as simulation::readStart.
 std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
+std::vector<geometry::TriangleMesh> readBodyMeshes(const simulation::Case& input);
 
 geometry::Period periodOf(const particles::Box& box);
 
-// Cells that lie in each other or reach out of the box, in plain words; empty: none.
-std::vector<std::string> misplacedCells(const simulation::Case& input,
-                                        const std::vector<geometry::TriangleMesh>& meshes);
+// Cells and bodies that lie in each other or reach out of the box, in plain words; empty: none. A body may lie inside a cell.
+std::vector<std::string> misplaced(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& cells,
+                                   const std::vector<geometry::TriangleMesh>& bodies);
 
 membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);
 
 nlohmann::ordered_json toJson(const geometry::MeshQuality& quality);
 nlohmann::ordered_json toJson(const membrane::NetworkModuli& moduli);
+nlohmann::ordered_json toJson(const bodies::Solid& solid);
+std::string describe(const bodies::Solid& solid);
 
 std::string indented(const std::string& lines);
 

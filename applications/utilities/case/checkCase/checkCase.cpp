@@ -45,6 +45,7 @@ void reportSize(Application& app, const simulation::Case& input, ordered_json& j
         {{"fluid particles", std::to_string(n.fluid)},
          {"wall particles", std::to_string(n.walls)},
          {"membrane nodes", std::to_string(n.nodes)},
+         {"body particles", std::to_string(n.bodies)},
          {"memory, all ranks", mebibytes(size.memory)},
          {"disk: results",
           fmt::format("{} ({} times of {})", mebibytes(size.perWrite * static_cast<double>(size.writes)), size.writes,
@@ -52,7 +53,7 @@ void reportSize(Application& app, const simulation::Case& input, ordered_json& j
          {"disk: checkpoints",
           fmt::format("{} ({} kept)", mebibytes(size.checkpoint * static_cast<double>(input.control.checkpoint.keep)),
                       input.control.checkpoint.keep)}});
-    json["particles"] = {{"fluid", n.fluid}, {"walls", n.walls}, {"nodes", n.nodes}};
+    json["particles"] = {{"fluid", n.fluid}, {"walls", n.walls}, {"nodes", n.nodes}, {"bodies", n.bodies}};
     json["memory_B"] = size.memory;
     json["disk_B"] = size.perWrite * static_cast<double>(size.writes) +
                      size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
@@ -70,12 +71,23 @@ void reportMembranes(Application& app, const coupling::Scene& scene) {
                        membrane::describe(membrane::measureModuli(cell.membrane.network(), cell.membrane.laws())));
 }
 
+void reportBodies(Application& app, const simulation::Case& input, const coupling::Scene& scene, ordered_json& json) {
+    if (!scene.bodies) return;
+    for (const bodies::Body& body : scene.bodies->all()) {
+        app.log().info("body {}: {}, {} particles, volume {:.6g} m^3, mass {:.6g} kg", body.name,
+                       input.bodies.types.at(body.type).motion.name, body.particles.size(), body.solid.volume,
+                       body.solid.mass);
+        json["bodies"][body.name] = {{"volume_m3", body.solid.volume}, {"mass_kg", body.solid.mass}};
+    }
+}
+
 void reportRun(Application& app, const simulation::Case& input, ordered_json& json) {
     coupling::Scene scene = simulation::buildScene(input, app.communicator().handle());
     Time time = simulation::startTime(app, input);
     simulation::Integrator integrator(input, scene);
     integrator.start(time);
     reportMembranes(app, scene);
+    reportBodies(app, input, scene, json);
     std::vector<std::vector<std::string>> rows;
     const std::string binding = integrator.limits().binding().name;
     for (const sph::StepLimit& limit : integrator.limits().all) {
@@ -117,7 +129,7 @@ int main(int argc, char* argv[]) {
             reportRun(app, input, json);
         else
             app.log().info("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
-                           input.mesh.cells.empty() ? "" : "membraneMesh and ");
+                           input.mesh.cells.empty() && input.mesh.bodies.empty() ? "" : "membraneMesh and ");
         app.log().info("Case OK.");
         if (app.json() && app.communicator().isRoot()) std::cout << json.dump(2) << '\n';
         return ExitCode::done;

@@ -62,6 +62,7 @@ std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
             {"system/observers.yaml", observers::ObserversSettings::schema().info()},
             {"constant/fluid.yaml", FluidSettings::schema().info()},
             {"constant/membranes.yaml", MembranesSettings::schema().info()},
+            {"constant/bodies.yaml", bodies::BodiesSettings::schema().info()},
             {"constant/flow.yaml", flowInfo()}};
 }
 

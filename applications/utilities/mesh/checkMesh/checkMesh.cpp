@@ -1,6 +1,6 @@
 // checkMesh: whether what stands in 0/ is sound and belongs to the case.
 //
-// Cells: closed, on their shape, with the wanted edges, in the box and not in each other. Particles: on the lattice's count, sides
+// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and not in each other. Particles: on the lattice's count, sides
 // right by an inside test, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
 //
 // Sample runs:
@@ -29,24 +29,30 @@ constexpr double leastCellDistance = 0.25;  // of the nodes of two cells
 
 using Faults = std::vector<std::string>;
 
+geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, const TriangleMesh& mesh,
+                                   const std::function<void(const std::string&)>& fault) {
+    const geometry::MeshQuality quality =
+        geometry::meshQuality(utilities::inShapeFrame(mesh, surface), surface.shape.model.get());
+    for (const std::string& text : geometry::checkClosedManifold(mesh)) fault(text);
+    if (quality.euler != 2)
+        fault(fmt::format("Euler characteristic {} instead of 2: not one surface without handles", quality.euler));
+    if (quality.angleMin < leastAngle)
+        fault(fmt::format("smallest angle {:.1f} degrees, below {}", quality.angleMin, leastAngle));
+    if (std::abs(quality.edgeMean / surface.edge - 1) > edgeTolerance)
+        fault(fmt::format("mean edge {}, but system/mesh.yaml asks for {}: run membraneMesh again",
+                          formatQuantity(quality.edgeMean, unit::metre), formatQuantity(surface.edge, unit::metre)));
+    if (!(quality.residual <= surfaceTolerance))
+        fault(fmt::format("nodes lie up to {:.2g} radii off the shape of system/mesh.yaml: run membraneMesh again",
+                          quality.residual));
+    return quality;
+}
+
 void checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
                 Faults& faults) {
     for (std::size_t c = 0; c < meshes.size(); ++c) {
         const simulation::CellSettings& cell = input.mesh.cells[c];
         const auto fault = [&](const std::string& text) { faults.push_back("cell '" + cell.name + "': " + text); };
-        const geometry::MeshQuality quality =
-            geometry::meshQuality(utilities::inShapeFrame(meshes[c], cell), cell.shape.model.get());
-        for (const std::string& text : geometry::checkClosedManifold(meshes[c])) fault(text);
-        if (quality.euler != 2)
-            fault(fmt::format("Euler characteristic {} instead of 2: not one surface without handles", quality.euler));
-        if (quality.angleMin < leastAngle)
-            fault(fmt::format("smallest angle {:.1f} degrees, below {}", quality.angleMin, leastAngle));
-        if (std::abs(quality.edgeMean / cell.edge - 1) > edgeTolerance)
-            fault(fmt::format("mean edge {}, but system/mesh.yaml asks for {}: run membraneMesh again",
-                              formatQuantity(quality.edgeMean, unit::metre), formatQuantity(cell.edge, unit::metre)));
-        if (!(quality.residual <= surfaceTolerance))
-            fault(fmt::format("nodes lie up to {:.2g} radii off the shape of system/mesh.yaml: run membraneMesh again",
-                              quality.residual));
+        const geometry::MeshQuality quality = checkSurface(cell, meshes[c], fault);
         app.log().info("cell {}\n{}", cell.name, utilities::indented(quality.text()));
         json["cells"][cell.name] = {{"quality", utilities::toJson(quality)}};
         try {
@@ -57,12 +63,24 @@ void checkCells(Application& app, const Case& input, const std::vector<TriangleM
             fault(failure.what());
         }
     }
-    for (const std::string& text : utilities::misplacedCells(input, meshes)) faults.push_back(text);
 }
 
-// The number of lattice points is that of the fluid and of the fluid that the nodes displace.
+void checkBodies(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
+                 Faults& faults) {
+    for (std::size_t b = 0; b < meshes.size(); ++b) {
+        const simulation::BodyPlaceSettings& body = input.mesh.bodies[b];
+        const geometry::MeshQuality quality = checkSurface(
+            body, meshes[b], [&](const std::string& text) { faults.push_back("body '" + body.name + "': " + text); });
+        const bodies::Solid solid(meshes[b], input.densityOf(body));
+        app.log().info("body {}\n{}\n{}", body.name, utilities::indented(quality.text()),
+                       utilities::indented(utilities::describe(solid)));
+        json["bodies"][body.name] = {{"quality", utilities::toJson(quality)}, {"solid", utilities::toJson(solid)}};
+    }
+}
+
+// The number of lattice points is that of the fluid, of the bodies, and of the fluid that the nodes displace.
 void checkLattice(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, std::size_t fluid,
-                  std::size_t walls, ordered_json& json, Faults& faults) {
+                  std::size_t walls, std::size_t bodies, ordered_json& json, Faults& faults) {
     long count[3], lattice = 1, layer = 1;
     double nodeVolume = 0;
     std::size_t nodes = 0;
@@ -80,13 +98,15 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
                     {{"points", std::to_string(lattice), fmt::format("{} x {} x {}", count[0], count[1], count[2])},
                      {"fluid particles", std::to_string(fluid), ""},
                      {"displaced by nodes", std::to_string(displaced), fmt::format("{} nodes", nodes)},
+                     {"in bodies", std::to_string(bodies), ""},
                      {"wall particles", std::to_string(walls), fmt::format("{} layers each", input.wallLayers())}});
-    json["lattice"] = {
-        {"points", lattice}, {"fluid", fluid}, {"displaced", displaced}, {"walls", walls}, {"nodes", nodes}};
-    if (static_cast<long>(fluid) + displaced != lattice)
-        faults.push_back(fmt::format(
-            "0/fluid.vtp has {} particles, but the lattice less what the nodes displace {}: run particleFill again",
-            fluid, lattice - displaced));
+    json["lattice"] = {{"points", lattice}, {"fluid", fluid},   {"displaced", displaced},
+                       {"walls", walls},    {"bodies", bodies}, {"nodes", nodes}};
+    if (static_cast<long>(fluid + bodies) + displaced != lattice)
+        faults.push_back(
+            fmt::format("0/fluid.vtp has {} particles, but the lattice less what bodies hold and nodes displace {}: "
+                        "run particleFill again",
+                        fluid, lattice - displaced - static_cast<long>(bodies)));
     if (static_cast<long>(walls) != wantedWalls)
         faults.push_back(fmt::format("0/walls.vtp has {} particles, but the case needs {}: run particleFill again",
                                      walls, wantedWalls));
@@ -95,6 +115,7 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
 void checkSides(const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
                 ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
+    // Sides are those of cells: bodies hold no fluid.
     const auto out = std::count_if(fluid.points.begin(), fluid.points.end(),
                                    [&](const Vec3& x) { return particles::distanceSquared(x, box.low, box.high) > 0; });
     if (out > 0) faults.push_back(fmt::format("{} fluid particles lie outside the box", out));
@@ -127,6 +148,7 @@ void checkDistances(Application& app, const Case& input, const utilities::Member
     };
     check("two fluid particles", shortest.fluidFluid, leastDistance, true);
     check("fluid and wall particle", shortest.fluidWall, leastDistance, !members.walls.empty());
+    check("fluid and body particle", shortest.fluidBody, leastDistance, !members.bodies.empty());
     check("fluid particle and node", shortest.fluidNode, leastNodeDistance, !members.cells.empty());
     check("nodes of two cells", shortest.cellCell, leastCellDistance, members.cells.size() > 1);
     app.log().table({"shortest distance", "dx", "at least"}, rows);
@@ -146,15 +168,20 @@ int main(int argc, char* argv[]) {
         const std::vector<TriangleMesh> meshes = utilities::readCellMeshes(input);
         for (const TriangleMesh& mesh : meshes) members.cells.push_back(mesh.nodes);
         checkCells(app, input, meshes, json, faults);
+        const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
+        checkBodies(app, input, bodies, json, faults);
+        for (const std::string& text : utilities::misplaced(input, meshes, bodies)) faults.push_back(text);
 
-        if (!meshes.empty() && !std::filesystem::exists(simulation::startFile(input, "fluid"))) {
+        if (!(meshes.empty() && bodies.empty()) && !std::filesystem::exists(simulation::startFile(input, "fluid"))) {
             app.log().info(
                 "0/fluid.vtp is not there yet: only the meshes are checked; run particleFill, then checkMesh again");
         } else {
             const io::PolyData fluid = simulation::readStart(input, "fluid");
             members.fluid = fluid.points;
             if (input.flow.walls.exist()) members.walls = simulation::readStart(input, "walls").points;
-            checkLattice(app, input, meshes, members.fluid.size(), members.walls.size(), json, faults);
+            if (!bodies.empty()) members.bodies = simulation::readStart(input, "bodies").points;
+            checkLattice(app, input, meshes, members.fluid.size(), members.walls.size(), members.bodies.size(), json,
+                         faults);
             checkSides(input, meshes, fluid, json, faults);
             checkDistances(app, input, members, json, faults);
         }

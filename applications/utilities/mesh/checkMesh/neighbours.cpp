@@ -10,7 +10,7 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
                            MPI_Comm comm) {
     particles::ParticleSystem system(comm, box, {.side = true}, reach, 0.01 * reach, spacing);
     particles::ParticleStore& s = system.store();
-    std::size_t total = members.fluid.size() + members.walls.size(), next = 0;
+    std::size_t total = members.fluid.size() + members.walls.size() + members.bodies.size(), next = 0;
     for (const auto& nodes : members.cells) total += nodes.size();
     s.resize(total);
     const auto add = [&](const std::vector<Vec3>& points, Kind kind, std::int64_t cell) {
@@ -23,26 +23,28 @@ Shortest shortestDistances(const Members& members, const particles::Box& box, do
     };
     add(members.fluid, Kind::fluid, 0);
     add(members.walls, Kind::wall, 0);
+    add(members.bodies, Kind::body, 0);
     for (std::size_t c = 0; c < members.cells.size(); ++c)
         add(members.cells[c], Kind::membrane, static_cast<std::int64_t>(c) + 1);
     system.start();
 
-    // record | x y z | -1 wall, 0 fluid, n node of cell n
+    // record | x y z | -1 wall, -2 body, 0 fluid, n node of cell n
     constexpr std::size_t fields = 4;
     const auto n = static_cast<std::size_t>(system.owned());
     particles::RealArray records((n + static_cast<std::size_t>(system.ghosts())) * fields);
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records.data() + fields * i;
         r[0] = s.x[i], r[1] = s.y[i], r[2] = s.z[i];
-        r[3] = s.kindOf(i) == Kind::wall ? -1 : static_cast<double>(s.side[i]);
+        r[3] = s.kindOf(i) == Kind::wall ? -1 : s.kindOf(i) == Kind::body ? -2 : static_cast<double>(s.side[i]);
     }
-    Shortest shortest{reach, reach, reach, reach};
+    Shortest shortest{reach, reach, reach, reach, reach};
     const auto lanes = static_cast<std::size_t>(system.list().lanes());
     const auto meet = [&](std::size_t i, std::size_t j) {
         const double *a = records.data() + fields * i, *b = records.data() + fields * j;
         const auto [low, high] = std::minmax(a[3], b[3]);
         if ((low < 0 && high != 0) || (low > 0 && low == high)) return;
-        double& least = low < 0    ? shortest.fluidWall
+        double& least = low < -1   ? shortest.fluidBody
+                        : low < 0  ? shortest.fluidWall
                         : low > 0  ? shortest.cellCell
                         : high > 0 ? shortest.fluidNode
                                    : shortest.fluidFluid;

@@ -7,12 +7,12 @@
 namespace corpuscle::utilities {
 
 struct Shortest {
-    double fluidFluid, fluidWall, fluidNode;  // [m]
-    double cellCell;                          // nodes of two cells
+    double fluidFluid, fluidWall, fluidBody, fluidNode;  // [m]
+    double cellCell;                                     // nodes of two cells
 };
 
 struct Members {
-    std::vector<Vec3> fluid, walls;
+    std::vector<Vec3> fluid, walls, bodies;
     std::vector<std::vector<Vec3>> cells;  // nodes of each
 };
 

@@ -1,7 +1,8 @@
-// membraneMesh: meshes every cell of system/mesh.yaml and writes it to 0/<cell>.vtp.
+// membraneMesh: meshes every cell and every rigid body of system/mesh.yaml and writes them to 0/<name>.vtp.
 //
-// Nodes lie on the exact surface; the mesh is the stress-free state of the membrane. Prints quality, and the moduli of the network
-// beside the closed form that Ca is computed with. Cells of the same shape and edge length are meshed once.
+// Nodes lie on the exact surface; the mesh of a cell is the stress-free state of its membrane, that of a body gives its volume and
+// inertia. Prints quality, and the moduli of the network
+// beside the closed form that Ca is computed with. Surfaces of the same shape and edge length are meshed once.
 //
 // Sample runs:
 //     membraneMesh -case tutorials/rbcShear/Ca0.02
@@ -19,12 +20,12 @@ using geometry::TriangleMesh;
 
 namespace {
 
-// Cells are the same kind when shape, its settings and edge length are.
-std::string kindOf(const simulation::CellSettings& cell) {
-    return emit(writeChoice(cell.shape)) + fmt::format("{:a}", cell.edge);
+// Surfaces are the same kind when shape, its settings and edge length are.
+std::string kindOf(const simulation::SurfaceSettings& surface) {
+    return emit(writeChoice(surface.shape)) + fmt::format("{:a}", surface.edge);
 }
 
-void writeCell(const simulation::Case& input, const std::string& name, const TriangleMesh& mesh) {
+void writeSurface(const simulation::Case& input, const std::string& name, const TriangleMesh& mesh) {
     io::PolyData data;
     data.points = mesh.nodes;
     data.triangles = mesh.triangles;
@@ -35,10 +36,48 @@ void writeCell(const simulation::Case& input, const std::string& name, const Tri
     simulation::writeStart(input, name, std::move(data));
 }
 
+class Meshes {
+  public:
+    Meshes(Application& app, const simulation::Case& input) : app_(app), input_(input) {}
+
+    // Meshes, places and writes one surface; `describe` says of its mesh what it is for.
+    TriangleMesh make(const simulation::SurfaceSettings& surface, const std::string& what,
+                      const std::function<std::string(const TriangleMesh&)>& describe, nlohmann::ordered_json& json) {
+        const auto begin = std::chrono::steady_clock::now();
+        const bool isNew = !made_.contains(kindOf(surface));
+        if (isNew) made_[kindOf(surface)] = geometry::meshSurface(*surface.shape, surface.edge);
+        TriangleMesh mesh = made_.at(kindOf(surface));
+        const geometry::MeshQuality quality = geometry::meshQuality(mesh, surface.shape.model.get());
+        json[surface.name] = {{"quality", utilities::toJson(quality)}};
+        const std::string description = describe(mesh);
+        utilities::place(mesh, surface);
+        if (const auto faults = geometry::checkClosedManifold(mesh); !faults.empty())
+            throw Failure(ExitCode::numerics, "the mesh of the " + what + " '" + surface.name +
+                                                  "' is not sound: " + joinWords(faults, "; ") +
+                                                  ". Take a smaller edge in system/mesh.yaml");
+        writeSurface(input_, surface.name, mesh);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        if (isNew)
+            app_.log().info("{} {}: {}, edge {}, written to 0/{}.vtp in {:.2f} s\n{}\n{}", what, surface.name,
+                            surface.shape.name, formatQuantity(surface.edge, unit::metre), surface.name, seconds,
+                            utilities::indented(quality.text()), utilities::indented(description));
+        else
+            app_.log().info("{} {}: the same mesh at its own place, written to 0/{}.vtp", what, surface.name,
+                            surface.name);
+        json[surface.name]["seconds"] = seconds;
+        return mesh;
+    }
+
+  private:
+    Application& app_;
+    const simulation::Case& input_;
+    std::map<std::string, TriangleMesh> made_;
+};
+
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("membraneMesh", "Meshes the cells of a case and writes them to 0/.", argc, argv,
+    Application app("membraneMesh", "Meshes the cells and rigid bodies of a case and writes them to 0/.", argc, argv,
                     {.samples = {"membraneMesh -case tutorials/rbcShear/Ca0.02",
                                  "membraneMesh -set 'system/mesh.yaml:/cells/0/edge=0.3 um'"}});
     return app.run([&] {
@@ -46,34 +85,29 @@ int main(int argc, char* argv[]) {
         app.openLog();
         const simulation::Case input = simulation::Case::read(app);
         nlohmann::ordered_json json = nlohmann::ordered_json::object();
-        std::map<std::string, TriangleMesh> made;
-        std::vector<TriangleMesh> placed;
-        for (const simulation::CellSettings& cell : input.mesh.cells) {
-            const auto begin = std::chrono::steady_clock::now();
-            const bool isNew = !made.contains(kindOf(cell));
-            if (isNew) made[kindOf(cell)] = geometry::meshSurface(*cell.shape, cell.edge);
-            TriangleMesh mesh = made.at(kindOf(cell));
-            const geometry::MeshQuality quality = geometry::meshQuality(mesh, cell.shape.model.get());
-            const membrane::NetworkModuli moduli = utilities::moduliOf(mesh, input.membraneOf(cell));
-            utilities::place(mesh, cell);
-            if (const auto faults = geometry::checkClosedManifold(mesh); !faults.empty())
-                throw Failure(ExitCode::numerics, "the mesh of the cell '" + cell.name +
-                                                      "' is not sound: " + joinWords(faults, "; ") +
-                                                      ". Take a smaller edge in system/mesh.yaml");
-            writeCell(input, cell.name, mesh);
-            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-            if (isNew)
-                app.log().info("cell {}: {}, edge {}, written to 0/{}.vtp in {:.2f} s\n{}\n{}", cell.name,
-                               cell.shape.name, formatQuantity(cell.edge, unit::metre), cell.name, seconds,
-                               utilities::indented(quality.text()), utilities::indented(membrane::describe(moduli)));
-            else
-                app.log().info("cell {}: the same mesh at its own place, written to 0/{}.vtp", cell.name, cell.name);
-            json[cell.name] = {
-                {"quality", utilities::toJson(quality)}, {"moduli", utilities::toJson(moduli)}, {"seconds", seconds}};
-            placed.push_back(std::move(mesh));
-        }
-        for (const std::string& fault : utilities::misplacedCells(input, placed)) app.log().warning("{}", fault);
-        if (input.mesh.cells.empty()) app.log().info("system/mesh.yaml has no cells: nothing to mesh");
+        Meshes meshes(app, input);
+        std::vector<TriangleMesh> cells, bodies;
+        for (const simulation::CellSettings& cell : input.mesh.cells)
+            cells.push_back(meshes.make(
+                cell, "cell",
+                [&](const TriangleMesh& mesh) {
+                    const membrane::NetworkModuli moduli = utilities::moduliOf(mesh, input.membraneOf(cell));
+                    json[cell.name]["moduli"] = utilities::toJson(moduli);
+                    return membrane::describe(moduli);
+                },
+                json));
+        for (const simulation::BodyPlaceSettings& body : input.mesh.bodies)
+            bodies.push_back(meshes.make(
+                body, "body",
+                [&](const TriangleMesh& mesh) {
+                    const bodies::Solid solid(mesh, input.densityOf(body));
+                    json[body.name]["solid"] = utilities::toJson(solid);
+                    return utilities::describe(solid);
+                },
+                json));
+        for (const std::string& fault : utilities::misplaced(input, cells, bodies)) app.log().warning("{}", fault);
+        if (cells.empty() && bodies.empty())
+            app.log().info("system/mesh.yaml has neither cells nor bodies: nothing to mesh");
         app.log().info("Next: particleFill{}", std::filesystem::exists(simulation::startFile(input, "fluid"))
                                                    ? "; 0/fluid.vtp stems from the meshes before these"
                                                    : "");

@@ -1,8 +1,9 @@
-// particleFill: fills the box of a case with particles around the cells in 0/ and writes 0/fluid.vtp and 0/walls.vtp.
+// particleFill: fills the box of a case with particles around the cells and in the rigid bodies of 0/ and writes 0/fluid.vtp,
+// 0/walls.vtp and 0/bodies.vtp.
 //
 // A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing thick, so as
 // many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each cell stays filled to its
-// volume. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
+// volume. A rigid body takes as many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
 //
 // Sample runs:
 //     particleFill -case tutorials/rbcShear/Ca0.02
@@ -12,9 +13,12 @@
 #include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "geometry/insideTest.hpp"
+#include "geometry/triangleGrid.hpp"
 #include "relaxation.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -25,8 +29,9 @@ using simulation::Case;
 namespace {
 
 struct Filling {
-    std::vector<Vec3> fluid, walls;
+    std::vector<Vec3> fluid, walls, bodies;
     std::vector<int> side;  // of the fluid
+    std::vector<int> body;  // of the bodies' particles: number, 1 and up
     double nodeVolume = 0;  // of all membranes [m^3]
     std::size_t nodes = 0, carved = 0, putBack = 0;
     double longestMove = 0;  // of the relaxation [m]
@@ -65,8 +70,46 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
     f.side.resize(count);
 }
 
-// Lattice, and what the nodes displace taken out.
-Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells) {
+// Hands each body's particles over: of the points in it and just outside those that are deepest, to the number that its volume asks for.
+void fillBodies(const Case& input, const std::vector<TriangleMesh>& bodies, Filling& f) {
+    const particles::Box box = input.fluidBox();
+    const double reach = std::numbers::sqrt3 * input.spacing();
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const geometry::TriangleGrid surface(bodies[b], reach);
+        const geometry::InsideTest inside(bodies[b]);
+        const Vec3 middle = bodies[b].centroid();
+        std::vector<std::pair<double, std::size_t>> order;  // distance from the surface and number
+        for (std::size_t i = 0; i < f.fluid.size(); ++i) {
+            const Vec3 x = middle + box.minimumImage(f.fluid[i] - middle);
+            if (const geometry::SurfacePoint nearest = surface.nearest(x))
+                order.emplace_back(nearest.distance, i);
+            else if (inside.inside(x))
+                order.emplace_back(-reach, i);
+        }
+        const auto count = static_cast<std::size_t>(std::lround(bodies[b].volume() / input.particleVolume()));
+        if (count == 0 || count > order.size())
+            throw Failure(ExitCode::invalidCase,
+                          "the body '" + input.mesh.bodies[b].name +
+                              "' cannot be filled: take a smaller spacing in system/numerics.yaml");
+        std::sort(order.begin(), order.end());
+        std::vector<char> taken(f.fluid.size(), 0);
+        for (std::size_t k = 0; k < count; ++k) taken[order[k].second] = 1;
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < f.fluid.size(); ++i)
+            if (taken[i]) {
+                f.bodies.push_back(f.fluid[i]);
+                f.body.push_back(static_cast<int>(b) + 1);
+            } else {
+                f.fluid[left] = f.fluid[i], f.side[left++] = f.side[i];
+            }
+        f.fluid.resize(left);
+        f.side.resize(left);
+    }
+}
+
+// Lattice, and what bodies hold and nodes displace taken out.
+Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells,
+                       const std::vector<TriangleMesh>& bodies) {
     geometry::LatticeBox box;
     box.size = input.mesh.domain.size;
     box.spacing = input.spacing();
@@ -90,13 +133,16 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
     }
     f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
     f.side = geometry::tagSides(f.fluid, cells, utilities::periodOf(input.fluidBox()));
+    fillBodies(input, bodies, f);
     takeOut(input, cells, f);
     return f;
 }
 
 // A particle that would change its side or leave the fluid goes back to where it was.
 void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& cells, Filling& f) {
-    utilities::Relaxation relaxation(input, comm, f.fluid, f.walls, cells);
+    std::vector<Vec3> fixed = f.walls;
+    fixed.insert(fixed.end(), f.bodies.begin(), f.bodies.end());
+    utilities::Relaxation relaxation(input, comm, f.fluid, fixed, cells);
     f.before = f.after = relaxation.evenness();
     if (input.mesh.fill.relaxation == 0) return;
     for (long k = 0; k < input.mesh.fill.relaxation; ++k) relaxation.sweep();
@@ -138,7 +184,20 @@ io::PolyData withState(const Case& input, const std::vector<Vec3>& points, const
     return data;
 }
 
+void writeBodies(const Case& input, const Filling& f) {
+    if (f.bodies.empty()) {
+        std::filesystem::remove(simulation::startFile(input, "bodies"));
+        return;
+    }
+    io::PolyData data;
+    data.points = f.bodies;
+    data.point.integers["body"].assign(f.body.begin(), f.body.end());
+    data.point.scalars["spacing"].assign(f.bodies.size(), input.spacing());
+    simulation::writeStart(input, "bodies", std::move(data));
+}
+
 void write(const Case& input, const Filling& f) {
+    writeBodies(input, f);
     simulation::writeStart(input, "fluid",
                            withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
     if (f.walls.empty()) {
@@ -185,7 +244,12 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
                         fmt::format("{:.3f} dx^3 each, in place of {} fluid particles", mean, f.carved)});
         json["nodeVolume_dx3"] = mean;
     }
-    rows.push_back({"all", std::to_string(f.fluid.size() + f.walls.size() + f.nodes), ""});
+    for (std::size_t b = 0; b < input.mesh.bodies.size(); ++b) {
+        const auto number = std::count(f.body.begin(), f.body.end(), static_cast<int>(b) + 1);
+        rows.push_back({"body " + input.mesh.bodies[b].name, std::to_string(number), ""});
+        json["bodies"][input.mesh.bodies[b].name] = number;
+    }
+    rows.push_back({"all", std::to_string(f.fluid.size() + f.walls.size() + f.bodies.size() + f.nodes), ""});
     log.table({"particles", "number", ""}, rows);
 
     if (f.nodes > 0) {
@@ -209,16 +273,16 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
     }
     json["seconds"] = seconds;
     json["memory_MiB"] = peakMemory();
-    log.info("0/fluid.vtp{} written in {:.2f} s with {:.0f} MiB", f.walls.empty() ? "" : " and 0/walls.vtp", seconds,
-             peakMemory());
+    log.info("0/fluid.vtp{}{} written in {:.2f} s with {:.0f} MiB", f.walls.empty() ? "" : ", 0/walls.vtp",
+             f.bodies.empty() ? "" : ", 0/bodies.vtp", seconds, peakMemory());
     if (app.json()) std::cout << json.dump(2) << '\n';
 }
 
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("particleFill", "Fills the box of a case with particles around its cells and writes them to 0/.",
-                    argc, argv,
+    Application app("particleFill",
+                    "Fills the box and the rigid bodies of a case with particles and writes them to 0/.", argc, argv,
                     {.samples = {"particleFill -case tutorials/rbcShear/Ca0.02",
                                  "particleFill -set system/mesh.yaml:/fill/relaxation=0"}});
     return app.run([&] {
@@ -227,11 +291,12 @@ int main(int argc, char* argv[]) {
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
-        if (const auto faults = utilities::misplacedCells(input, cells); !faults.empty())
-            throw Failure(
-                ExitCode::invalidCase,
-                joinWords(faults, "\n") + "\nmove the cells in system/mesh.yaml, then run membraneMesh again");
-        Filling filling = placeParticles(input, cells);
+        const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
+        if (const auto faults = utilities::misplaced(input, cells, bodies); !faults.empty())
+            throw Failure(ExitCode::invalidCase,
+                          joinWords(faults, "\n") +
+                              "\nmove the cells and bodies in system/mesh.yaml, then run membraneMesh again");
+        Filling filling = placeParticles(input, cells, bodies);
         if (!cells.empty()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
         report(app, input, cells, filling,

@@ -1,0 +1,153 @@
+#include "bodies/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace corpuscle::bodies {
+
+using particles::Kind;
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+namespace {
+
+// As at plane walls: a particle that has come very close does not make the velocity beyond the surface arbitrarily large.
+constexpr double smallestDistanceInSpacings = 0.25;
+
+// The image of `to` nearest to `from`; the bits of `to` where that is the one.
+Vec3 nearestImage(const particles::Box& box, Vec3 to, const Vec3& from) {
+    for (int k = 0; k < 3; ++k)
+        if (box.periodic[static_cast<std::size_t>(k)]) {
+            const double length = box.size()[k], lengths = std::nearbyint((from[k] - to[k]) / length);
+            if (lengths != 0) to[k] += lengths * length;
+        }
+    return to;
+}
+
+}  // namespace
+
+Bodies::Bodies(std::vector<Body> bodies, const Medium& medium) : bodies_(std::move(bodies)), medium_(medium) {
+    std::int64_t first = 0;
+    for (Body& body : bodies_) {
+        body.firstMember = first;
+        first += static_cast<std::int64_t>(body.particles.size());
+        groups_.rotationalDrag.push_back(2 * body.viscosity * body.solid.volume);
+    }
+    groups_.motion.resize(bodies_.size());
+    groups_.wrenches.resize(bodies_.size());
+    groups_.response = [this](const std::vector<Wrench>& wrenches) {
+        std::vector<RigidMotion> accelerations;
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            accelerations.push_back(bodies_[b].behaviour->response(bodies_[b].state, bodies_[b].solid, wrenches[b]));
+        return accelerations;
+    };
+}
+
+std::size_t Bodies::bodyOf(std::int64_t member) const {
+    const auto next = std::upper_bound(bodies_.begin(), bodies_.end(), member,
+                                       [](std::int64_t n, const Body& body) { return n < body.firstMember; });
+    return static_cast<std::size_t>(next - bodies_.begin()) - 1;
+}
+
+void Bodies::drifted(ParticleSystem& system, double dt) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        Body& body = bodies_[b];
+        body.behaviour->advance(body.state, body.solid, body.wrench, dt);
+        // Eq 14 for a body: extrapolated by the force at the beginning of the step.
+        const RigidMotion rate = body.behaviour->response(body.state, body.solid, body.wrench);
+        groups_.motion[b] = {body.state.motion.linear + 0.5 * dt * rate.linear,
+                             body.state.motion.angular + 0.5 * dt * rate.angular};
+    }
+    ParticleStore& s = system.store();
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const auto i = static_cast<std::size_t>(groups_.members[k].particle);
+        const RigidState& state = bodies_[static_cast<std::size_t>(groups_.members[k].group)].state;
+        s.setPosition(i,
+                      nearestImage(system.box(), state.centre + state.orientation * parts_[k]->place, s.position(i)));
+    }
+}
+
+void Bodies::moved(ParticleSystem& system, double, bool rebuilt) {
+    if (rebuilt) findMembers(system), findCandidates(system);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        sph::RigidGroups::Member& member = groups_.members[k];
+        const RigidState& state = bodies_[static_cast<std::size_t>(member.group)].state;
+        member.arm = state.orientation * parts_[k]->place;
+        member.surfaceArm = state.orientation * parts_[k]->foot;
+    }
+    updateNear(system);
+}
+
+void Bodies::findMembers(const ParticleSystem& system) {
+    groups_.members.clear();
+    parts_.clear();
+    const ParticleStore& s = system.store();
+    for (int i = 0; i < system.owned(); ++i) {
+        if (s.kindOf(static_cast<std::size_t>(i)) != Kind::body) continue;
+        const std::int64_t number = s.member[i];
+        const std::size_t b = bodyOf(number);
+        const BodyParticle& part = bodies_[b].particles[static_cast<std::size_t>(number - bodies_[b].firstMember)];
+        groups_.members.push_back({i, static_cast<int>(b), part.depth, Vec3::Zero(), Vec3::Zero()});
+        parts_.push_back(&part);
+    }
+}
+
+Vec3 Bodies::arm(const ParticleSystem& system, const Body& body, int particle) const {
+    return system.box().minimumImage(system.store().position(static_cast<std::size_t>(particle)) - body.state.centre);
+}
+
+// Until the next rebuild a particle and a body each move by no more than the skin from where they are now.
+void Bodies::findCandidates(const ParticleSystem& system) {
+    candidates_.clear();
+    const double margin = system.support() + 2 * system.skin();
+    std::vector<double> reach2;
+    for (const Body& body : bodies_) reach2.push_back(std::pow(body.solid.radius() + margin, 2));
+    for (int i = 0; i < system.owned(); ++i) {
+        if (particles::isBoundary(system.store().kindOf(static_cast<std::size_t>(i)))) continue;
+        Candidate candidate{i, {}};
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+            if (arm(system, bodies_[b], i).squaredNorm() < reach2[b]) candidate.bodies.push_back(static_cast<int>(b));
+        if (!candidate.bodies.empty()) candidates_.push_back(std::move(candidate));
+    }
+}
+
+void Bodies::updateNear(const ParticleSystem& system) {
+    groups_.near.clear();
+    const double reach = system.support(), least = smallestDistanceInSpacings * medium_.spacing;
+    for (const Candidate& candidate : candidates_) {
+        sph::RigidGroups::Near nearest{candidate.particle, -1, 0, Vec3::Zero()};
+        double first = reach, second = reach;  // distances from the nearest surface and from the next
+        for (const int b : candidate.bodies) {
+            const Body& body = bodies_[static_cast<std::size_t>(b)];
+            const Vec3 from = arm(system, body, candidate.particle);
+            const double distance = std::max(0.0, body.distance.at(body.inBody(from)));
+            if (distance >= second) continue;
+            second = distance;
+            if (distance >= first) continue;
+            second = first, first = distance;
+            nearest.group = b, nearest.arm = from;
+        }
+        if (nearest.group < 0) continue;
+        nearest.inverseDistance = (second - first) / (reach - first) / std::max(first, least);
+        groups_.near.push_back(nearest);
+    }
+}
+
+void Bodies::addAccelerations(ParticleSystem&) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        bodies_[b].wrench = groups_.wrenches[b];
+        bodies_[b].wrench.force += medium_.density * bodies_[b].solid.volume * medium_.bodyForce;
+    }
+}
+
+void Bodies::kicked(ParticleSystem& system, double dt) {
+    std::vector<RigidMotion> motions;
+    for (Body& body : bodies_) {
+        body.behaviour->finish(body.state, body.solid, body.wrench, dt);
+        motions.push_back(body.state.motion);
+    }
+    ParticleStore& s = system.store();
+    groups_.spread(motions, s.u.data(), s.v.data(), s.w.data());
+}
+
+}  // namespace corpuscle::bodies

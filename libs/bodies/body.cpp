@@ -1,0 +1,68 @@
+#include "bodies/body.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "geometry/triangleGrid.hpp"
+
+namespace corpuscle::bodies {
+
+namespace {
+constexpr double gridInSpacings = 0.5;
+}
+
+Body::Body(std::string name, std::string type, const geometry::TriangleMesh& mesh, double density,
+           std::shared_ptr<const BodyMotion> motionModel, double reach, double spacing)
+    : name(std::move(name)),
+      type(std::move(type)),
+      solid(mesh, density),
+      behaviour(std::move(motionModel)),
+      state{solid.startCentre(), solid.startOrientation(), {}},
+      distance(solid.surface, gridInSpacings * spacing, reach) {}
+
+void Body::fill(const std::vector<Vec3>& places, double reach) {
+    const geometry::TriangleGrid grid(solid.surface, reach);
+    particles.clear();
+    for (const Vec3& x : places) {
+        const Vec3 place = solid.startOrientation().conjugate() * (x - solid.startCentre());
+        const geometry::SurfacePoint nearest = grid.nearest(place);
+        // Particles below the reach meet no fluid: where their share of a torque would act does not matter.
+        if (nearest)
+            particles.push_back({place, nearest.point, std::max(0.0, -nearest.distance)});
+        else
+            particles.push_back({place, place, reach});
+    }
+}
+
+std::vector<Vec3> Body::nodes() const {
+    const Mat3 R = state.rotation();
+    std::vector<Vec3> moved;
+    for (const Vec3& x : solid.surface.nodes) moved.push_back(state.centre + R * x);
+    return moved;
+}
+
+std::vector<double> Body::saved() const {
+    std::vector<double> values;
+    const auto add = [&](const auto& v) { values.insert(values.end(), v.data(), v.data() + v.size()); };
+    add(state.centre), add(state.orientation.coeffs());
+    add(state.motion.linear), add(state.motion.angular);
+    add(wrench.force), add(wrench.torque);
+    return values;
+}
+
+void Body::restore(const std::vector<double>& values) {
+    if (values.size() != stateLength)
+        throw Failure(ExitCode::io, "the checkpoint holds " + std::to_string(values.size()) +
+                                        " numbers for the body '" + name + "' instead of " +
+                                        std::to_string(stateLength) + "; start from firstTime");
+    const double* next = values.data();
+    const auto take = [&](auto& v) {
+        std::copy_n(next, v.size(), v.data());
+        next += v.size();
+    };
+    take(state.centre), take(state.orientation.coeffs());
+    take(state.motion.linear), take(state.motion.angular);
+    take(wrench.force), take(wrench.torque);
+}
+
+}  // namespace corpuscle::bodies

@@ -1,0 +1,63 @@
+// Groups of particles that move as rigid bodies: what the fluid needs of them. A group has 6 unknowns; P spreads them over its
+// particles, and the transpose of P gathers what acts on the particles:
+//
+//     P   : (U, Omega) -> u_j = U + Omega x r_j                          r_j from the group's centre
+//     P^T : f_j        -> F = sum_j f_j,  T = sum_j s_j x f_j - 2 mu V Omega
+//
+// s_j is the point of the surface nearest to particle j: momentum that viscosity hands from the fluid to a particle below the
+// surface arrives at the surface. The last term of T belongs to the form of the viscous operator: the pairs of fluidPair.hpp carry
+// the traction mu du/dn, which has the divergence but not the moment of mu (grad u + grad u^T).n. On a surface in rigid motion the
+// missing part has no resultant, and its moment is exactly
+//     mu int_S r x (grad u . n) dS = -mu int_V curl u dV = -2 mu V Omega,   V the volume of the body.
+// A sphere that turns in fluid at rest shows it: mu du/dn gives 16/3 pi mu a^3 Omega, the whole 8 pi mu a^3 Omega.
+//
+// Whoever solves for velocities implicitly needs no more: unknowns of the fluid and 6 for each group, P, P^T, and `response`.
+#pragma once
+#include <mpi.h>
+
+#include <functional>
+#include <vector>
+
+#include "particles/particleStore.hpp"
+
+namespace corpuscle::sph {
+
+struct RigidMotion {  // of the group's centre and about it: m/s and 1/s, or m/s^2 and 1/s^2
+    Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+    Vec3 at(const Vec3& arm) const { return linear + angular.cross(arm); }
+};
+
+struct Wrench {  // force [N] and torque about the centre [N m]
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+};
+
+struct RigidGroups {
+    // A particle of this rank that belongs to a group.
+    struct Member {
+        int particle, group;
+        double depth;          // below the surface, at least 0 [m]
+        Vec3 arm, surfaceArm;  // of itself and of the nearest point of the surface, from the centre [m]
+    };
+    // A fluid particle of this rank within the kernel's reach of a surface.
+    struct Near {
+        int particle, group;
+        double
+            inverseDistance;  // from the surface [1/m], times a weight that fades out where another surface comes as close
+        Vec3 arm;
+    };
+    std::vector<Member> members;
+    std::vector<Near> near;
+    std::vector<RigidMotion> motion;     // of each group, at which forces are evaluated
+    std::vector<Wrench> wrenches;        // of the fluid on each group at the last evaluation, the same on all ranks
+    std::vector<double> rotationalDrag;  // 2 mu V of each group [N m s]
+    // Accelerations of the groups under given forces, the same on all ranks; 0 for groups that do not yield.
+    std::function<std::vector<RigidMotion>(const std::vector<Wrench>&)> response;
+
+    // P: velocities of the members of this rank.
+    void spread(const std::vector<RigidMotion>& motions, double* u, double* v, double* w) const;
+    // P^T of mass x acceleration, for groups that move with `motions`; the same on all ranks. Collective.
+    std::vector<Wrench> gather(const std::vector<RigidMotion>& motions, const double* ax, const double* ay,
+                               const double* az, const double* mass, MPI_Comm comm) const;
+};
+
+}  // namespace corpuscle::sph
