@@ -1,7 +1,6 @@
 #include "simulation/caseSettings.hpp"
 
 #include <algorithm>
-
 #include <stdexcept>
 
 namespace corpuscle::simulation {
