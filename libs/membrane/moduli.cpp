@@ -137,6 +137,13 @@ std::string describeConstants(const MembraneSettings& laws, double edge) {
     if (laws.triangles) {
         text += fmt::format("triangles {}: {}\n", laws.triangles.name, laws.triangles->constants());
     }
+    if (laws.viscosity) {
+        text += fmt::format("viscosity: shear {:.4g} N s/m, dilatation {:.4g} N s/m\n", laws.viscosity->shear,
+                            laws.viscosity->dilatation);
+    }
+    if (laws.stressFree) {
+        text += fmt::format("stress-free shape: {}\n", *laws.stressFree);
+    }
     const SurfaceModuli moduli = laws.moduli(edge);
     return text + fmt::format("closed form: Gs {:.4g} N/m, Ks {:.4g} N/m\n", moduli.shear, moduli.area);
 }

@@ -28,6 +28,9 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
             fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                         laws.bonds ? ", hexagonal network" : ""));
         add("lambda", laws.interior.viscosityRatio, "viscosity inside/outside");
+        if (laws.viscosity)
+            add("Bq", laws.viscosity->shear / (c.fluid.viscosity * a),
+                "Boussinesq number: shear viscosity of the membrane over mu a");
         if (laws.bending) {
             const double kappa = laws.bending->bendingModulus({Gs, a});
             add("E_b", kappa / (Gs * a * a),
