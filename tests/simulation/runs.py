@@ -287,11 +287,12 @@ def test_skipping(folder):
 
 
 def tearing(folder, rupture, strain):
-    """A case at Ca 2 with a rupture law, filled; its observer looks whenever the leakage guard has."""
+    """A case at Ca 2 with a rupture law, filled; leakage guard and observer look at every step."""
     return prepared(folder, **{
+        "system/numerics.yaml": CELL_CASE["system/numerics.yaml"] + "guard: 1\n",
         "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", str(strain)),
         "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.5}\n",
-        "system/observers.yaml": "tear: {type: rupture, every: 10 steps}\n",
+        "system/observers.yaml": "tear: {type: rupture, every: 1 steps}\n",
         "constant/membranes.yaml": CELL_CASE["constant/membranes.yaml"] + f"  rupture: {rupture}\n"})
 
 
@@ -313,7 +314,7 @@ def test_rupture(folder):
         rows, ends[ranks] = seen["rbc"], seen["rbc"][-1]
         first = seen["events"][0]["strain"]
         before = [row for row in rows if row["strain"] < first]
-        assert len(before) > 10, len(before)
+        assert len(before) > 20, len(before)
         # leaked is the count of inside particles beyond the surface, whatever the reason: none, so nothing could be released.
         for key in ("leaked", "released", "releasedVolume_m3", "haemolysisIndex_percent", "bondsBroken", "holes"):
             assert all(row[key] == 0 for row in before), key
@@ -356,7 +357,7 @@ def test_damage(folder):
         assert [e["bond"] for e in events] == [e["bond"] for e in other["events"]]
         assert all(math.isclose(a["strain"], b["strain"], rel_tol=1e-9) for a, b in zip(events, other["events"]))
         assert all(math.isclose(a["maxDamage"], b["maxDamage"], rel_tol=1e-6, abs_tol=1e-12) for a, b in zip(rows, other["rbc"]))
-    steps = round(0.5 * next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1) * 10 + 5 * len(before))
+    steps = next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1)  # a row for each step
     for ranks in (1, 2):
         parts = folder / f"parts{ranks}"
         shutil.copytree(start, parts)

@@ -2,7 +2,8 @@
 """The capillary number of the first break, by bisection, at each resolution.
 
 A run at Ca either reaches the strain given without a break or stops at its first break (stop.firstBreak). Between a Ca that does
-not break and one that does, the next run is at their geometric mean, until their ratio is below 1 + tolerance.
+not break and one that does, the next run is at their geometric mean, until their ratio is below 1 + tolerance. The second
+resolution and later ones start from 15 % about the result of the one before, and widen that where it does not hold.
 """
 import argparse
 import csv
@@ -18,7 +19,7 @@ COLUMNS = ["spacing_um", "Ca_whole", "Ca_breaks", "Ca_critical", "shearRate_crit
 
 def options():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("-bracket", default="0.05 0.2", help="a Ca that does not break and one that does")
+    p.add_argument("-bracket", default="0.05 0.2", help="a Ca that does not break and one that does, for the first resolution")
     p.add_argument("-tolerance", type=float, default=0.02, help="relative width of the last bracket")
     p.add_argument("-strain", type=float, default=2, help="strain that a cell must bear to count as whole")
     p.add_argument("-spacing", default="0.8 0.64 0.5", help="particle spacings in um; edges of the mesh are 0.8 of them")
@@ -48,7 +49,7 @@ class Study:
         self.settings = [f"system/numerics.yaml:/spacing={spacing} um", f"system/mesh.yaml:/domain/size={o.box}",
                          f"system/mesh.yaml:/cells/0/edge={0.8 * float(spacing):g} um", f"system/control.yaml:/endStrain={o.strain}",
                          "system/control.yaml:/startFrom=firstTime", "system/control.yaml:/stop/firstBreak=true"] + o.set
-        self.runs, self.wallClock, self.breaks = [], 0.0, {}
+        self.runs, self.wallClock, self.seen = [], 0.0, {}
         for application in ("membraneMesh", "particleFill"):
             execute(self.case, application, self.settings)
 
@@ -60,23 +61,29 @@ class Study:
         if not broke and run["status"] != "done":
             sys.exit(f"{self.case}: {run['status']} at Ca {Ca:g} before strain {self.strain:g}: {run['reason']}")
         self.wallClock += run["wallClock_s"]
-        self.breaks[Ca] = (run["result"]["strain"], run["parameters"]["shearRate_1_s"])
+        self.seen[Ca] = (run["result"]["strain"], run["parameters"]["shearRate_1_s"])
         self.runs.append([self.spacing, Ca, int(broke), run["result"]["strain"]])
         print(f"dx {self.spacing} um, Ca {Ca:.5g}: " + (f"breaks at strain {run['result']['strain']:.4f}" if broke else "whole"), flush=True)
         return broke
 
+    def hold(self, low, high):
+        """The bracket, each end moved out until it is on its side."""
+        width = high / low
+        while self.breaksAt(low):
+            low, high = low / width, low
+        while high not in self.seen and not self.breaksAt(high):
+            low, high = high, high * width
+        return low, high
+
     def bisect(self, low, high, tolerance):
-        for Ca, wanted in ((low, False), (high, True)):
-            if self.breaksAt(Ca) != wanted:
-                sys.exit(f"the bracket does not hold the first break: at Ca {Ca:g} the cell {'stays whole' if wanted else 'breaks'}; "
-                         f"give -bracket a {'greater' if wanted else 'smaller'} number")
+        low, high = self.hold(low, high)
         while high / low > 1 + tolerance:
             middle = math.sqrt(low * high)
             if self.breaksAt(middle):
                 high = middle
             else:
                 low = middle
-        critical, (strain, shearRate) = math.sqrt(low * high), self.breaks[high]
+        critical, (strain, shearRate) = math.sqrt(low * high), self.seen[high]
         return [self.spacing, low, high, critical, shearRate * critical / high, strain, len(self.runs), round(self.wallClock, 1)]
 
 
@@ -93,6 +100,7 @@ def main():
     for spacing in o.spacing.split():
         study = Study(o, spacing)
         results.append(study.bisect(low, high, o.tolerance))
+        low, high = results[-1][3] / 1.15, results[-1][3] * 1.15
         runs += sorted(study.runs, key=lambda run: run[1])
         write("summary.csv", COLUMNS, results)
         write("runs.csv", ["spacing_um", "Ca", "broke", "strain"], runs)
