@@ -387,6 +387,50 @@ def test_firstBreak(folder):
     assert json.loads((case / "run.json").read_text())["result"]["brokenBonds"] == 0
 
 
+def test_stressFree(folder):
+    """A cell goes back to the stress-free shape that its case names; its own mesh changes nothing; another mesh is refused."""
+    laws = CELL_CASE["constant/membranes.yaml"]
+    relax = """cell: {name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um}
+protocol: {type: resting}
+forceScale: 1 pN
+"""
+    def relaxed(name, laws):
+        case = make(folder / name, {"system/relax.yaml": relax, "constant/membranes.yaml": laws})
+        run(case, "membraneRelax")
+        (surface,) = (case / "results/rbc").glob("*/*.vtp")
+        with open(case / "postProcessing/relax/0/rbc.csv") as table:
+            return surface, list(csv.DictReader(table))[-1]
+    blown, end = relaxed("blown", laws + "  volume: {modulus: 1 kPa, reducedVolume: 0.8}\n")
+    assert float(end["volumeStrain"]) > 0.1
+    (folder / "back/constant").mkdir(parents=True)
+    shutil.copy(blown, folder / "back/constant/stressFree.vtp")
+    free = laws + "  stressFree: constant/stressFree.vtp\n"
+    _, back = relaxed("back", free)
+    for name in ("area_m2", "volume_m3"):
+        assert math.isclose(float(back[name]), float(end[name]), rel_tol=1e-5), (name, back[name], end[name])
+    assert float(back["energy_J"]) < 1e-6 * float(end["energy_J"])
+
+    plain = prepared(folder / "plain")
+    own, other = folder / "own", folder / "other"
+    for case in (own, other):
+        shutil.copytree(plain, case)
+        (case / "constant/membranes.yaml").write_text(free)
+    shutil.copy(own / "0/rbc.vtp", own / "constant/stressFree.vtp")
+    shutil.copy(blown, other / "constant/stressFree.vtp")
+    steps = ("-steps", "20")
+    for case in (plain, own, other):
+        run(case, "dmpFlow", *steps)
+    same_checkpoint(last_checkpoint(plain), last_checkpoint(own))
+    volume = {case.name: float(series(case, "balance")[0][-2]) for case in (plain, other)}
+    assert math.isclose(volume["plain"], volume["other"], rel_tol=1e-12), "both start from the mesh"
+    energy = {case.name: float(series(case, "balance")[0][10]) for case in (plain, other)}
+    assert energy["other"] > 1e3 * abs(energy["plain"]), energy
+    said = run(own, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/stressFree=0/fluid.vtp", code=2).stderr
+    assert "stressFree: found 0/fluid.vtp with" in said and "membraneRelax" in said, said
+    said = run(own, "checkCase", "-set", "constant/membranes.yaml:/rbc/stressFree=none.vtp", code=2).stderr
+    assert "rbc.stressFree" in said and "none.vtp" in said, said
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as temporary:
         globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
