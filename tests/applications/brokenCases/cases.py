@@ -211,7 +211,7 @@ CASES = [
 
     # Rigid bodies
     case("bodiesWithoutFile", with_body("")[0], BODIES, "", None, "no such file"),
-    case("bodyWithoutMotion", with_body("bead: {density: 1000 kg/m^3}\n"), BODIES, "bead.motion", "bead:", "missing", "held"),
+    case("bodyWithoutMotion", with_body("bead: {density: 1000 kg/m^3}\n"), BODIES, "bead.motion", "bead:", "missing", "body motion"),
     case("unknownMotion", with_body("bead: {motion: fixed}\n"), BODIES, "bead.motion", "fixed", "unknown body motion 'fixed'", "Known:",
          "driven, free, held"),
     case("unknownKeyOfBody", with_body("bead: {motion: free, mass: 1}\n"), BODIES, "bead.mass", "mass", "unknown key", "Allowed: density, motion"),
