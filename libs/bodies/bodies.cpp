@@ -31,9 +31,9 @@ Bodies::Bodies(std::vector<Body> bodies, const Medium& medium) : bodies_(std::mo
     for (Body& body : bodies_) {
         body.firstMember = first;
         first += static_cast<std::int64_t>(body.particles.size());
-        groups_.rotationalDrag.push_back(2 * body.viscosity * body.solid.volume);
     }
     groups_.motion.resize(bodies_.size());
+    groups_.rotationalDrag.resize(bodies_.size());
     groups_.wrenches.resize(bodies_.size());
     groups_.response = [this](const std::vector<Wrench>& wrenches) {
         std::vector<RigidMotion> accelerations;
@@ -74,6 +74,10 @@ void Bodies::moved(ParticleSystem& system, double, bool rebuilt) {
         const RigidState& state = bodies_[static_cast<std::size_t>(member.group)].state;
         member.arm = state.orientation * parts_[k]->place;
         member.surfaceArm = state.orientation * parts_[k]->foot;
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const Mat3 R = bodies_[b].state.rotation();
+        groups_.rotationalDrag[b] = R * bodies_[b].rotationalDrag * R.transpose();
     }
     updateNear(system);
 }

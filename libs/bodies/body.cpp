@@ -1,6 +1,8 @@
 #include "bodies/body.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 #include "geometry/triangleGrid.hpp"
@@ -20,7 +22,7 @@ Body::Body(std::string name, std::string type, const geometry::TriangleMesh& mes
       state{solid.startCentre(), solid.startOrientation(), {}},
       distance(solid.surface, gridInSpacings * spacing, reach) {}
 
-void Body::fill(const std::vector<Vec3>& places, double reach) {
+void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach) {
     const geometry::TriangleGrid grid(solid.surface, reach);
     particles.clear();
     for (const Vec3& x : places) {
@@ -31,6 +33,32 @@ void Body::fill(const std::vector<Vec3>& places, double reach) {
             particles.push_back({place, nearest.point, std::max(0.0, -nearest.distance)});
         else
             particles.push_back({place, place, reach});
+    }
+    sumRotationalDrag(particleVolume, kernel, reach);
+}
+
+// D Omega = sum_j s_j x (Omega x q_j),  q_j = sum_k 2 mu V^2 F (r_j - r_k) over the body's own particles k: 0 far from the surface.
+void Body::sumRotationalDrag(double particleVolume, const sph::Kernel& kernel, double reach) {
+    const double factor = 2 * viscosity * particleVolume * particleVolume * kernel.gradientNormalisation(reach);
+    const auto column = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach)); };
+    std::map<std::array<std::int64_t, 3>, std::vector<const BodyParticle*>> cells;
+    for (const BodyParticle& p : particles)
+        cells[{column(p.place[0]), column(p.place[1]), column(p.place[2])}].push_back(&p);
+    rotationalDrag.setZero();
+    for (const BodyParticle& p : particles) {
+        if (p.depth >= reach) continue;
+        Vec3 q = Vec3::Zero();
+        for (int n = 0; n < 27; ++n) {
+            const auto cell = cells.find(
+                {column(p.place[0]) + n % 3 - 1, column(p.place[1]) + n / 3 % 3 - 1, column(p.place[2]) + n / 9 - 1});
+            if (cell == cells.end()) continue;
+            for (const BodyParticle* other : cell->second) {
+                const Vec3 d = p.place - other->place;
+                const double distance = d.norm() / reach;
+                if (distance < 1) q += factor * kernel.slope(distance) * d;
+            }
+        }
+        rotationalDrag += p.foot.dot(q) * Mat3::Identity() - q * p.foot.transpose();
     }
 }
 

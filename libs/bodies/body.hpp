@@ -8,6 +8,7 @@
 
 #include "bodies/bodyMotion.hpp"
 #include "geometry/distanceField.hpp"
+#include "sph/kernel.hpp"
 
 namespace corpuscle::bodies {
 
@@ -28,14 +29,17 @@ struct Body {
     Wrench wrench;                 // of the fluid, about the centre of mass, at the last evaluation
     std::int64_t firstMember = 0;  // number of its first particle: field `member` of the store
     std::vector<BodyParticle> particles;
+    // Sum over pairs of the torque that fluid turning with the body as one piece would exert: T = D Omega, in the body frame (sph/rigidGroups.hpp).
+    // What the fluid's particles around contribute is the opposite of what the body's own do, since both together are even.
+    Mat3 rotationalDrag = Mat3::Zero();
     geometry::DistanceField distance;  // from the surface, in the body frame
 
     // mesh: where the body stands at t = 0. reach: of the kernel; spacing of the particles [m].
     Body(std::string name, std::string type, const geometry::TriangleMesh& mesh, double density,
          std::shared_ptr<const BodyMotion> behaviour, double reach, double spacing);
 
-    // Takes up its particles where they stand at t = 0, images nearest to the centre.
-    void fill(const std::vector<Vec3>& places, double reach);
+    // Takes up its particles where they stand at t = 0, images nearest to the centre; volume: of one of them.
+    void fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach);
 
     Vec3 inBody(const Vec3& fromCentre) const { return state.orientation.conjugate() * fromCentre; }
     // From t = 0 to now.
@@ -46,6 +50,9 @@ struct Body {
     static constexpr std::size_t stateLength = 19;
     std::vector<double> saved() const;
     void restore(const std::vector<double>& saved);
+
+  private:
+    void sumRotationalDrag(double particleVolume, const sph::Kernel& kernel, double reach);
 };
 
 }  // namespace corpuscle::bodies

@@ -2,7 +2,7 @@
 //
 // column                          | meaning                                                                             | unit
 // density_mean, _min, _max        | of the fluid's particles over rho0                                                  | -
-// kineticEnergy                   | sum m u^2/2 of fluid and membrane particles                                         | J
+// kineticEnergy                   | sum m u^2/2 of fluid and membrane particles, and that of rigid bodies               | J
 // momentum_x, _y, _z              | sum m u of the same; walls and body force change it                                 | N s
 // particles                       | of all kinds                                                                        | -
 // with cells only:
@@ -60,7 +60,7 @@ class ConservationObservation : public Observation {
         Vec3 momentum = Vec3::Zero();
         for (std::size_t i = 0; i < s.size(); ++i) {
             const particles::Kind kind = s.kindOf(i);
-            if (kind == particles::Kind::wall) continue;
+            if (particles::isBoundary(kind)) continue;
             const Vec3 u = s.velocity(i);
             energy += 0.5 * scene.mass(i) * u.squaredNorm();
             momentum += scene.mass(i) * u;
@@ -70,6 +70,13 @@ class ConservationObservation : public Observation {
             least = std::min(least, s.density[i]);
             most = std::max(most, s.density[i]);
         }
+        if (scene.bodies && ranks.isRoot())
+            for (const bodies::Body& body : scene.bodies->all()) {
+                const bodies::RigidMotion& motion = body.state.motion;
+                energy += 0.5 * (body.solid.mass * motion.linear.squaredNorm() +
+                                 motion.angular.dot(body.state.angularMomentum(body.solid)));
+                momentum += body.solid.mass * motion.linear;
+            }
         const auto sums = ranks.sum(std::vector<double>{density, static_cast<double>(fluid), energy, momentum[0],
                                                         momentum[1], momentum[2], static_cast<double>(s.size())});
         const double rest = scene.model().density;

@@ -66,6 +66,16 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          formatQuantity(c.spacing(), unit::metre) + "; at least " +
                          formatQuantity(leastBodyInSpacings * c.spacing(), unit::metre) +
                          ": take a smaller spacing in system/numerics.yaml, or a thicker body");
+    if (kind == "body")
+        for (int k = 0; k < 3; ++k) {
+            const double least = box.sizes().maxCoeff() + 2 * c.support();
+            if (c.mesh.domain.periodic[static_cast<std::size_t>(k)] && c.mesh.domain.size[k] < least)
+                problems.add(mesh, key + ".shape",
+                             std::string("the body is too long for the box, which is periodic along ") + axisName(k) +
+                                 " with " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
+                                 ": it would meet its own image within the kernel's reach; at least " +
+                                 formatQuantity(least, unit::metre) + ", better five times its radius");
+        }
     const int wall = c.flowModel->wallAxis();
     if (wall < 0) return;
     // Extent across the walls, as that of the ellipsoid in the shape's box.

@@ -70,7 +70,6 @@ void addBodies(const Case& input, Scene& scene) {
         for (std::size_t k = 0; k < number.size(); ++k)
             if (number[k] == static_cast<std::int64_t>(all.size()) + 1)
                 places.push_back(centre + scene.fluidBox.minimumImage(filling.points[k] - centre));
-        body.fill(places, input.support());
         body.axis = place.axis.normalized();
         body.cell = cellAround(scene, centre);
         body.viscosity = input.fluid.viscosity;
@@ -79,6 +78,7 @@ void addBodies(const Case& input, Scene& scene) {
             body.viscosity *= around.viscosityRatio;
             around.solidVolume += body.solid.volume;
         }
+        body.fill(places, input.particleVolume(), *input.numerics.kernel, input.support());
         all.push_back(std::move(body));
     }
     scene.bodies = std::make_unique<bodies::Bodies>(

@@ -1,7 +1,5 @@
 #include "sph/fluidForces.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,5 @@
 #include "sph/rigidGroups.hpp"
 
-#include <Eigen/Geometry>
-
 namespace corpuscle::sph {
 
 void RigidGroups::spread(const std::vector<RigidMotion>& motions, double* u, double* v, double* w) const {

@@ -55,6 +55,17 @@ FLUID_CASE = {
 }
 
 
+BODY_CASE = {
+    **{name: text for name, text in CELL_CASE.items() if name != "constant/membranes.yaml"},
+    "system/mesh.yaml": """domain: {size: [12, 11, 10] um, periodic: [true, true, false]}
+bodies: [{name: bead, shape: {type: spheroid, a: 3 um, c: 2 um}, edge: 0.7 um, centre: [5, 0, 0] um, axis: [0.3, 0, 1]}]
+""",
+    "system/observers.yaml": "motion: {type: body, every: 0.01 strain}\nbalance: {type: conservation, every: 0.01 strain}\n",
+    "constant/bodies.yaml": "bead: {density: 1200 kg/m^3, motion: free}\n",
+    "constant/flow.yaml": "type: shear\nshearRate: 200 1/s\ninertia: {Re: 0.5}\n",
+}
+
+
 def make(folder, files, **changes):
     for name, text in {**files, **changes}.items():
         path = pathlib.Path(folder) / name
@@ -74,7 +85,7 @@ def run(case, application, *options, ranks=1, code=0, env=None):
 
 def prepared(folder, files=CELL_CASE, **changes):
     case = make(folder, files, **changes)
-    if "constant/membranes.yaml" in files:
+    if "constant/membranes.yaml" in files or "constant/bodies.yaml" in files:
         run(case, "membraneMesh")
     run(case, "particleFill")
     return case
@@ -127,6 +138,34 @@ def close(a, b, tolerance):
     scale = [max(abs(float(row[k])) for row in a) or 1.0 for k in range(len(a[0]))]
     worst = max(abs(float(x) - float(y)) / s for p, q in zip(a, b) for x, y, s in zip(p, q, scale))
     assert worst <= tolerance, f"largest relative difference {worst:.3g}, allowed {tolerance}"
+
+
+def test_bodies(folder):
+    """A free body across a periodic face: a run in two parts ends with the bits of a run in one, on 1 and 2 ranks; 4 ranks see the same motion."""
+    start = prepared(folder / "start", BODY_CASE)
+    run(start, "checkMesh")
+    run(start, "checkCase")
+    motions = []
+    for ranks in (1, 2, 4):
+        whole = folder / f"whole{ranks}"
+        shutil.copytree(start, whole)
+        run(whole, "dmpFlow", ranks=ranks)
+        motions.append([[float(v) for v in row] for row in series(whole, "motion")])
+        if ranks < 4:
+            parts = folder / f"parts{ranks}"
+            shutil.copytree(start, parts)
+            run(parts, "dmpFlow", "-steps", "37", ranks=ranks)
+            run(parts, "dmpFlow", ranks=ranks)
+            same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+            assert series(whole, "motion") == series(parts, "motion")
+        assert list((whole / "results" / "bead").glob("*.pvtp")), "the body's surface is among the results"
+    first, last = motions[0][0], motions[0][-1]
+    turned, rate = last[5], last[16] / 200  # x of the axis, angular velocity about y over gammadot
+    assert len(motions[0]) >= 12 and abs(first[16] - 100) < 1e-6, "it starts with half the curl of the flow"
+    assert 0.2 < rate < 0.6 and turned > first[5], (turned, rate)
+    for other in motions[1:]:
+        for a, b in zip(motions[0], other):
+            assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], 3 * [5e-6] + 7 * [1] + 3 * [1e-3] + 3 * [200])), (a, b)
 
 
 def test_kill(folder):

@@ -6,7 +6,7 @@ key, the text that stands at the line and column named (None where no line is), 
 from dataclasses import dataclass, field
 
 CONTROL, NUMERICS, MESH, OBSERVERS = (f"system/{name}.yaml" for name in ("control", "numerics", "mesh", "observers"))
-FLUID, MEMBRANES, FLOW = (f"constant/{name}.yaml" for name in ("fluid", "membranes", "flow"))
+FLUID, MEMBRANES, BODIES, FLOW = (f"constant/{name}.yaml" for name in ("fluid", "membranes", "bodies", "flow"))
 
 
 @dataclass
@@ -65,6 +65,11 @@ NO_CELLS = [replace(MESH, """cells:
 VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), replace(MESH, "[true, true, false]", "[true, true, true]"),
                        rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
                        replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
+
+# The base case with a rigid sphere beside its cell.
+def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, centre: [7, 0, 0] um}"):
+    return [append(MESH, f"bodies:\n  - {place}\n"), rewrite(BODIES, bodies)]
+
 
 CASES = [
     # Form of a file
@@ -217,6 +222,32 @@ CASES = [
     Case("observerEveryStrainWithoutShear", VORTICES + [rewrite(OBSERVERS, "balance: {type: conservation, every: 0.1 strain}\n")],
          [Problem(OBSERVERS, "balance", "balance", ["every", "no shear rate", "in s or in steps"])]),
     case("observerLooksTooRarely", replace(OBSERVERS, "0.02 strain", "2 strain"), OBSERVERS, "deformation", "deformation", "1.5 strain"),
+
+    # Rigid bodies
+    case("bodiesWithoutFile", with_body("")[0], BODIES, "", None, "no such file"),
+    case("bodyWithoutMotion", with_body("bead: {density: 1000 kg/m^3}\n"), BODIES, "bead.motion", "bead:", "missing", "body motion"),
+    case("unknownMotion", with_body("bead: {motion: fixed}\n"), BODIES, "bead.motion", "fixed", "unknown body motion 'fixed'", "Known:",
+         "driven, free, held"),
+    case("unknownKeyOfBody", with_body("bead: {motion: free, mass: 1}\n"), BODIES, "bead.mass", "mass", "unknown key", "Allowed: density, motion"),
+    case("velocityOfHeldBody", with_body("bead: {motion: {type: held, velocity: [1, 0, 0] m/s}}\n"), BODIES, "bead.motion.velocity",
+         "velocity", "unknown key"),
+    case("drivenWithoutRates", with_body("bead: {motion: driven}\n"), BODIES, "bead.motion", "motion: driven", "velocity",
+         "angularVelocity", "write held"),
+    case("angularVelocityInMetres", with_body("bead: {motion: {type: driven, angularVelocity: [1, 0, 0] m/s}}\n"), BODIES,
+         "bead.motion.angularVelocity[0]", "1", "m/s", "1/s"),
+    case("bodyDensityNegative", with_body("bead: {density: -1 kg/m^3, motion: free}\n"), BODIES, "bead.density", "-1", "greater than 0"),
+    case("bodyWithoutEntry", with_body("beed: {motion: free}\n"), BODIES, "bead", "beed:", "the body 'bead'", "system/mesh.yaml",
+         "Did you mean 'beed'?"),
+    case("bodyNamedAsCell", with_body("bead: {motion: free}\n", "{name: rbc, body: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, "
+         "centre: [7, 0, 0] um}"), MESH, "bodies[0].name", "rbc, body", "'rbc' is taken"),
+    case("bodyTooThin", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: spheroid, a: 3 um, c: 1 um}, edge: 0.5 um, "
+         "centre: [7, 0, 0] um}"), MESH, "bodies[0].shape", "{type: spheroid", "2 um thick", "at least 3 um"),
+    case("bodyMeetsItsImage", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: spheroid, a: 2 um, c: 6 um}, edge: 0.5 um, "
+         "axis: [0, 1, 0], centre: [7, 0, 0] um}"), MESH, "bodies[0].shape", "{type: spheroid", "periodic along y", "its own image", "18 um"),
+    case("bodyThroughWall", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, "
+         "centre: [7, 0, 7] um}"), MESH, "bodies[0].centre", "[7, 0, 7]", "the body reaches through the wall", "along z"),
+    Case("observerOfBodiesWithoutBodies", [append(OBSERVERS, "motion: {type: body, every: 10 steps}\n")],
+         [Problem(OBSERVERS, "motion", "motion", ["body", "the case has none", "system/mesh.yaml"])]),
 
     # All at once
     Case("severalAtOnce", [replace(FLUID, "1000 kg/m^3", "1000"), replace(FLUID, "gamma: 7", "gama: 7"), replace(NUMERICS, "1 um", "1 kg"),
