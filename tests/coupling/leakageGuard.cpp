@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coupling/dualIdentity.hpp"
 #include "coupling/sphereScene.hpp"
 
 using namespace corpuscle;
@@ -102,6 +103,33 @@ TEST_P(Guard, leavesARupturedCellAlone) {
     EXPECT_TRUE(scene.cells[0].membrane.network().isOpen());
     scene.guard.putBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 0);
+}
+
+TEST(BreakingCell, isLookedAtOnceMoreBeforeItOpens) {
+    Guarded scene;
+    membrane::MembraneSettings laws;
+    laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
+    laws.rupture = choice<membrane::RuptureLaw>("{type: bondStretch, limit: 1.05}");
+    std::vector<Vec3> small = scene.start[0];
+    for (Vec3& x : small) x = centre + 0.9 * (x - centre);
+    membrane::Membrane& membrane = scene.cells[0].membrane;
+    membrane = membrane::Membrane("sphere", 1, small, membrane.network().triangles(), laws, radius);
+    membrane.position = scene.start[0];
+    DualIdentity coupling(scene.cells, 1, DensityBalance(12 * 7 * 8, 1), {1000, 0});
+    coupling.moved(*scene.system, true);
+    const int i = scene.nearest(1);
+    for (int step = 0; step < 2; ++step) {
+        if (i >= 0)
+            scene.system->store().setPosition(
+                i, scene.system->store().position(i) + (radius + 0.4 - scene.distance(i)) * scene.outward(i));
+        const bool broke = !coupling.endStep(*scene.system, 1).empty();
+        EXPECT_EQ(broke, step == 0 && scene.cells[0].held);
+        EXPECT_EQ(sph::testing::sumOverRanks(static_cast<double>(coupling.guard().moves())), 1)
+            << "the second goes free";
+        if (i >= 0) {
+            EXPECT_EQ(scene.distance(i) < radius, step == 0);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, Guard, ::testing::Values(1, 0));

@@ -79,15 +79,22 @@ TEST(NodeExchange, aCellTravellingThroughThePeriodicBoxStaysInOnePiece) {
     }
 }
 
-TEST(NodeExchange, newHoldersLearnWhichBondsAreBroken) {
+TEST(NodeExchange, newHoldersLearnWhichBondsAreBrokenAndWhatIsDamaged) {
     SphereScene scene({24, 7, 7}, {Vec3(3, 3.5, 3.5)});
+    membrane::MembraneSettings laws;
+    laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
+    laws.rupture = choice<membrane::RuptureLaw>("{type: damage, scale: 0.1, time: 1 s}");
+    membrane::Membrane& made = scene.cells[0].membrane;
+    made = membrane::Membrane("sphere", 1, scene.start[0], made.network().triangles(), laws, radius);
     NodeExchange exchange;
     exchange.plan(*scene.system, scene.cells, 1);
     exchange.gather(*scene.system, scene.cells, 0);
     Cell& cell = scene.cells[0];
     std::vector<char> alive(cell.membrane.network().allBonds().size(), 1);
     alive[7] = alive[100] = 0;
-    if (cell.held) cell.membrane.restore(alive);
+    std::vector<double> damage(cell.membrane.network().triangles().size());
+    for (std::size_t t = 0; t < damage.size(); ++t) damage[t] = 1.0 / static_cast<double>(t + 3);
+    if (cell.held) cell.membrane.restore(alive, damage);
     for (int step = 1; step <= 100; ++step) {
         scene.moveNodes([&](const Vec3& x) -> Vec3 { return x + Vec3(0.12 * step, 0, 0); });
         if (scene.system->mustRebuild()) {
@@ -97,6 +104,7 @@ TEST(NodeExchange, newHoldersLearnWhichBondsAreBroken) {
         exchange.gather(*scene.system, scene.cells, 0);
         if (cell.held) {
             EXPECT_EQ(cell.membrane.network().aliveBonds(), alive);
+            EXPECT_EQ(cell.membrane.damage(), damage);
         }
     }
 }

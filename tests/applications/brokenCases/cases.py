@@ -166,7 +166,7 @@ CASES = [
     case("unknownRupture", replace(MEMBRANES, "rupture: none", "rupture: {type: areaStrain, limit: 0.02}"), MEMBRANES, "rbc.rupture.type",
          "areaStrain", "unknown rupture law 'areaStrain'", "Did you mean 'arealStrain'?", "damage"),
     case("firstBreakOfWhatCannotBreak", replace(CONTROL, "wallClock: 2 h", "wallClock: 2 h, firstBreak: true"), CONTROL, "stop.firstBreak",
-         "firstBreak", "found true", "nothing can break", "arealStrain", "write false"),
+         "true", "found true", "nothing can break", "arealStrain", "write false"),
     case("firstBreakNoBoolean", replace(CONTROL, "wallClock: 2 h", "wallClock: 2 h, firstBreak: 0.1"), CONTROL, "stop.firstBreak",
          "0.1", "'0.1'", "true or false"),
     case("viscosityRatioZero", replace(MEMBRANES, "viscosityRatio: 1", "viscosityRatio: 0"), MEMBRANES,
