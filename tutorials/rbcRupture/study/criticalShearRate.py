@@ -19,7 +19,7 @@ COLUMNS = ["spacing_um", "Ca_whole", "Ca_breaks", "Ca_critical", "shearRate_crit
 
 def options():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("-bracket", default="0.05 0.2", help="a Ca that does not break and one that does, for the first resolution")
+    p.add_argument("-bracket", default="0.07 0.1", help="a Ca that does not break and one that does, for the first resolution")
     p.add_argument("-tolerance", type=float, default=0.02, help="relative width of the last bracket")
     p.add_argument("-strain", type=float, default=2, help="strain that a cell must bear to count as whole")
     p.add_argument("-spacing", default="0.8 0.64 0.5", help="particle spacings in um; edges of the mesh are 0.8 of them")

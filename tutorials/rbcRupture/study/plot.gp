@@ -6,7 +6,7 @@ set multiplot layout 1,2
 set xlabel 'particle spacing [um]'; set ylabel 'Ca of the first break'
 set yrange [0:*]; set xrange [0:*]; set offsets 0, graph 0.1, graph 0.3, 0; unset key
 plot 'runs/summary.csv' using 1:4:2:3 skip 1 with yerrorbars pt 7 lw 2
-set xlabel 'Ca'; set ylabel 'strain of the first break'; set logscale x; set xrange [*:*]; set offsets graph 0.05, graph 0.05, graph 0.1, 0
+set xlabel 'Ca'; set ylabel 'strain of the first break'; set xrange [*:*]; set offsets graph 0.05, graph 0.15, graph 0.1, 0
 set key top right
 spacings = system("tail -n +2 runs/summary.csv | cut -d, -f1")
 plot for [dx in spacings] 'runs/runs.csv' using 2:(strcol(1) eq dx && $3 == 1 ? $4 : NaN) skip 1 with points pt 7 title dx.' um', \
