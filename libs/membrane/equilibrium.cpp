@@ -14,7 +14,8 @@ namespace {
 
 constexpr double sufficientDecrease = 1e-4;
 constexpr int halvings = 12, exactPause = 8;
-constexpr double leastShift = 1e-10, firstShift = 1e-6, greatestShift = 1e6;  // relative to the mean diagonal
+constexpr double leastShift = 1e-10, firstShift = 1e-6, greatestExactShift = 0.1,
+                 greatestShift = 1e6;  // relative to the mean diagonal
 
 class Equilibrium {
   public:
@@ -50,7 +51,7 @@ class Equilibrium {
             throw Failure(ExitCode::numerics, "the energy of the membrane '" + membrane_.name +
                                                   "' is not finite where its equilibrium is to be looked for");
         }
-        double shift = firstShift;
+        double exactShift = leastShift, shift = firstShift;
         int nextExact = 0;
         for (; report.iterations <= options_.iterations; ++report.iterations) {
             const Eigen::VectorXd residual = force();
@@ -59,20 +60,12 @@ class Equilibrium {
             if (report.converged || report.iterations == options_.iterations) {
                 break;
             }
-            if (report.iterations >= nextExact) {
-                assemble(Definiteness::exact);
-                if (const auto step = solve(leastShift, residual); step && tryStep(*step, residual, potential)) {
-                    continue;
-                }
-                nextExact = report.iterations + exactPause;
-            }
-            assemble(Definiteness::semiDefinite);
             bool moved = false;
-            while (!moved && shift <= greatestShift) {
-                const auto step = solve(shift, residual);
-                moved = step && tryStep(*step, residual, potential);
-                shift = moved ? std::max(shift / 4, leastShift) : shift * 16;
+            if (report.iterations >= nextExact) {
+                moved = descend(Definiteness::exact, exactShift, greatestExactShift, residual, potential);
+                nextExact = moved ? 0 : report.iterations + exactPause;
             }
+            moved = moved || descend(Definiteness::semiDefinite, shift, greatestShift, residual, potential);
             if (!moved) {
                 break;
             }
@@ -88,6 +81,9 @@ class Equilibrium {
         double sum = membrane_.energy();
         for (std::size_t n = 0; n < loads_.force.size(); ++n) {
             sum -= loads_.force[n].dot(membrane_.position[n]);
+        }
+        for (const auto& term : loads_.terms) {
+            sum += term->energy(membrane_.position);
         }
         return loads_.pressure != 0 ? sum - loads_.pressure * membrane_.volume() : sum;
     }
@@ -105,6 +101,9 @@ class Equilibrium {
                 total[n] += loads_.pressure * gradient[n];
             }
         }
+        for (const auto& term : loads_.terms) {
+            term->addForces(membrane_.position, total);
+        }
         Eigen::VectorXd result(free_);
         for (std::size_t k = 0; k < number_.size(); ++k) {
             if (number_[k] >= 0) {
@@ -120,6 +119,9 @@ class Equilibrium {
         if (loads_.pressure != 0) {
             addVolumeCurvature(membrane_.network(), membrane_.position, -loads_.pressure, Definiteness::exact,
                                stiffness);
+        }
+        for (const auto& term : loads_.terms) {
+            term->addStiffness(membrane_.position, definiteness, stiffness);
         }
         const Eigen::SparseMatrix<double> all = stiffness.sparse();
         std::vector<Eigen::Triplet<double>> entries;
@@ -165,13 +167,27 @@ class Equilibrium {
         return step;
     }
 
+    // A step with the least shift from the given one on that makes the matrix positive definite and Pi fall; the next one starts lower.
+    bool descend(Definiteness definiteness, double& shift, double greatest, const Eigen::VectorXd& residual,
+                 double& potential) {
+        assemble(definiteness);
+        for (; shift <= greatest; shift = std::max(16 * shift, firstShift)) {
+            if (const auto step = solve(shift, residual); step && tryStep(*step, residual, potential)) {
+                shift = shift > firstShift ? shift / 4 : leastShift;
+                return true;
+            }
+        }
+        shift = greatest;
+        return false;
+    }
+
     bool tryStep(const Eigen::VectorXd& step, const Eigen::VectorXd& residual, double& potential) {
         const std::vector<Vec3> start = membrane_.position;
         const double slope = residual.dot(step), rounding = 1e-13 * std::abs(potential);
         if (!(slope > 0)) {
             return false;
         }
-        double length = 1;
+        double length = std::min(1.0, loads_.longestStep / step.cwiseAbs().maxCoeff());
         for (int k = 0; k < halvings; ++k, length /= 2) {
             for (std::size_t c = 0; c < number_.size(); ++c) {
                 const int axis = static_cast<int>(c % 3);

@@ -1,30 +1,17 @@
 // The protocols of membraneRelax on small meshes: loads in balance, and a sphere inflated by the law's own formula.
 #include <gtest/gtest.h>
 
-#include "core/registry.hpp"
 #include "membrane/protocol.hpp"
 #include "meshes.hpp"
+#include "settingsText.hpp"
 
 namespace corpuscle::membrane {
 namespace {
 
-template <class T>
-T parsed(const std::string& text) {
-    Problems problems;
-    const auto value = read<T>(parseValue(text, "test", problems), problems);
-    problems.throwIfAny();
-    return value;
-}
-
-std::shared_ptr<const Protocol> protocol(const std::string& text) {
-    Problems problems;
-    const auto choice = readChoice<Protocol>(parseValue(text, "test", problems), problems);
-    problems.throwIfAny();
-    return choice.model;
-}
+std::shared_ptr<const Protocol> protocol(const std::string& text) { return testing::chosen<Protocol>(text); }
 
 Membrane cellOf(const testing::Mesh& mesh, const std::string& laws) {
-    return {"cell", 1, mesh.nodes, mesh.triangles, parsed<MembraneSettings>(laws), 1};
+    return {"cell", 1, mesh.nodes, mesh.triangles, testing::parsed<MembraneSettings>(laws), 1};
 }
 
 // Pressure of a neo-Hookean sphere: p a/Gs = 2 (1 - l^-6)/l; a mesh of edge 0.14 is 0.4 % smaller than its sphere.

@@ -1,8 +1,8 @@
 // membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers, inflated, at
-// rest.
+// rest; or of a flat sheet, stretched and sheared.
 //
-// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/0/<cell>.csv and
-// results/<cell>.pvd, whose times are the numbers of the stages.
+// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/0/<name>.csv and
+// results/<name>.pvd, whose times are the numbers of the stages.
 //
 // Sample runs:
 //     membraneRelax -case tutorials/tweezers
@@ -11,12 +11,10 @@
 
 #include "core/application.hpp"
 #include "core/runRecord.hpp"
-#include "geometry/mesher.hpp"
 #include "io/csvSeries.hpp"
 #include "io/vtkSeries.hpp"
 #include "simulation/relaxSettings.hpp"
 #include "simulation/resultsWriter.hpp"
-#include "simulation/stressFree.hpp"
 
 using namespace corpuscle;
 
@@ -36,27 +34,15 @@ struct Input {
         input.relax = corpuscle::read<simulation::RelaxSettings>(relax, problems);
         input.membranes = corpuscle::read<simulation::MembranesSettings>(membranes, problems);
         problems.throwIfAny();
-        simulation::requireEntry(input.membranes.types, input.relax.cell.type(),
-                                 "the cell '" + input.relax.cell.name + "' of system/relax.yaml", membranes.mark,
-                                 problems);
+        simulation::requireEntry(input.membranes.types, input.relax.type(),
+                                 "'" + input.relax.name() + "' of system/relax.yaml", membranes.mark, problems);
         problems.throwIfAny();
-        input.relax.cell.shape->prepare(app.caseDirectory());
+        if (input.relax.cell) input.relax.cell->shape->prepare(app.caseDirectory());
         input.effective = {{"system/relax.yaml", write(input.relax)},
                            {"constant/membranes.yaml", write(input.membranes)}};
         return input;
     }
 };
-
-// Its nodes lie on the shape; where it is free of tension is up to its laws.
-membrane::Membrane makeMembrane(const Application& app, const Input& input) {
-    const simulation::CellSettings& cell = input.relax.cell;
-    const membrane::MembraneSettings& laws = input.membranes.types.at(cell.type());
-    const geometry::TriangleMesh mesh = geometry::meshSurface(*cell.shape, cell.edge);
-    Problems problems;
-    std::vector<Vec3> stressFree = simulation::stressFreeNodes(app.caseDirectory(), cell.type(), laws, mesh, problems);
-    problems.throwIfAny();
-    return {cell.name, 1, mesh.nodes, mesh.triangles, laws, cell.shape->radius(), std::move(stressFree)};
-}
 
 // "force_N" -> {"force", "N"}.
 io::Column column(const std::string& name) {
@@ -71,15 +57,16 @@ class Results {
         : protocol_(protocol),
           edge_(edge),
           area0_(membrane.area()),
-          volume0_(membrane.volume()),
+          volume0_(membrane.network().isOpen() ? 0 : membrane.volume()),
           table_(app.communicator().handle(), app.caseDirectory(), "relax", 0, membrane.name, columns(protocol)),
           surfaces_(app.communicator().handle(), app.caseDirectory(), membrane.name, 0, 0) {}
 
     // Returns the line for the log.
     std::string write(int stage, const membrane::Membrane& membrane, const membrane::EquilibriumReport& report) {
         const std::vector<double> measured = protocol_.measure(stage, membrane);
-        const double area = membrane.area(), volume = membrane.volume();
-        const double areaStrain = area / area0_ - 1, volumeStrain = volume / volume0_ - 1;
+        const bool closed = volume0_ > 0;
+        const double area = membrane.area(), volume = closed ? membrane.volume() : 0;
+        const double areaStrain = area / area0_ - 1, volumeStrain = closed ? volume / volume0_ - 1 : 0;
         std::vector<double> row{static_cast<double>(stage)};
         row.insert(row.end(), measured.begin(), measured.end());
         row.insert(row.end(), {area, volume, areaStrain, volumeStrain, membrane.energy(),
@@ -105,7 +92,7 @@ class Results {
     }
 
     const membrane::Protocol& protocol_;
-    double edge_, area0_, volume0_;
+    double edge_, area0_, volume0_;  // 0: open, encloses none
     io::CsvSeries table_;
     io::VtkSeries surfaces_;
 };
@@ -114,7 +101,7 @@ class Results {
 void runStages(Application& app, const simulation::RelaxSettings& relax, membrane::Membrane& membrane,
                RunRecord& record) {
     const membrane::Protocol& protocol = *relax.protocol;
-    Results results(app, protocol, membrane, relax.cell.edge);
+    Results results(app, protocol, membrane, relax.edge());
     for (int stage = 0; stage < protocol.stages(); ++stage) {
         const membrane::Loads loads = protocol.apply(stage, membrane);
         const membrane::EquilibriumReport report =
@@ -135,17 +122,19 @@ void runStages(Application& app, const simulation::RelaxSettings& relax, membran
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("membraneRelax", "A membrane without fluid, in equilibrium: tweezers, inflation, resting shapes.",
+    Application app("membraneRelax",
+                    "A membrane without fluid, in equilibrium: tweezers, pipette, inflation, sheets, resting shapes.",
                     argc, argv,
                     {.samples = {"membraneRelax -case tutorials/tweezers",
                                  "membraneRelax -set 'system/relax.yaml:/cell/edge=0.3 um'"}});
     return app.run([&] {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
         app.openLog();
-        const Input input = Input::read(app);                    // 1. strict dictionaries, SI from here on
-        membrane::Membrane membrane = makeMembrane(app, input);  // 2. the membrane
+        const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
+        membrane::Membrane membrane =
+            input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
         app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),
-                       formatQuantity(input.relax.cell.edge, unit::metre), input.relax.protocol.name,
+                       formatQuantity(input.relax.edge(), unit::metre), input.relax.protocol.name,
                        input.relax.protocol->stages());
 
         RunRecord record(app.path("run.json"), app.name(), app.communicator());

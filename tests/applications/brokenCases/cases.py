@@ -6,6 +6,7 @@ key, the text that stands at the line and column named (None where no line is), 
 from dataclasses import dataclass, field
 
 CONTROL, NUMERICS, MESH, OBSERVERS = (f"system/{name}.yaml" for name in ("control", "numerics", "mesh", "observers"))
+RELAX = "system/relax.yaml"  # of membraneRelax
 FLUID, MEMBRANES, BODIES, FLOW = (f"constant/{name}.yaml" for name in ("fluid", "membranes", "bodies", "flow"))
 
 
@@ -24,6 +25,7 @@ class Case:
     problems: list
     arguments: list = field(default_factory=list)
     code: int = 2
+    program: str = "checkCase"
 
 
 def replace(file, old, new):
@@ -48,6 +50,10 @@ def remove(file):
 
 def case(name, edit, file, key, at, *words):
     return Case(name, edit if isinstance(edit, list) else [edit], [Problem(file, key, at, list(words))])
+
+
+def relax(name, edits, key, at, *words, file=RELAX):
+    return Case(name, edits if isinstance(edits, list) else [edits], [Problem(file, key, at, list(words))], program="membraneRelax")
 
 
 def setting(name, argument, file, key, *words, code=2):
@@ -273,4 +279,27 @@ CASES = [
     setting("setBetweenFiles", "system/mesh.yaml:/domain/periodic=[true, true, true]", "-set", "domain.periodic", "axis z", "write false"),
     setting("setBadYaml", "constant/flow.yaml:/walls={normal: z", "-set", "constant/flow.yaml:/walls", "cannot read the value"),
     setting("setWithoutEquals", "constant/fluid.yaml:/density", "checkCase", "", "expected FILE:/path/to/key=value", code=1),
+
+    # system/relax.yaml
+    relax("relaxUnknownProtocol", replace(RELAX, "tweezers", "tweezer"), "protocol.type", "tweezer", "unknown relaxation protocol 'tweezer'",
+          "Did you mean 'tweezers'?", "aspiration"),
+    relax("relaxNoStage", replace(RELAX, "[0, 50] pN", "[]"), "protocol", "type: tweezers", "found no stage", "'forces'"),
+    relax("relaxForcesWithoutUnit", replace(RELAX, "[0, 50] pN", "[0, 50]"), "protocol.forces[0]", "0", "no unit", "N"),
+    relax("relaxNegativeForce", replace(RELAX, "[0, 50] pN", "[-5] pN"), "protocol.forces[0]", "-5", "'-5", "at least 0"),
+    relax("relaxCellAndSheet", append(RELAX, "sheet: {name: rbc, diameter: 8 um, edge: 0.4 um}\n"), "sheet", "sheet", "exactly one",
+          "'cell', 'sheet'"),
+    relax("relaxSheetWithoutSize", rewrite(RELAX, "sheet: {name: rbc, edge: 0.4 um}\nprotocol: {type: uniaxial, stretches: [1.1]}\n"),
+          "sheet", "sheet", "size", "diameter"),
+    relax("relaxSheetOfThreeSides", rewrite(RELAX, "sheet: {name: rbc, edge: 0.4 um, size: [8, 8, 8] um}\nprotocol: "
+                                            "{type: uniaxial, stretches: [1.1]}\n"), "sheet.size", "[8", "3 lengths", "[8, 6] um"),
+    relax("relaxSheetTooCoarse", rewrite(RELAX, "sheet: {name: rbc, edge: 5 um, size: [8, 8] um}\nprotocol: "
+                                         "{type: uniaxial, stretches: [1.1]}\n"), "sheet.edge", "5 um", "too coarse", "at most", "4 um"),
+    relax("relaxStretchZero", rewrite(RELAX, "sheet: {name: rbc, edge: 1 um, diameter: 8 um}\nprotocol: {type: uniaxial, stretches: [0]}\n"),
+          "protocol.stretches[0]", "0", "greater than 0"),
+    relax("relaxSoftPipette", rewrite(RELAX, "sheet: {name: rbc, edge: 1 um, diameter: 8 um}\nprotocol: {type: aspiration, radius: 1 um, "
+                                      "wall: 0.4 um, softness: 0.2 um, pressures: [1] Pa}\n"), "protocol.softness", "0.2 um",
+          "through the glass", "100 nm"),
+    relax("relaxNoEntry", replace(RELAX, "name: rbc", "name: rbd"), "rbd", "rbc:", "'rbd' of system/relax.yaml", "there are: rbc",
+          "Did you mean 'rbc'?", file=MEMBRANES),
+    relax("relaxMissingFile", remove(RELAX), "", None, "no such file"),
 ]

@@ -1,9 +1,9 @@
-"""Breaks a good case in one way after another; checkCase must answer each with its one clear message.
+"""Breaks a good case in one way after another; checkCase, or membraneRelax for its own file, must answer each with its one clear message.
 
-    python3 runBroken.py CHECKCASE [NAME ...] [--print]
+    python3 runBroken.py BIN [NAME ...] [--print]
 
 Of every case in cases.py: exit code 2, on standard error exactly the expected problems and the line that counts them, each problem
-at the place and under the key expected and with the words expected. --print shows what checkCase says.
+at the place and under the key expected and with the words expected. --print shows what the program says.
 """
 import concurrent.futures
 import json
@@ -55,7 +55,7 @@ def faults_of(case, result, directory):
         faults.append("it says that the case is good")
     n = len(case.problems)
     if case.code == 2:
-        count = f"checkCase: {n} problem{'' if n == 1 else 's'} in the case {directory}"
+        count = f"{case.program}: {n} problem{'' if n == 1 else 's'} in the case {directory}"
         if errors[-1] != count:
             faults.append(f"the last line is not '{count}'")
         errors.pop()
@@ -69,12 +69,12 @@ def faults_of(case, result, directory):
     return faults
 
 
-def check(program, case, directory, show):
+def check(programs, case, directory, show):
     shutil.copytree(BASE, directory)
     for edit in case.edits:
         edit(directory)
     try:
-        result = run(program, directory, case.arguments)
+        result = run(programs / case.program, directory, case.arguments)
     except subprocess.TimeoutExpired:
         return f"{case.name}: no answer in two minutes"
     faults = faults_of(case, result, directory)
@@ -100,12 +100,14 @@ def check_json(program, directory):
 def main():
     arguments = sys.argv[1:]
     show = "--print" in arguments
-    program, *names = [a for a in arguments if a != "--print"]
+    folder, *names = [a for a in arguments if a != "--print"]
+    programs = pathlib.Path(folder)
+    program = programs / "checkCase"
     chosen = [case for case in CASES if not names or case.name in names]
     assert len({case.name for case in CASES}) == len(CASES), "two cases of one name"
-    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        top = pathlib.Path(folder)
-        jobs = [pool.submit(check, program, case, top / case.name, show) for case in chosen]
+    with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        top = pathlib.Path(temporary)
+        jobs = [pool.submit(check, programs, case, top / case.name, show) for case in chosen]
         jobs += [pool.submit(check_good, program, top / "good"), pool.submit(check_json, program, top / "json")]
         texts = [job.result() for job in jobs]
     print("".join(texts), end="")

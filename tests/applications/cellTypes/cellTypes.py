@@ -1,0 +1,47 @@
+"""Every cell type of etc/cells, copied into a case as its README says, is valid and can be meshed.
+
+    python3 cellTypes.py BIN
+
+The file becomes constant/membranes.yaml, the line in its head the cells of system/mesh.yaml; checkCase and membraneMesh must end well.
+"""
+import concurrent.futures
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).parent
+BASE = HERE.parent / "brokenCases" / "baseCase"
+CELLS = sorted((HERE.parents[2] / "etc" / "cells").glob("*.yaml"))
+
+
+def check(programs, file, directory):
+    shutil.copytree(BASE, directory)
+    text = file.read_text()
+    line = re.search(r"^#   - (\{name: (\w+), .*\})$", text, re.MULTILINE)
+    if not line or line.group(2) != file.stem or f"\n{file.stem}:\n" not in text:
+        return f"{file.name}: its head has no line '#   - {{name: {file.stem}, ...}}' or it has no entry '{file.stem}'"
+    mesh = directory / "system" / "mesh.yaml"
+    mesh.write_text(mesh.read_text().split("cells:")[0] + f"cells:\n  - {line.group(1)}\n")
+    shutil.copy(file, directory / "constant" / "membranes.yaml")
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    for program in ("checkCase", "membraneMesh"):
+        result = subprocess.run([programs / program, "-case", directory], capture_output=True, text=True, timeout=300, env=environment)
+        if result.returncode != 0 or result.stderr:
+            return f"{file.name}: {program} ends with {result.returncode}: {result.stderr}"
+    return "" if (directory / "0" / f"{file.stem}.vtp").exists() else f"{file.name}: no mesh was written"
+
+
+def main():
+    programs = pathlib.Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        faults = [f for f in pool.map(lambda c: check(programs, c, pathlib.Path(folder) / c.stem), CELLS) if f]
+    print("\n".join(faults) or f"{len(CELLS)} cell types are valid")
+    return 1 if faults or not CELLS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
