@@ -10,13 +10,16 @@ constexpr std::size_t numbers = 5;
 static_assert(sizeof(Interior) == numbers * sizeof(double));
 }  // namespace
 
-Interior& Interior::operator+=(const Interior& other) {
-    mass += other.mass;
-    released += other.released;
-    releasedMass += other.releasedMass;
-    releasedVolume += other.releasedVolume;
-    leaked += other.leaked;
-    return *this;
+Interior total(const std::vector<Interior>& cells) {
+    Interior all;
+    for (const Interior& cell : cells) {
+        all.mass += cell.mass;
+        all.released += cell.released;
+        all.releasedMass += cell.releasedMass;
+        all.releasedVolume += cell.releasedVolume;
+        all.leaked += cell.leaked;
+    }
+    return all;
 }
 
 std::vector<Interior> interiors(const coupling::Scene& scene) {

@@ -19,11 +19,11 @@ struct Interior {
     double releasedVolume = 0;  // sum of m/rho, m^3
     double leaked = 0;          // particles
 
-    Interior& operator+=(const Interior& other);
     double haemolysisIndex() const { return mass > 0 ? 100 * releasedMass / mass : 0; }  // per cent
 };
 
 // Of each cell, on every rank. Collective.
 std::vector<Interior> interiors(const coupling::Scene& scene);
+Interior total(const std::vector<Interior>& cells);
 
 }  // namespace corpuscle::observers

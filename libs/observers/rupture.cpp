@@ -114,7 +114,7 @@ class RuptureObservation : public Observation {
             append(rows.back().values, first_[c].numbers());
         }
         for (auto& hole : holesOf(scene)) rows.push_back({cells + 1, std::move(hole)});
-        const Interior all = sumOf(interior);
+        const Interior all = total(interior);
         rows.push_back({cells + 2,
                         {static_cast<double>(brokenOf(lost)), all.released, all.leaked, all.releasedVolume,
                          all.haemolysisIndex()}});
@@ -125,7 +125,7 @@ class RuptureObservation : public Observation {
         constexpr int mostLines = 10;
         const std::vector<Interior> interior = interiors(scene);
         const std::vector<Losses> lost = losses(scene);
-        const Interior all = sumOf(interior);
+        const Interior all = total(interior);
         Summary summary;
         for (std::size_t c = 0; c < scene.cells.size(); ++c) {
             const std::string& name = scene.cells[c].membrane.name;
@@ -164,11 +164,6 @@ class RuptureObservation : public Observation {
     }
 
   private:
-    static Interior sumOf(const std::vector<Interior>& interior) {
-        Interior all;
-        for (const Interior& one : interior) all += one;
-        return all;
-    }
     static int brokenOf(const std::vector<Losses>& lost) {
         return static_cast<int>(std::count_if(lost.begin(), lost.end(), [](const Losses& l) { return l.bonds > 0; }));
     }
