@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/extrapolation.hpp"
+
 namespace corpuscle::bodies {
 
 using particles::Kind;
@@ -132,7 +134,10 @@ void Bodies::updateNear(const ParticleSystem& system) {
             nearest.group = b, nearest.arm = from;
         }
         if (nearest.group < 0) continue;
-        nearest.inverseDistance = (second - first) / (reach - first) / std::max(first, least);
+        const Body& body = bodies_[static_cast<std::size_t>(nearest.group)];
+        const double distance =
+            effectiveDistance(body.distance, body.inBody(nearest.arm), std::max(first, least), medium_.spacing);
+        nearest.inverseDistance = (second - first) / (reach - first) / distance;
         groups_.near.push_back(nearest);
     }
 }

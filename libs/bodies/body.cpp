@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "bodies/extrapolation.hpp"
 #include "core/error.hpp"
 #include "geometry/triangleGrid.hpp"
 
@@ -20,7 +21,7 @@ Body::Body(std::string name, std::string type, const geometry::TriangleMesh& mes
       solid(mesh, density),
       behaviour(std::move(motionModel)),
       state{solid.startCentre(), solid.startOrientation(), {}},
-      distance(solid.surface, gridInSpacings * spacing, reach) {}
+      distance(solid.surface, gridInSpacings * spacing, reach + spacing) {}
 
 void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach) {
     const geometry::TriangleGrid grid(solid.surface, reach);
@@ -30,7 +31,9 @@ void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sp
         const geometry::SurfacePoint nearest = grid.nearest(place);
         // Particles below the reach meet no fluid: where their share of a torque would act does not matter.
         if (nearest)
-            particles.push_back({place, nearest.point, std::max(0.0, -nearest.distance)});
+            particles.push_back(
+                {place, nearest.point,
+                 std::max(0.0, -effectiveDistance(distance, place, nearest.distance, std::cbrt(particleVolume)))});
         else
             particles.push_back({place, place, reach});
     }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bodies/extrapolation.hpp"
 #include "bodies/sphereInFluid.hpp"
 
 using namespace corpuscle;
@@ -42,7 +43,9 @@ Plain plainForces(SphereInFluid& f) {
         }
         u[i] = someVelocity(i, arm[i]);
         const double distance = f.body().distance.at(f.body().inBody(arm[i]));
-        if (distance < support) slope[i] = (u[i] - turning.at(arm[i])) / std::max(distance, 0.25);
+        if (distance < support)
+            slope[i] = (u[i] - turning.at(arm[i])) /
+                       effectiveDistance(f.body().distance, f.body().inBody(arm[i]), std::max(distance, 0.25), 1);
     }
     const auto specific = [&](std::size_t i) {
         return f.fluid.equationOfState->pressure(density[i], 1, f.fluid.soundSpeed) / (density[i] * density[i]);
