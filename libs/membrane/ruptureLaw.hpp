@@ -24,7 +24,8 @@ struct RuptureStep {
     const MembraneSettings& laws;  // of the membrane
     std::span<const Vec3> x;       // m
     double dt;                     // s, since it looked last
-    std::span<double> damage;      // D of each triangle, 0 to 1, for the law to bring up to date; empty unless it keepsDamage()
+    std::span<double>
+        damage;  // D of each triangle, 0 to 1, for the law to bring up to date; empty unless it keepsDamage()
 };
 
 class RuptureLaw {
