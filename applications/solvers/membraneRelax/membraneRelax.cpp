@@ -72,7 +72,9 @@ class Results {
         row.insert(row.end(), {area, volume, areaStrain, volumeStrain, membrane.energy(),
                                static_cast<double>(report.iterations), report.residual});
         table_.row(row);
-        surfaces_.write(stage, std::nullopt, simulation::membranePiece(membrane, edge_));
+        io::PolyData surface = simulation::membranePiece(membrane, edge_);
+        surface.field["stage"] = stage;
+        surfaces_.write(stage, std::nullopt, surface);
         std::string values;
         for (std::size_t k = 0; k < measured.size(); ++k)
             values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k], measured[k]);
