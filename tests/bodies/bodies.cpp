@@ -70,7 +70,7 @@ Plain plainForces(SphereInFluid& f) {
 
 void compare(SphereInFluid& f) {
     f.setVelocities(someVelocity, turning);
-    f.bodies->moved(*f.system, false);
+    f.bodies->moved(*f.system, 0, false);
     f.forces->evaluate(*f.system, 0);
     f.bodies->addAccelerations(*f.system);
     const Plain plain = plainForces(f);
@@ -105,7 +105,7 @@ TEST(Bodies, fluidThatMovesWithTheBodyExertsNothing) {
     f.setVelocities([](std::size_t, const Vec3& arm) { return turning.at(arm); }, turning);
     ParticleStore& s = f.system->store();
     std::fill(s.density.begin(), s.density.end(), 1.0);
-    f.bodies->moved(*f.system, false);
+    f.bodies->moved(*f.system, 0, false);
     f.forces->evaluate(*f.system, 0);
     f.bodies->addAccelerations(*f.system);
     const double scale = (f.body().rotationalDrag * turning.angular).norm();

@@ -53,7 +53,7 @@ struct SphereInFluid {
         MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         if (rank == 0) addParticles();
         system->start();
-        bodies->moved(*system, true);
+        bodies->moved(*system, 0, true);
     }
 
     void addParticles() {

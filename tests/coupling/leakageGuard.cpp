@@ -116,7 +116,7 @@ TEST(BreakingCell, isLookedAtOnceMoreBeforeItOpens) {
     membrane = membrane::Membrane("sphere", 1, small, membrane.network().triangles(), laws, radius);
     membrane.position = scene.start[0];
     DualIdentity coupling(scene.cells, 1, DensityBalance(12 * 7 * 8, 1), {1000, 0});
-    coupling.moved(*scene.system, true);
+    coupling.moved(*scene.system, 0, true);
     const int i = scene.nearest(1);
     for (int step = 0; step < 2; ++step) {
         if (i >= 0)
