@@ -49,7 +49,6 @@ void Body::sumRotationalDrag(double particleVolume, const sph::Kernel& kernel, d
         cells[{column(p.place[0]), column(p.place[1]), column(p.place[2])}].push_back(&p);
     rotationalDrag.setZero();
     for (const BodyParticle& p : particles) {
-        if (p.depth >= reach) continue;
         Vec3 q = Vec3::Zero();
         for (int n = 0; n < 27; ++n) {
             const auto cell = cells.find(

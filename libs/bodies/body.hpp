@@ -15,7 +15,7 @@ namespace corpuscle::bodies {
 // Of a particle, in the body frame.
 struct BodyParticle {
     Vec3 place, foot;  // itself, and the point of the surface nearest to it [m]
-    double depth;      // below the surface, at least 0 [m]
+    double depth;      // below the surface as it counts in continuing the velocity (extrapolation.hpp), at least 0 [m]
 };
 
 struct Body {

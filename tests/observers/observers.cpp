@@ -129,7 +129,7 @@ TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
 
 TEST(Observers, EveryModelIsThere) {
     EXPECT_EQ(Registry<Observer>::instance().names(),
-              (std::vector<std::string>{"conservation", "profile", "rupture", "shape", "wallStress"}));
+              (std::vector<std::string>{"body", "conservation", "profile", "rupture", "shape", "wallStress"}));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ set output 'runs/phi.png'
 set datafile separator comma
 r = 0.5
 turned(x, z) = atan2(x, z) < -0.1 ? atan2(x, z) + 2*pi : atan2(x, z)        # the axis turns by half a turn and little more
-jeffery(s) = atan2(r*sin(s/(r + 1/r)), cos(s/(r + 1/r)))
+jeffery(s) = s < pi*(r + 1/r) ? atan2(r*sin(s/(r + 1/r)), cos(s/(r + 1/r))) : 1/0
 file(name) = system('ls runs/'.name.'/postProcessing/motion/*/body.csv')
 start = 0.5*pi*(r + 1/r)                                                    # strain at which Jeffery's axis passes the flow
 set key left top; set xlabel 'strain'; set ylabel 'phi, degrees'; set xrange [0:8]; set yrange [0:190]; set ytics 45; set samples 400

@@ -13,12 +13,10 @@
 #include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <numeric>
 
 #include "../cellMeshes.hpp"
-#include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "bodyFill.hpp"
 #include "relaxation.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -70,41 +68,18 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
     f.side.resize(count);
 }
 
-// Hands each body's particles over: of the points in it and just outside those that are deepest, to the number that its volume asks for.
+// Hands each body's particles over.
 void fillBodies(const Case& input, const std::vector<TriangleMesh>& bodies, Filling& f) {
-    const particles::Box box = input.fluidBox();
-    const double reach = std::numbers::sqrt3 * input.spacing();
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const geometry::TriangleGrid surface(bodies[b], reach);
-        const geometry::InsideTest inside(bodies[b]);
-        const Vec3 middle = bodies[b].centroid();
-        std::vector<std::pair<double, std::size_t>> order;  // distance from the surface and number
-        for (std::size_t i = 0; i < f.fluid.size(); ++i) {
-            const Vec3 x = middle + box.minimumImage(f.fluid[i] - middle);
-            if (const geometry::SurfacePoint nearest = surface.nearest(x))
-                order.emplace_back(nearest.distance, i);
-            else if (inside.inside(x))
-                order.emplace_back(-reach, i);
-        }
-        const auto count = static_cast<std::size_t>(std::lround(bodies[b].volume() / input.particleVolume()));
-        if (count == 0 || count > order.size())
-            throw Failure(ExitCode::invalidCase,
-                          "the body '" + input.mesh.bodies[b].name +
-                              "' cannot be filled: take a smaller spacing in system/numerics.yaml");
-        std::sort(order.begin(), order.end());
-        std::vector<char> taken(f.fluid.size(), 0);
-        for (std::size_t k = 0; k < count; ++k) taken[order[k].second] = 1;
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < f.fluid.size(); ++i)
-            if (taken[i]) {
-                f.bodies.push_back(f.fluid[i]);
-                f.body.push_back(static_cast<int>(b) + 1);
-            } else {
-                f.fluid[left] = f.fluid[i], f.side[left++] = f.side[i];
-            }
-        f.fluid.resize(left);
-        f.side.resize(left);
-    }
+    if (bodies.empty()) return;
+    const std::vector<int> body = utilities::bodyOfEach(input, bodies, f.fluid);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < body.size(); ++i)
+        if (body[i] > 0)
+            f.bodies.push_back(f.fluid[i]), f.body.push_back(body[i]);
+        else
+            f.fluid[left] = f.fluid[i], f.side[left++] = f.side[i];
+    f.fluid.resize(left);
+    f.side.resize(left);
 }
 
 // Lattice, and what bodies hold and nodes displace taken out.

@@ -1,0 +1,130 @@
+#include "simulation/caseRules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace corpuscle::simulation {
+
+std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
+    std::vector<PlacedSurface> all;
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+        all.push_back({mesh.cells[i], "cells[" + std::to_string(i) + "]", "cell"});
+    for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
+        all.push_back({mesh.bodies[i], "bodies[" + std::to_string(i) + "]", "body"});
+    return all;
+}
+
+namespace {
+
+constexpr double leastBodyInSpacings = 3;
+
+const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
+
+void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problems) {
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    const auto& [settings, key, kind] = surface;
+    if (!settings.shape) return;
+    const double radius = settings.shape->radius();
+    if (settings.edge > 0.5 * radius)
+        problems.add(mesh, key + ".edge",
+                     "found " + formatQuantity(settings.edge, unit::metre) + ", too coarse for a " + kind +
+                         " of radius " + formatQuantity(radius, unit::metre) + "; at most half the radius, " +
+                         formatQuantity(0.5 * radius, unit::metre));
+    const Eigen::AlignedBox3d box = settings.shape->box();
+    if (kind == "body" && box.sizes().minCoeff() < leastBodyInSpacings * c.spacing())
+        problems.add(mesh, key + ".shape",
+                     "the body is " + formatQuantity(box.sizes().minCoeff(), unit::metre) +
+                         " thick, too thin to be filled with particles of spacing " +
+                         formatQuantity(c.spacing(), unit::metre) + "; at least " +
+                         formatQuantity(leastBodyInSpacings * c.spacing(), unit::metre) +
+                         ": take a smaller spacing in system/numerics.yaml, or a thicker body");
+    if (kind == "body")
+        for (int k = 0; k < 3; ++k) {
+            const double least = box.sizes().maxCoeff() + 2 * c.support();
+            if (c.mesh.domain.periodic[static_cast<std::size_t>(k)] && c.mesh.domain.size[k] < least)
+                problems.add(mesh, key + ".shape",
+                             std::string("the body is too long for the box, which is periodic along ") + axisName(k) +
+                                 " with " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
+                                 ": it would meet its own image within the kernel's reach; at least " +
+                                 formatQuantity(least, unit::metre) + ", better five times its radius");
+        }
+    const int wall = c.flowModel->wallAxis();
+    if (wall < 0) return;
+    // Extent across the walls, as that of the ellipsoid in the shape's box.
+    const Vec3 across = geometry::rotationFromZ(settings.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
+               middle = box.center();
+    const double extent = std::abs(settings.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
+    if (extent > 0.5 * c.mesh.domain.size[wall])
+        problems.add(mesh, key + ".centre",
+                     "the " + kind + " reaches through the wall along " + axisName(wall) + ", to " +
+                         formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
+                         formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
+                         "; move it towards the middle or make the box larger");
+}
+
+}  // namespace
+
+void checkTogether(const Case& c, Problems& problems) {
+    const int wall = c.flowModel->wallAxis();
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    if (c.control.application == "sphFlow" && !c.mesh.cells.empty())
+        problems.add({"system/control.yaml", 0, 0}, "application",
+                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or "
+                     "remove the cells");
+    if (c.control.application == "sphFlow" && !c.mesh.bodies.empty())
+        problems.add({"system/control.yaml", 0, 0}, "application",
+                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has bodies; write dmpFlow, or "
+                     "remove the bodies");
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        if (k == wall && c.mesh.domain.periodic[axis])
+            problems.add(mesh, "domain.periodic",
+                         std::string("axis ") + axisName(k) + " is periodic, but the flow '" + c.flowModel.name +
+                             "' has walls across it; write false for this axis");
+        if (k != wall && !c.mesh.domain.periodic[axis])
+            problems.add(mesh, "domain.periodic",
+                         std::string("axis ") + axisName(k) +
+                             " is not periodic and has no walls; write true, "
+                             "or give the flow walls with this normal in constant/flow.yaml");
+        const double n = c.mesh.domain.size[k] / c.spacing();
+        if (!(std::abs(c.latticeSpacing()[k] / c.spacing() - 1) <= 1e-3))
+            problems.add(
+                mesh, "domain.size",
+                std::string("along ") + axisName(k) + " found " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
+                    ", which is no whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
+                    "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
+                    ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
+    }
+    std::set<std::string> names{"fluid", "walls", "bodies"};
+    for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
+        const std::string& name = surface.settings.name;
+        if (!names.insert(name).second)
+            problems.add(mesh, surface.key + ".name",
+                         "the name '" + name +
+                             "' is taken; each cell and body needs its own, and fluid, walls and bodies are reserved");
+        const std::string user = "the " + surface.kind + " '" + name + "' of system/mesh.yaml";
+        if (surface.kind == "cell")
+            requireEntry(c.membranes.types, static_cast<const CellSettings&>(surface.settings).type(), user,
+                         {"constant/membranes.yaml", 0, 0}, problems);
+        else
+            requireEntry(c.bodies.types, static_cast<const BodyPlaceSettings&>(surface.settings).type(), user,
+                         {"constant/bodies.yaml", 0, 0}, problems);
+        checkSurface(c, surface, problems);
+    }
+    const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
+        const auto type = c.membranes.types.find(cell.type());
+        return type != c.membranes.types.end() && type->second.rupture;
+    });
+    if (c.control.stop.firstBreak && !breaks)
+        problems.add(
+            {"system/control.yaml", 0, 0}, "stop.firstBreak",
+            "found true, but nothing can break: no cell's entry of constant/membranes.yaml names a rupture law (" +
+                joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
+    if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
+        problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
+                     "found " + formatQuantity(c.support() / c.spacing(), unit::none) +
+                         " dx, which reaches too few neighbours; at least 1.2 dx, usually 2.4 to 3 dx");
+}
+
+}  // namespace corpuscle::simulation
