@@ -93,7 +93,8 @@ Mat3 Uniaxial::deformation(double value, double width) const { return Vec3(value
 std::array<bool, 3> Uniaxial::held(const Edges& edges, bool) const { return {edges.alongX, false, true}; }
 
 const Schema<Equibiaxial>& Equibiaxial::schema() {
-    static const Schema<Equibiaxial> s = stretching<Equibiaxial>("equibiaxial", "a flat sheet stretched alike along x and y");
+    static const Schema<Equibiaxial> s =
+        stretching<Equibiaxial>("equibiaxial", "a flat sheet stretched alike along x and y");
     return s;
 }
 Mat3 Equibiaxial::deformation(double value, double) const { return Vec3(value, value, 0).asDiagonal(); }

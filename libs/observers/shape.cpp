@@ -56,7 +56,8 @@ class ShapeObservation : public Observation {
     explicit ShapeObservation(const Scene& scene) : Observation(tablesOf(scene)), angles_(scene.cells.size()) {
         if (scene.flow.walls.axis == 1) plane_.gradient = 1;
         for (const coupling::Cell& cell : scene.cells) {
-            markers_.push_back(markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_));
+            markers_.push_back(
+                markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_));
         }
     }
 

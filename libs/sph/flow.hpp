@@ -18,7 +18,7 @@ struct FlowContext {
     particles::Box box;       // of the fluid, walls' layers not included
     double viscosity = 0;     // mu, outer [Pa s]
     double density = 0;       // as given in fluid.yaml [kg/m^3]
-    double radius = 0;    // a of the first cell, else of the first rigid body [m]; 0: neither
+    double radius = 0;        // a of the first cell, else of the first rigid body [m]; 0: neither
     double shearModulus = 0;  // Gs [N/m]; 0: no cells
 };
 

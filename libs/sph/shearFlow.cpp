@@ -26,15 +26,15 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
                      "system/mesh.yaml and their laws in constant/membranes.yaml");
     if (inertia && context.radius <= 0)
         problems.add(mark, "inertia",
-                     "Re = rho gammadot a^2/mu needs the radius a of a cell or a rigid body, and the case has neither; write inertia: "
+                     "Re = rho gammadot a^2/mu needs the radius a of a cell or a rigid body, and the case has neither; "
+                     "write inertia: "
                      "physical and give the density in constant/fluid.yaml");
     if (axis == 0) problems.add(mark, "walls.normal", "found x, but the flow goes along x; allowed are y, z");
     if (!problems.empty()) return flow;
 
     flow.shearRate = Ca ? *Ca * context.shearModulus / (context.viscosity * context.radius) : *shearRate;
-    flow.density = inertia
-                       ? inertia->Re * context.viscosity / (flow.shearRate * context.radius * context.radius)
-                       : context.density;
+    flow.density = inertia ? inertia->Re * context.viscosity / (flow.shearRate * context.radius * context.radius)
+                           : context.density;
     flow.densityFromRe = inertia.has_value();
     const double gap = context.box.size()[axis], middle = 0.5 * (context.box.low[axis] + context.box.high[axis]);
     flow.speed = 0.5 * flow.shearRate * gap;

@@ -43,7 +43,7 @@ struct SphereScene {
                              .type = "sphere",
                              .radius = radius,
                              .firstNode = first,
-                                         .nodeMass = std::vector<double>(mesh.nodes.size(), nodeMass)});
+                             .nodeMass = std::vector<double>(mesh.nodes.size(), nodeMass)});
             start.push_back(mesh.nodes);
             first += cells.back().nodeCount();
         }
