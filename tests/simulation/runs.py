@@ -168,6 +168,37 @@ def test_bodies(folder):
             assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], 3 * [5e-6] + 7 * [1] + 3 * [1e-3] + 3 * [200])), (a, b)
 
 
+def test_inclusion(folder):
+    """A free rigid sphere inside a capsule, off its middle, stays inside, turns with the flow and lets nothing through; the same on 1, 2 and 4 ranks."""
+    radius, bead = 3e-6, 1.2e-6
+    start = prepared(folder / "start", CELL_CASE, **{
+        "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.4"),
+        "system/numerics.yaml": "spacing: 0.6 um\nkernel: {type: wendlandC2, support: 2.4 dx}\n",
+        "system/mesh.yaml": """domain: {size: [12, 9, 9.6] um, periodic: [true, true, false]}
+cells: [{name: capsule, shape: {type: sphere, radius: 3 um}, edge: 0.7 um, centre: [0, 0, 0] um}]
+bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centre: [0.3, 0, 0] um}]
+""",
+        "system/observers.yaml": CELL_CASE["system/observers.yaml"] + "motion: {type: body, every: 0.02 strain}\n",
+        "constant/membranes.yaml": "capsule:\n  triangles: {type: skalak, Gs: 4 uN/m, C: 1}\n  bending: {type: dihedral, Eb: 0.01}\n",
+        "constant/bodies.yaml": "bead: {motion: free}\n"})
+    run(start, "checkMesh")
+    rate = 0.1 * 4e-6 / (1e-3 * radius)  # Ca Gs/(mu a)
+    motions = []
+    for ranks in (1, 2, 4):
+        case = folder / f"np{ranks}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", ranks=ranks)
+        motions.append([[float(v) for v in row] for row in series(case, "motion")])
+        for row in series(case, "balance"):
+            assert float(row[11]) == 0 and float(row[12]) == 0, "particles changed side"
+            assert abs(float(row[-1])) < 0.01, "volume of the capsule"
+        assert all(math.dist(row[2:5], (0, 0, 0)) < radius - bead for row in motions[-1])
+        assert 0.3 < motions[-1][-1][16] / rate < 0.6, motions[-1][-1][16] / rate
+    for other in motions[1:]:
+        for a, b in zip(motions[0], other):
+            assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], 3 * [radius] + 7 * [1] + 3 * [1e-3] + 3 * [rate])), (a, b)
+
+
 def test_kill(folder):
     """A run killed by SIGKILL goes on from its last checkpoint to the same bits."""
     control = CELL_CASE["system/control.yaml"].replace("wallClock: never", "wallClock: 0.3 s")

@@ -26,6 +26,13 @@ def check(programs, file, directory):
         return f"{file.name}: its head has no line '#   - {{name: {file.stem}, ...}}' or it has no entry '{file.stem}'"
     mesh = directory / "system" / "mesh.yaml"
     mesh.write_text(mesh.read_text().split("cells:")[0] + f"cells:\n  - {line.group(1)}\n")
+    inclusion = re.search(r"^#   - (\{name: parasite, .*\})$", text, re.MULTILINE)
+    if inclusion:
+        with open(mesh, "a") as file_of_mesh:
+            file_of_mesh.write(f"bodies:\n  - {inclusion.group(1)}\n")
+        (directory / "constant" / "bodies.yaml").write_text("parasite: {motion: free}\n")
+        numerics = directory / "system" / "numerics.yaml"
+        numerics.write_text(re.sub(r"spacing: .*", "spacing: 0.25 um", numerics.read_text(), count=1))
     shutil.copy(file, directory / "constant" / "membranes.yaml")
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     for program in ("checkCase", "membraneMesh"):
