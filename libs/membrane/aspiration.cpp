@@ -34,7 +34,7 @@ const Schema<Aspiration>& Aspiration::schema() {
 }
 
 Pipette Aspiration::pipette(const Membrane& membrane) const {
-    const double mouth = Pipette::touching(membrane.network().stressFree(), radius, wall);
+    const double mouth = Pipette::touching(membrane.initialPosition(), radius, wall);
     if (!std::isfinite(mouth)) {
         throw Failure(ExitCode::invalidCase,
                       "the membrane '" + membrane.name + "' has no node under the wall of a pipette of radius " +
@@ -61,14 +61,11 @@ Loads Aspiration::apply(int stage, Membrane& membrane) const {
     Loads loads;
     loads.longestStep = 0.25 * wall;
     loads.terms.push_back(pipetteContact(network, glass));
-    loads.terms.push_back(pipetteSuction(network, glass, pressures[static_cast<std::size_t>(stage)]));
+    loads.terms.push_back(
+        pipetteSuction(network, membrane.initialPosition(), glass, pressures[static_cast<std::size_t>(stage)]));
     if (network.isOpen()) {
-        loads.held.assign(membrane.position.size(), {false, false, false});
-        for (const Bond& bond : network.allBonds()) {
-            const auto [left, right] = network.bondTriangles(bond.number);
-            if (left < 0 || right < 0) {
-                loads.held[bond.node[0]][2] = loads.held[bond.node[1]][2] = true;
-            }
+        for (const char atBorder : borderNodes(network)) {
+            loads.held.push_back({false, false, atBorder != 0});
         }
     }
     return loads;

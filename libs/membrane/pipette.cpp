@@ -129,10 +129,10 @@ class Contact final : public Term {
 
 class Suction final : public Term {
   public:
-    Suction(const Network& network, const Pipette& pipette, double pressure)
+    Suction(const Network& network, std::span<const Vec3> initial, const Pipette& pipette, double pressure)
         : network_(network), pipette_(pipette), pressure_(pressure) {
         for (const Index3& t : network.triangles()) {
-            facesPipette_.push_back(areaVector(network.stressFree(), t)[2] > 0);
+            facesPipette_.push_back(areaVector(initial, t)[2] > 0);
         }
     }
 
@@ -236,8 +236,9 @@ std::shared_ptr<const Term> pipetteContact(const Network& network, const Pipette
     return std::make_shared<Contact>(network, pipette);
 }
 
-std::shared_ptr<const Term> pipetteSuction(const Network& network, const Pipette& pipette, double pressure) {
-    return std::make_shared<Suction>(network, pipette, pressure);
+std::shared_ptr<const Term> pipetteSuction(const Network& network, std::span<const Vec3> initial,
+                                           const Pipette& pipette, double pressure) {
+    return std::make_shared<Suction>(network, initial, pipette, pressure);
 }
 
 }  // namespace corpuscle::membrane

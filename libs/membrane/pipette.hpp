@@ -7,7 +7,7 @@
 //     p(g) = p0 (g/c)^2 for g > 0,     E = sum A_i p0 g_i^3/(3 c^2)
 // summed over 16 points of each triangle, A_i their shares of its stress-free area, so that glass does not slip between nodes: the wall
 // is to be no thinner than an edge.
-// Suction P acts on the side of the membrane that faces the pipette (stress-free normals with z > 0), within the bore and, with s falling
+// Suction P acts on the side of the membrane that faces the pipette (normals with z > 0 at the start), within the bore and, with s falling
 // smoothly from 1 to 0, from rho = R to the middle of the wall, where the membrane seals it:
 //     E = -P sum_t A_t,z F(x_t),   F = s(rho) (z - z_m),   s = 1 - 3 h^2 + 2 h^3,   h = (rho - R)/(w/2) within 0 .. 1
 // x_t the triangle's middle, A_t its area vector: P times the volume that the membrane takes up in the tube (divergence theorem).
@@ -39,6 +39,7 @@ struct Pipette {
 
 std::shared_ptr<const Term> pipetteContact(const Network& network, const Pipette& pipette);
 // The matrix is the exact one in either case: what makes an element semi-definite would take the load's own part away.
-std::shared_ptr<const Term> pipetteSuction(const Network& network, const Pipette& pipette, double pressure);
+std::shared_ptr<const Term> pipetteSuction(const Network& network, std::span<const Vec3> initial,
+                                           const Pipette& pipette, double pressure);
 
 }  // namespace corpuscle::membrane

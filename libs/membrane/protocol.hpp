@@ -23,4 +23,16 @@ class Protocol {
     virtual std::vector<double> measure(int stage, const Membrane& membrane) const = 0;
 };
 
+// Of each node, whether it lies on the border that the mesh was made with.
+inline std::vector<char> borderNodes(const Network& network) {
+    std::vector<char> border(network.nodeCount(), 0);
+    for (const Bond& bond : network.allBonds()) {
+        const auto [left, right] = network.bondTriangles(bond.number);
+        if (left < 0 || right < 0) {
+            border[bond.node[0]] = border[bond.node[1]] = 1;
+        }
+    }
+    return border;
+}
+
 }  // namespace corpuscle::membrane

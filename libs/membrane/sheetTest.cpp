@@ -17,17 +17,6 @@ Eigen::AlignedBox3d boxOf(const std::vector<Vec3>& x) {
     return box;
 }
 
-std::vector<char> borderOf(const Network& network) {
-    std::vector<char> border(network.nodeCount(), 0);
-    for (const Bond& bond : network.allBonds()) {
-        const auto [left, right] = network.bondTriangles(bond.number);
-        if (left < 0 || right < 0) {
-            border[bond.node[0]] = border[bond.node[1]] = 1;
-        }
-    }
-    return border;
-}
-
 // Mean Cauchy tension: what the held nodes take is what their membrane forces leave.
 Mat3 meanTension(const Membrane& membrane) {
     Mat3 sum = Mat3::Zero();
@@ -61,7 +50,7 @@ Loads SheetTest::apply(int stage, Membrane& membrane) const {
                           "' is none; give 'sheet' in place of 'cell' in system/relax.yaml, or another protocol");
     }
     const Mat3 map = deformation(value(stage), now.sizes()[1] / box.sizes()[1]);
-    const std::vector<char> border = borderOf(membrane.network());
+    const std::vector<char> border = borderNodes(membrane.network());
     Loads loads;
     for (std::size_t n = 0; n < rest.size(); ++n) {
         const auto atEnd = [&](int axis) {

@@ -59,13 +59,11 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     return data;
 }
 
-static bool keepsDamage(const membrane::Membrane& m) { return m.canRupture() && m.laws().rupture->keepsDamage(); }
-
 io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     const membrane::Network& network = m.network();
     io::PolyData data;
     if (m.canRupture()) data.point.integers["hole"] = membrane::holeOfNodes(network);
-    if (keepsDamage(m)) data.cell.scalars["damage"] = m.damage();
+    if (!m.damage().empty()) data.cell.scalars["damage"] = m.damage();
     data.points = m.position;
     data.triangles = network.triangles();
     data.point.vectors["force"] = m.force;
@@ -90,7 +88,7 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     for (const char* name : {"areaStrain", "tension1", "tension2"}) data.cell.scalars[name];
     data.cell.integers["broken"];
     if (cell.membrane.canRupture()) data.point.integers["hole"];
-    if (keepsDamage(cell.membrane)) data.cell.scalars["damage"];
+    if (!cell.membrane.damage().empty()) data.cell.scalars["damage"];
     return data;
 }
 

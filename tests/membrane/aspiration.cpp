@@ -23,7 +23,8 @@ TEST(Pipette, ForcesAndStiffnessAreTheDerivativesOfItsEnergies) {
     }
     testing::jitter(x, 0.03, 4);
     const Pipette pipette{.radius = 1, .wall = 0.4, .mouth = 0, .contactPressure = 3, .depth = 0.1};
-    for (const auto& term : {pipetteContact(network, pipette), pipetteSuction(network, pipette, 1.7)}) {
+    for (const auto& term :
+         {pipetteContact(network, pipette), pipetteSuction(network, network.stressFree(), pipette, 1.7)}) {
         std::vector<Vec3> f(x.size(), Vec3::Zero());
         term->addForces(x, f);
         AssembledStiffness stiffness(x.size());

@@ -140,6 +140,15 @@ def close(a, b, tolerance):
     assert worst <= tolerance, f"largest relative difference {worst:.3g}, allowed {tolerance}"
 
 
+def same_motions(motions, length, rate):
+    """Rows of the observer body: place, axis and rotation, velocity (of the order of 1 mm/s), angular velocity."""
+    scales = 3 * [length] + 7 * [1] + 3 * [1e-3] + 3 * [rate]
+    for other in motions[1:]:
+        assert len(other) == len(motions[0])
+        for a, b in zip(motions[0], other):
+            assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], scales)), (a, b)
+
+
 def test_bodies(folder):
     """A free body across a periodic face: a run in two parts ends with the bits of a run in one, on 1 and 2 ranks; 4 ranks see the same motion."""
     start = prepared(folder / "start", BODY_CASE)
@@ -163,9 +172,7 @@ def test_bodies(folder):
     turned, rate = last[5], last[16] / 200  # x of the axis, angular velocity about y over gammadot
     assert len(motions[0]) >= 12 and abs(first[16] - 100) < 1e-6, "it starts with half the curl of the flow"
     assert 0.2 < rate < 0.6 and turned > first[5], (turned, rate)
-    for other in motions[1:]:
-        for a, b in zip(motions[0], other):
-            assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], 3 * [5e-6] + 7 * [1] + 3 * [1e-3] + 3 * [200])), (a, b)
+    same_motions(motions, 5e-6, 200)
 
 
 def test_inclusion(folder):
@@ -194,9 +201,7 @@ bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centr
             assert abs(float(row[-1])) < 0.01, "volume of the capsule"
         assert all(math.dist(row[2:5], (0, 0, 0)) < radius - bead for row in motions[-1])
         assert 0.3 < motions[-1][-1][16] / rate < 0.6, motions[-1][-1][16] / rate
-    for other in motions[1:]:
-        for a, b in zip(motions[0], other):
-            assert all(abs(x - y) < 1e-6 * scale for x, y, scale in zip(a[2:18], b[2:18], 3 * [radius] + 7 * [1] + 3 * [1e-3] + 3 * [rate])), (a, b)
+    same_motions(motions, radius, rate)
 
 
 def test_kill(folder):
