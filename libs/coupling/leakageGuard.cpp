@@ -12,17 +12,6 @@ using particles::ParticleSystem;
 namespace {
 constexpr double restoredDistanceInSpacings = 0.1;
 constexpr std::size_t longestReport = 1000;
-
-// The image of a particle's position that is nearest to the cell.
-Vec3 imageNear(const particles::Box& box, const Vec3& x, const Vec3& middle) {
-    return middle + box.minimumImage(x - middle);
-}
-
-Vec3 middleOf(const Cell& cell) {
-    Vec3 low = cell.membrane.position.front(), high = low;
-    for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    return 0.5 * (low + high);
-}
 }  // namespace
 
 geometry::TriangleGrid& LeakageGuard::grid(const Cell& cell, std::size_t index) {

@@ -21,8 +21,10 @@ void addTriangle(std::span<const Vec3> x, const Index3& node, double slope, doub
     const auto area = TriangleArea::at(corners);
     Eigen::Matrix<double, 9, 1> gradient;
     gradient << area.gradient[0], area.gradient[1], area.gradient[2];
-    Eigen::Matrix<double, 9, 9> matrix = slope * hessian<TriangleArea>(corners);
-    matrix += curvature * gradient * gradient.transpose();
+    Eigen::Matrix<double, 9, 9> matrix = curvature * gradient * gradient.transpose();
+    if (definiteness != Definiteness::partwise) {
+        matrix += slope * hessian<TriangleArea>(corners);
+    }
     if (definiteness == Definiteness::semiDefinite) {
         matrix = semiDefinite(matrix);
     }
@@ -105,6 +107,9 @@ class GlobalArea final : public WholeSurfaceTerm {
     }
     void addCurvature(std::span<const Vec3> x, double slope, Definiteness definiteness,
                       Stiffness& stiffness) const override {
+        if (definiteness == Definiteness::partwise) {
+            return;
+        }
         for (const Index3& node : network_.triangles()) {
             addTriangle(x, node, slope, 0, definiteness, stiffness);
         }

@@ -8,6 +8,7 @@
 //               | (seen from outside)                        | -pi .. pi, positive where convex [rad]
 //
 // Angles come from atan2(|sin|, cos), so their gradients hold their accuracy near 0 and pi (no division by sin).
+// addTension adds of slope d2q/dx2 what is positive semi-definite in closed form: a bond under tension resists being turned.
 // Where an angle's plane is undefined (corner angle exactly 0 or pi, triangle of no area) the gradient is zero.
 #pragma once
 #include <Eigen/Geometry>
@@ -40,11 +41,25 @@ struct BondLength {
         const Vec e = l > 0 ? Vec(r / l) : Vec(Vec::Zero());
         return {l, {-e, e}};
     }
+    template <class Matrix>
+    static void addTension(const Coordinate<2>& q, double slope, Matrix& matrix) {
+        if (!(slope > 0) || !(q.value > 0)) {
+            return;
+        }
+        const Vec3& e = q.gradient[1];
+        const Eigen::Matrix3d across = slope / q.value * (Eigen::Matrix3d::Identity() - e * e.transpose());
+        matrix.template topLeftCorner<3, 3>() += across;
+        matrix.template bottomRightCorner<3, 3>() += across;
+        matrix.template topRightCorner<3, 3>() -= across;
+        matrix.template bottomLeftCorner<3, 3>() -= across;
+    }
 };
 
 // dq/du = (u x n)/|u|^2, dq/dv = (n x v)/|v|^2 with n the unit normal along u x v.
 struct CornerAngle {
     static constexpr int nodes = 3;
+    template <class Matrix>
+    static void addTension(const Coordinate<3>&, double, Matrix&) {}
     template <class Scalar = double>
     static Coordinate<3, Scalar> at(const std::array<Vec3Of<Scalar>, 3>& x) {
         using Vec = Vec3Of<Scalar>;
@@ -71,6 +86,8 @@ struct CornerAngle {
 // with s, t the feet of the heights on the edge, 0 at a and 1 at b.
 struct DihedralAngle {
     static constexpr int nodes = 4;
+    template <class Matrix>
+    static void addTension(const Coordinate<4>&, double, Matrix&) {}
     template <class Scalar = double>
     static Coordinate<4, Scalar> at(const std::array<Vec3Of<Scalar>, 4>& x) {
         using Vec = Vec3Of<Scalar>;

@@ -65,9 +65,16 @@ class ElementTerm final : public Term {
             for (int k = 0; k < Coordinate::nodes; ++k) {
                 gradient.template segment<3>(3 * k) = q.gradient[k];
             }
-            Eigen::Matrix<double, size, size> matrix =
-                law_.secondDerivative(q.value, element.rest) * gradient * gradient.transpose();
-            matrix += law_.derivative(q.value, element.rest) * hessian<Coordinate>(corners);
+            const double curvature = law_.secondDerivative(q.value, element.rest),
+                         slope = law_.derivative(q.value, element.rest);
+            Eigen::Matrix<double, size, size> matrix;
+            if (definiteness == Definiteness::partwise) {
+                matrix = std::max(curvature, 0.0) * gradient * gradient.transpose();
+                Coordinate::addTension(q, slope, matrix);
+            } else {
+                matrix = curvature * gradient * gradient.transpose();
+                matrix += slope * hessian<Coordinate>(corners);
+            }
             matrix *= weighting_.of(element.number);
             if (definiteness == Definiteness::semiDefinite) {
                 matrix = semiDefinite(matrix);

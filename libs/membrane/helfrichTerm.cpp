@@ -179,29 +179,37 @@ std::vector<Vec3> HelfrichTerm::gradientOfIntegral(const State& s) const {
     return gradient;
 }
 
+void HelfrichTerm::addCurvature(std::span<const Vec3> x, const State& s, const Ring& ring,
+                                Eigen::MatrixXd& matrix) const {
+    const int v = ring.centre;
+    const auto scatter = [&](const auto& node, const auto& part, double factor) {
+        for (std::size_t j = 0; j < node.size(); ++j) {
+            for (std::size_t i = 0; i < node.size(); ++i) {
+                matrix.block<3, 3>(ring.place(node[i]), ring.place(node[j])) +=
+                    factor *
+                    part.template block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
+            }
+        }
+    };
+    for (const int h : ring.hinges) {
+        const auto& node = network_.hinges()[h].node;
+        scatter(node, hessian<EdgeCurvature>(places(x, node)), 0.25 * s.byM[v]);
+    }
+    for (const int t : ring.triangles) {
+        const Index3& corner = network_.triangles()[network_.wholeTriangles()[t]];
+        const auto first = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+        const auto node = turned(corner, first);
+        scatter(node, hessian<NodeArea>(places(x, node)), s.byA[v]);
+    }
+}
+
 void HelfrichTerm::addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const {
     const State s = evaluate(x);
     for (const Ring& ring : rings(s)) {
         const int v = ring.centre;
         Eigen::MatrixXd matrix = 4 * moduli_.kappa / s.area[v] * ring.w * ring.w.transpose();
-        const auto scatter = [&](const auto& node, const auto& part, double factor) {
-            for (std::size_t j = 0; j < node.size(); ++j) {
-                for (std::size_t i = 0; i < node.size(); ++i) {
-                    matrix.block<3, 3>(ring.place(node[i]), ring.place(node[j])) +=
-                        factor *
-                        part.template block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
-                }
-            }
-        };
-        for (const int h : ring.hinges) {
-            const auto& node = network_.hinges()[h].node;
-            scatter(node, hessian<EdgeCurvature>(places(x, node)), 0.25 * s.byM[v]);
-        }
-        for (const int t : ring.triangles) {
-            const Index3& corner = network_.triangles()[network_.wholeTriangles()[t]];
-            const auto first = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
-            const auto node = turned(corner, first);
-            scatter(node, hessian<NodeArea>(places(x, node)), s.byA[v]);
+        if (definiteness != Definiteness::partwise) {
+            addCurvature(x, s, ring, matrix);
         }
         if (definiteness == Definiteness::semiDefinite) {
             matrix = semiDefinite(matrix);

@@ -109,6 +109,7 @@ class HelfrichTerm final : public Term {
 
     State evaluate(std::span<const Vec3> x) const;
     std::vector<Ring> rings(const State& state) const;
+    void addCurvature(std::span<const Vec3> x, const State& state, const Ring& ring, Eigen::MatrixXd& matrix) const;
     std::vector<Vec3> gradientOfIntegral(const State& state) const;  // of M = sum M_v
 
     const Network& network_;

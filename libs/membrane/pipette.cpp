@@ -53,7 +53,7 @@ class Contact final : public Term {
         forEach(x, [&](const Index3& node, const Vec3& weight, const Depth& g, double area) {
             Eigen::MatrixXd ofPoint = area * slope(g.value) * g.outwards * g.outwards.transpose();
             ofPoint -= area * pressure(g.value) * g.curvature;
-            if (definiteness == Definiteness::semiDefinite) {
+            if (definiteness != Definiteness::exact) {
                 ofPoint = semiDefinite(ofPoint);
             }
             Eigen::Matrix<double, 9, 9> matrix;

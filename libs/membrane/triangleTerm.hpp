@@ -51,9 +51,13 @@ class TriangleTerm final : public Term {
     void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
         for (const int number : network_.wholeTriangles()) {
             const RestTriangle& rest = rest_[number];
-            const Vec3 e = strainOf(rest, x), t = rest.pullBack(law_.slope(e));
+            const bool partwise = definiteness == Definiteness::partwise;
+            const Vec3 e = strainOf(rest, x), slope = rest.pullBack(law_.slope(e));
+            const Vec3 t = partwise ? positivePart(slope) : slope;
             const Matrix3x9 byNodes = strainByNodes(rest, x);
-            Matrix9 matrix = rest.area * byNodes.transpose() * law_.curvature(e) * byNodes;
+            const Mat3 curvature = law_.curvature(e);
+            Matrix9 matrix =
+                rest.area * byNodes.transpose() * (partwise ? positivePart(curvature) : curvature) * byNodes;
             // t11 a.a + t12 a.b + t22 b.b by the nodes: a = x1 - x0, b = x2 - x0.
             Mat3 weights;
             weights << t[0] + t[1] + t[2], -t[0] - 0.5 * t[1], -t[2] - 0.5 * t[1],  //
@@ -89,6 +93,20 @@ class TriangleTerm final : public Term {
 
     static Vec3 strainOf(const RestTriangle& rest, std::span<const Vec3> x) {
         return rest.strain(edgeProducts(x[rest.node[1]] - x[rest.node[0]], x[rest.node[2]] - x[rest.node[0]]));
+    }
+
+    // Without the negative eigenvalues: of (t11, t12; t12, t22), where t12 counts both of its places, and of W''.
+    static Vec3 positivePart(const Vec3& t) {
+        Eigen::Matrix2d m{{t[0], 0.5 * t[1]}, {0.5 * t[1], t[2]}};
+        m = positivePart(m);
+        return {m(0, 0), 2 * m(0, 1), m(1, 1)};
+    }
+    template <int n>
+    static Eigen::Matrix<double, n, n> positivePart(const Eigen::Matrix<double, n, n>& m) {
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> solver;
+        solver.computeDirect(m);
+        const auto& vectors = solver.eigenvectors();
+        return vectors * solver.eigenvalues().cwiseMax(0).asDiagonal() * vectors.transpose();
     }
 
     static Matrix3x9 strainByNodes(const RestTriangle& rest, std::span<const Vec3> x) {

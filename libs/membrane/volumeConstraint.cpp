@@ -26,6 +26,9 @@ class Volume final : public WholeSurfaceTerm {
 
 void addVolumeCurvature(const Network& network, std::span<const Vec3> x, double slope, Definiteness definiteness,
                         Stiffness& stiffness) {
+    if (definiteness == Definiteness::partwise) {
+        return;
+    }
     for (const Bond& bond : network.allBonds()) {
         const auto across = [&](int triangle) -> const Vec3& {
             const Index3& t = network.triangles()[triangle];

@@ -55,6 +55,27 @@ class Columns {
         return {a, b};
     }
 
+    // f(i) for all particles in a square column of half width `radius` about x, and as far along z; z is the sorted array.
+    template <class F>
+    void forNear(const double* z, const Vec3& x, double radius, F&& f) const {
+        const int x0 = cellX(x[0] - radius), x1 = cellX(x[0] + radius), y0 = cellY(x[1] - radius),
+                  y1 = cellY(x[1] + radius);
+        const double zLow = x[2] - radius, zHigh = x[2] + radius;
+        for (int cx = x0; cx <= x1; ++cx)
+            for (int cy = y0; cy <= y1; ++cy) {
+                const int c = column(cx, cy);
+                const double *first = z + begin(c), *last = z + end(c), *from, *to;
+                if (downwards(c)) {
+                    from = std::partition_point(first, last, [&](double a) { return a > zHigh; });
+                    to = std::partition_point(from, last, [&](double a) { return a >= zLow; });
+                } else {
+                    from = std::partition_point(first, last, [&](double a) { return a < zLow; });
+                    to = std::partition_point(from, last, [&](double a) { return a <= zHigh; });
+                }
+                for (; from != to; ++from) f(static_cast<int>(from - z));
+            }
+    }
+
   private:
     // The outermost strips reach to infinity.
     static double gap(int c, int count, double low, double width, double a, double b) {

@@ -79,52 +79,78 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
     std::iota(slot_.begin(), slot_.end(), 0);
 }
 
-template <class Real>
-void Halo::begin(Real* records, int owned, int fields, double scale) {
-    const auto width = static_cast<std::size_t>(fields), bytes = width * sizeof(Real);
+// pack(k, to): entry k of the send list as it is to arrive.
+template <class Real, class Pack>
+void Halo::post(Real* records, int owned, int fields, Part part, Pack&& pack) {
+    const auto width = static_cast<std::size_t>(part.last - part.first), bytes = width * sizeof(Real);
     sendBuffer_.resize(sendIndex_.size() * bytes);
     receiveBuffer_.resize(static_cast<std::size_t>(ghosts_) * bytes);
     requests_.clear();
     const MPI_Datatype type = sizeof(Real) == sizeof(double) ? MPI_DOUBLE : MPI_FLOAT;
+    const auto count = [&](const Message& m) { return (m.end - m.begin) * static_cast<int>(width); };
     for (const Message& m : receives_) {
         requests_.emplace_back();
-        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * bytes, (m.end - m.begin) * fields, type,
-                  m.rank, 0, comm_, &requests_.back());
+        MPI_Irecv(receiveBuffer_.data() + static_cast<std::size_t>(m.begin) * bytes, count(m), type, m.rank, 0, comm_,
+                  &requests_.back());
     }
-    const auto pack = [&](int k, Real* to) {
-        const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * width;
-        for (std::size_t f = 0; f < width; ++f) to[f] = from[f];
-        for (std::size_t f = 0; f < 3; ++f)
-            to[f] = static_cast<Real>(static_cast<double>(to[f]) + scale * sendShift_[k][static_cast<int>(f)]);
-    };
     for (const Message& m : sends_) {
         Real* buffer = reinterpret_cast<Real*>(sendBuffer_.data());
         for (int k = m.begin; k < m.end; ++k) pack(k, buffer + static_cast<std::size_t>(k) * width);
         requests_.emplace_back();
-        MPI_Isend(buffer + static_cast<std::size_t>(m.begin) * width, (m.end - m.begin) * fields, type, m.rank, 0,
-                  comm_, &requests_.back());
+        MPI_Isend(buffer + static_cast<std::size_t>(m.begin) * width, count(m), type, m.rank, 0, comm_,
+                  &requests_.back());
     }
+    const auto record = static_cast<std::size_t>(fields), first = static_cast<std::size_t>(part.first);
     for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k)
-        pack(selfSend_.begin + k, records + static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]) * width);
+        pack(selfSend_.begin + k,
+             records + static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]) * record + first);
+}
+
+template <class Real>
+void Halo::begin(Real* records, int owned, int fields, double scale) {
+    post(records, owned, fields, {0, fields}, [&](int k, Real* to) {
+        const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * static_cast<std::size_t>(fields);
+        std::copy_n(from, fields, to);
+        for (std::size_t f = 0; f < 3; ++f)
+            to[f] = static_cast<Real>(static_cast<double>(to[f]) + scale * sendShift_[k][static_cast<int>(f)]);
+    });
+}
+
+template <class Real>
+void Halo::begin(Real* records, int owned, int fields, Part part) {
+    post(records, owned, fields, part, [&](int k, Real* to) {
+        const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * static_cast<std::size_t>(fields);
+        std::copy(from + part.first, from + part.last, to);
+    });
 }
 
 template <class Real>
 void Halo::finish(Real* records, int owned, int fields) {
-    const auto width = static_cast<std::size_t>(fields);
+    finish(records, owned, fields, {0, fields});
+}
+
+template <class Real>
+void Halo::finish(Real* records, int owned, int fields, Part part) {
+    const auto width = static_cast<std::size_t>(part.last - part.first);
+    const auto record = static_cast<std::size_t>(fields), first = static_cast<std::size_t>(part.first);
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (const Message& m : receives_)
         for (int k = m.begin; k < m.end; ++k) {
             const Real* from =
                 reinterpret_cast<const Real*>(receiveBuffer_.data()) + static_cast<std::size_t>(k) * width;
-            std::copy(from, from + width, records + static_cast<std::size_t>(owned + slot_[k]) * width);
+            std::copy(from, from + width, records + static_cast<std::size_t>(owned + slot_[k]) * record + first);
         }
     requests_.clear();
 }
 
 template void Halo::begin(double*, int, int, double);
 template void Halo::begin(float*, int, int, double);
+template void Halo::begin(double*, int, int, Part);
+template void Halo::begin(float*, int, int, Part);
 template void Halo::finish(double*, int, int);
 template void Halo::finish(float*, int, int);
+template void Halo::finish(double*, int, int, Part);
+template void Halo::finish(float*, int, int, Part);
 
 std::vector<int> Halo::imageOf() const {
     std::vector<int> own(static_cast<std::size_t>(ghosts_), -1);
@@ -133,11 +159,12 @@ std::vector<int> Halo::imageOf() const {
     return own;
 }
 
-void Halo::foldImages(double* sums, int owned) const {
+void Halo::foldImages(double* sums, int owned, int count) const {
+    const auto width = static_cast<std::size_t>(count);
     for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k) {
-        const double* from = sums + 4 * static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]);
-        double* to = sums + 4 * static_cast<std::size_t>(sendIndex_[selfSend_.begin + k]);
-        for (int s = 0; s < 4; ++s) to[s] += from[s];
+        const double* from = sums + width * static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]);
+        double* to = sums + width * static_cast<std::size_t>(sendIndex_[selfSend_.begin + k]);
+        for (std::size_t s = 0; s < width; ++s) to[s] += from[s];
     }
 }
 

@@ -30,14 +30,22 @@ class Halo {
     void exchange(double* records, int owned, int fields) {
         begin(records, owned, fields, 1), finish(records, owned, fields);
     }
+    // The same for the fields [first, last) of the records alone, which are no positions.
+    struct Part {
+        int first, last;
+    };
+    template <class Real>
+    void begin(Real* records, int owned, int fields, Part part);
+    template <class Real>
+    void finish(Real* records, int owned, int fields, Part part);
 
     // Puts ghosts into a new order: the ghost that was number order[k] becomes number k.
     void reorder(const std::vector<int>& order);
 
     // The own particle of which each ghost is an image, -1 for those of other ranks.
     std::vector<int> imageOf() const;
-    // Adds what images of own particles have gathered, four numbers a particle, to these particles.
-    void foldImages(double* sums, int owned) const;
+    // Adds what images of own particles have gathered, `count` numbers a particle, to these particles.
+    void foldImages(double* sums, int owned, int count = 4) const;
 
     // Bytes sent to other ranks at each exchange of `fields` doubles.
     std::size_t bytesSent(int fields) const {
@@ -49,6 +57,8 @@ class Halo {
         int rank;
         int begin, end;  // of the send list, or of the received ghosts
     };
+    template <class Real, class Pack>
+    void post(Real* records, int owned, int fields, Part part, Pack&& pack);
     MPI_Comm comm_ = MPI_COMM_NULL;
     int ghosts_ = 0;
     std::size_t selfCount_ = 0;

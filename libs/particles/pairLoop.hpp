@@ -7,6 +7,8 @@
 //     template <class V, class J> void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const;
 //     template <class V> void finish(const V (&i)[fields], V (&sum)[4]) const;   // common factors, once per particle
 // with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. J is V or a number, the same for all lanes.
+// A law of more sums says `static constexpr int sums` (a multiple of four; the first three odd, the others even). One whose p3 differs
+// for i and j says `static constexpr bool distinct = true` and gives what i gets in p[sums].
 // What a particle does to itself is left to finish. Fields 0..2 of a record are the position in
 // units of the support radius from the middle of the box (RecordFrame): small numbers near one, so that records, pair terms and the
 // sums over one block may be float (Real) while state and sums stay double. Records (array of structures: one cache line for eight
@@ -35,8 +37,21 @@ struct PairView {
     int end(int block) const { return first[parts * block + parts]; }
 };
 
-// Sums stand particle by particle, ghosts behind the owned, four doubles each, until they are finished.
-inline constexpr int pairSums = 4;
+// Sums stand particle by particle, ghosts behind the owned, four doubles each unless the law has more, until they are finished.
+template <class Law>
+constexpr int sumsOf() {
+    if constexpr (requires { Law::sums; })
+        return Law::sums;
+    else
+        return 4;
+}
+template <class Law>
+constexpr bool isDistinct() {
+    if constexpr (requires { Law::distinct; })
+        return Law::distinct;
+    else
+        return false;
+}
 
 // A law as built for one instruction set, for tables of kernels: PairLoop::run and PairLoop::finish.
 template <class Constants, class Real = double>
@@ -49,7 +64,7 @@ struct PairKernel {
 template <class Isa, class Law, class Real, int lanes>
 class PairLoop {
   public:
-    // Adds the pairs of the named blocks to `sums` (pairSums numbers per particle).
+    // Adds the pairs of the named blocks to `sums`.
     static void run(const Law& law, const PairView& list, const int* blocks, int blockCount, const Real* records,
                     double* sums) {
         for (int k = 0; k < blockCount; ++k) {
@@ -95,10 +110,18 @@ class PairLoop {
   private:
     using V = Simd<Isa, Real, lanes>;
     using Wide = Simd<Isa, double, lanes>;
-    static constexpr int fields = Law::fields;
+    static constexpr int fields = Law::fields, pairSums = sumsOf<Law>(), terms = pairSums + (isDistinct<Law>() ? 1 : 0);
     static constexpr int arrivals = 63;
+    static_assert(pairSums % 4 == 0);
 
     static CORPUSCLE_INLINE int inBlock(int slot, int owned) { return owned - slot < lanes ? owned - slot : lanes; }
+
+    // What i gets of a pair.
+    static CORPUSCLE_INLINE void take(const V (&p)[terms], V (&sum)[pairSums]) {
+        for (int s = 0; s < 3; ++s) sum[s] -= p[s];
+        sum[3] += p[isDistinct<Law>() ? pairSums : 3];
+        for (int s = 4; s < pairSums; ++s) sum[s] += p[s];
+    }
 
     // Records of a block, field by field. The last block is filled up with copies of its last particle, out of reach of everything.
     template <class To, int room>
@@ -117,12 +140,11 @@ class PairLoop {
                                         V (&sum)[pairSums], Real (&other)[pairSums][2 * lanes]) {
         for (V& s : sum) s = V(0.0);
         for (int r = 1; r <= lanes / 2; ++r) {
-            V j[fields], d[3], p[pairSums];
+            V j[fields], d[3], p[terms];
             for (int f = 0; f < fields; ++f) j[f] = V::load(block[f] + r);
             for (int k = 0; k < 3; ++k) d[k] = j[k] - i[k];
             law.pair(i, j, d, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), p);
-            for (int s = 0; s < 3; ++s) sum[s] -= p[s];
-            sum[3] += p[3];
+            take(p, sum);
             if (r == lanes / 2) return;
             for (int s = 0; s < pairSums; ++s) (V::load(other[s] + r) + p[s]).store(other[s] + r);
         }
@@ -165,11 +187,12 @@ class PairLoop {
             const Real* next = records + static_cast<long>(j[1]) * fields;
             V nextD[3];
             const V nextQ = toward(next, nextD);
-            V p[pairSums];
+            V p[terms];
             law.pair(i, record, d, q, p);
-            for (int s = 0; s < 3; ++s) sum[s] -= p[s];
-            sum[3] += p[3];
-            if constexpr (mutual) addSums(sums + static_cast<long>(*j) * pairSums, p[0], p[1], p[2], p[3]);
+            take(p, sum);
+            if constexpr (mutual)
+                for (int s = 0; s < pairSums; s += 4)
+                    addSums(sums + static_cast<long>(*j) * pairSums + s, p[s], p[s + 1], p[s + 2], p[s + 3]);
             record = next, q = nextQ;
             for (int k = 0; k < 3; ++k) d[k] = nextD[k];
         }

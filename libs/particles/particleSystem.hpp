@@ -32,6 +32,7 @@ class ParticleSystem {
     const Box& box() const { return box_; }
     const Decomposition& decomposition() const { return decomposition_; }
     const PairList& list() const { return list_; }
+    Halo& halo() { return halo_; }
     const Halo& halo() const { return halo_; }
     MPI_Comm comm() const { return decomposition_.comm(); }
     int owned() const { return static_cast<int>(store_.size()); }
@@ -67,6 +68,20 @@ class ParticleSystem {
         work(PairList::interior), work(PairList::interiorAtWall);
         halo_.finish(records, owned(), fields);
         work(PairList::boundary), work(PairList::boundaryAtWall);
+    }
+    // The same when only `part` of the ghosts' records has changed since the last time, and that is no position.
+    template <class Real, class Work>
+    void forEachPair(Real* records, int fields, Halo::Part part, Work&& work) {
+        halo_.begin(records, owned(), fields, part);
+        work(PairList::interior), work(PairList::interiorAtWall);
+        halo_.finish(records, owned(), fields, part);
+        work(PairList::boundary), work(PairList::boundaryAtWall);
+    }
+
+    // f(i) for the owned particles that lay within `radius` of x, or more, when lists were built; x in the box. No image of x is taken.
+    template <class F>
+    void forOwnedNear(const Vec3& x, double radius, F&& f) const {
+        columns_.forNear(store_.zBuilt.data(), x, radius, f);
     }
 
   private:

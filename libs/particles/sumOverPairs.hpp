@@ -22,13 +22,13 @@ class RecordFrame {
     double scale_;
 };
 
-// results[0..3] of the owned particles. `records` holds `fields` doubles per particle, those of owned ones filled, with room for
+// results[0 .. count) of the owned particles, count the law's sums. `records` holds `fields` doubles per particle, those of owned ones filled, with room for
 // ghosts behind them; `sums` is memory to work in. atWall: the form of the law for blocks that meet a wall. Collective.
 template <class Constants, class Real>
 void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& kernel,
                   const PairKernel<Constants, Real>& atWall, const Constants& constants, AlignedVector<Real>& records,
-                  int fields, RealArray& sums, double* const* results) {
-    sums.assign(static_cast<std::size_t>(system.owned() + system.ghosts()) * pairSums, 0.0);
+                  int fields, RealArray& sums, double* const* results, int count = 4) {
+    sums.assign(static_cast<std::size_t>(system.owned() + system.ghosts()) * static_cast<std::size_t>(count), 0.0);
     system.forEachPair(records.data(), fields, 1 / system.support(), [&](PairList::Group group) {
         const std::vector<int>& blocks = system.list().blocks(group);
         const bool wall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
@@ -36,7 +36,7 @@ void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& ker
             .run(constants, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
                  sums.data());
     });
-    system.halo().foldImages(sums.data(), system.owned());
+    system.halo().foldImages(sums.data(), system.owned(), count);
     kernel.finish(constants, system.owned(), records.data(), sums.data(), results);
 }
 

@@ -32,6 +32,8 @@ const Mark& placeOf(const Node& node, const std::string& key) {
     return node.isNothing() ? node.place() : node.mark;
 }
 
+constexpr double implicitBulk = 500;  // bulk modulus of the implicit step in units of mu gammadot
+
 }  // namespace
 
 // Rules between files know a file and a key; the line and column follow from the dictionary.
@@ -127,6 +129,9 @@ Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.doma
 double Case::soundSpeed() const {
     if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;
     const double nu = fluid.viscosity / flow.density;
+    if (numerics.isImplicit())  // volumes are kept exactly: the membrane's stiffness does not count
+        return std::sqrt(std::max(
+            {100 * flow.speed * flow.speed, implicitBulk * nu * flow.rate, 100 * flow.bodyForce.norm() * flow.length}));
     double length = flow.length, square = flow.speed * flow.speed;
     for (const CellSettings& cell : mesh.cells) {
         const double a = cell.shape->radius();

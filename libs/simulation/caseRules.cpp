@@ -63,6 +63,34 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          "; move it towards the middle or make the box larger");
 }
 
+// Which integrator goes with which coupling and operators.
+void checkScheme(const Case& c, Problems& problems) {
+    const Mark numerics{"system/numerics.yaml", 0, 0};
+    const NumericsSettings& n = c.numerics;
+    if (!n.isImplicit()) {
+        if (n.isImmersed())
+            problems.add(
+                numerics, "coupling",
+                "found immersed, which goes with 'integrator: implicit'; write that, or coupling: dualIdentity");
+        if (n.operators == "corrected")
+            problems.add(numerics, "operators",
+                         "found corrected, which go with 'integrator: implicit'; write that, or operators: plain");
+        return;
+    }
+    if (!c.mesh.cells.empty() && !n.isImmersed())
+        problems.add(numerics, "coupling",
+                     "found dualIdentity, which goes with 'integrator: velocityVerlet'; write coupling: immersed");
+    if (!c.mesh.bodies.empty())
+        problems.add(numerics, "integrator",
+                     "found implicit, but system/mesh.yaml has bodies, which move with 'integrator: velocityVerlet' "
+                     "only; write that, or remove the bodies");
+    for (const auto& [name, laws] : c.membranes.types)
+        if (laws.rupture || laws.viscosity)
+            problems.add({"constant/membranes.yaml", 0, 0}, name + (laws.rupture ? ".rupture" : ".viscosity"),
+                         "found with 'integrator: implicit', which does not know it; write 'integrator: "
+                         "velocityVerlet' in system/numerics.yaml, or leave it out");
+}
+
 }  // namespace
 
 void checkTogether(const Case& c, Problems& problems) {
@@ -112,6 +140,7 @@ void checkTogether(const Case& c, Problems& problems) {
                          {"constant/bodies.yaml", 0, 0}, problems);
         checkSurface(c, surface, problems);
     }
+    checkScheme(c, problems);
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
         const auto type = c.membranes.types.find(cell.type());
         return type != c.membranes.types.end() && type->second.rupture;

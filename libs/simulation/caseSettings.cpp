@@ -96,17 +96,19 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
         Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
             .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
-            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet"}, "time integration",
+            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet", "implicit"}, "time integration",
                   {.fallback = "velocityVerlet"})
-            .word("coupling", &NumericsSettings::coupling, {"dualIdentity"}, "coupling of fluid and membrane",
+            .word("coupling", &NumericsSettings::coupling, {"dualIdentity", "immersed"},
+                  "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them",
                   {.fallback = "dualIdentity"})
-            .word("operators", &NumericsSettings::operators, {"plain"}, "form of the pair operators",
-                  {.fallback = "plain"})
+            .word("operators", &NumericsSettings::operators, {"plain", "corrected"},
+                  "form of the pair operators: of the kernel alone, or exact for linear fields", {.fallback = "plain"})
             .word("precision", &NumericsSettings::precision, {"double", "mixed"},
                   "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state "
                   "and sums are double",
                   {.fallback = "double"})
             .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
+            .table("implicit", &NumericsSettings::implicit, "the implicit step", {.fallback = "{}"})
             .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",
                     {.fallback = "0.3 dx", .range = positive})
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",

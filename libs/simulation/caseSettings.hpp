@@ -3,6 +3,7 @@
 #include "bodies/bodySettings.hpp"
 #include "core/registry.hpp"
 #include "geometry/shape.hpp"
+#include "implicit/implicitSettings.hpp"
 #include "membrane/membraneSettings.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/flow.hpp"
@@ -49,10 +50,13 @@ struct NumericsSettings {
     Choice<sph::Kernel> kernel;
     std::string integrator, coupling, operators, precision;
     std::optional<sph::ShiftingSettings> shifting;
+    implicit::ImplicitSettings implicit;
     Length skin;
     long guard = 10;           // steps between two looks of the leakage guard; 0: none
     long densityBalance = 10;  // steps between two balances of density against volume; 0: none
     double safety = 0.95;      // fraction of each limit that the step takes
+    bool isImplicit() const { return integrator == "implicit"; }
+    bool isImmersed() const { return coupling == "immersed"; }
     static const Schema<NumericsSettings>& schema();
 };
 

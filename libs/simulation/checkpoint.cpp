@@ -78,6 +78,10 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("viscousRate", state.integrator.viscousRate);
     file.attribute("membraneRate", state.integrator.membraneRate);
     file.attribute("springRate2", state.integrator.springRate2);
+    if (input.numerics.isImplicit()) {
+        const implicit::ImplicitStep::State& s = state.integrator.implicit;
+        file.writeReplicated("implicit", std::vector<double>{s.lastStep, s.lastSpacing, s.reference});
+    }
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.coupling) {
@@ -124,8 +128,19 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
     time.t = file.attribute<double>("time");
     time.step = file.attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.attribute<double>("viscousRate"), file.attribute<double>("membraneRate"),
-                        file.attribute<double>("springRate2"), file.attribute<double>("dt")};
+    state.integrator = {file.attribute<double>("viscousRate"),
+                        file.attribute<double>("membraneRate"),
+                        file.attribute<double>("springRate2"),
+                        file.attribute<double>("dt"),
+                        {}};
+    if (input.numerics.isImplicit()) {
+        if (!file.has("implicit"))
+            throw Failure(ExitCode::io, path.string() +
+                                            " was written by 'integrator: velocityVerlet'; start from firstTime, or "
+                                            "write that in system/numerics.yaml");
+        const std::vector<double> s = file.readReplicated<double>("implicit");
+        state.integrator.implicit = {s.at(0), s.at(1), s.at(2)};
+    }
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;

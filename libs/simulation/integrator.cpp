@@ -18,6 +18,20 @@ constexpr double largestDensityChange = 0.5;
 }  // namespace
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
+    if (!input.numerics.isImplicit()) {
+        makeExplicit();
+        return;
+    }
+    implicit::ImplicitStep::Options options;
+    options.settings = input.numerics.implicit;
+    if (input.numerics.operators == "plain") options.form = sph::OperatorForm::plain;
+    if (input.numerics.shifting) options.shifting = input.numerics.shifting->coefficient;
+    implicit_ = implicit::ImplicitStep::make(scene, options);
+}
+
+void Integrator::makeExplicit() {
+    const Case& input = input_;
+    Scene& scene = scene_;
     std::vector<sph::Load*> loads;
     if (!scene.cells.empty()) {
         double fluidVolume = scene.fluidBox.volume();
@@ -34,14 +48,22 @@ Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
 }
 
+Integrator::State Integrator::state(const Time& time) const {
+    return {viscousRate_, membraneRate_, springRate2_, time.dt,
+            implicit_ ? implicit_->state : implicit::ImplicitStep::State{}};
+}
+
 void Integrator::start(Time& time) {
-    scheme_->start();
-    estimateRates();
+    if (scheme_) {
+        scheme_->start();
+        estimateRates();
+    }
     updateLimits(time);
 }
 
 void Integrator::resume(const State& state, Time& time) {
-    scheme_->resume();
+    if (scheme_) scheme_->resume();
+    if (implicit_) implicit_->state = state.implicit;
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
@@ -50,6 +72,13 @@ void Integrator::resume(const State& state, Time& time) {
 }
 
 void Integrator::advance(Scene& scene, Time& time) {
+    if (implicit_) {
+        implicit_->advance(time.dt);
+        time.advance(time.dt);
+        checkState(time);
+        updateLimits(time);
+        return;
+    }
     scheme_->advance(time.dt);
     if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system, time.dt);
     time.advance(time.dt);
@@ -68,6 +97,12 @@ void Integrator::estimateRates() {
 }
 
 void Integrator::updateLimits(Time& time) {
+    if (implicit_) {
+        limits_.all.clear();
+        limits_.add("accuracy", input_.numerics.implicit.step / input_.flow.rate);
+        time.dt = limits_.binding().seconds;
+        return;
+    }
     const auto& s = scene_.store();
     const sph::FluidModel& model = scene_.model();
     double most = 0;

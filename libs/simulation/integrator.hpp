@@ -1,12 +1,13 @@
 // Advances a scene by time steps as large as every limit allows (sph/stepLimits.hpp).
 //
-// The viscous and spring limits come from power iterations, at the start and every 1,000 steps; the acoustic limit is taken anew
-// when lists are rebuilt. Steps do not depend on what is written when.
+// The explicit scheme's viscous and spring limits come from power iterations, at the start and every 1,000 steps; the acoustic limit is taken anew
+// when lists are rebuilt. The implicit step is as large as the case says. Steps do not depend on what is written when.
 #pragma once
 #include <memory>
 
 #include "core/time.hpp"
 #include "coupling/scene.hpp"
+#include "implicit/implicitStep.hpp"
 #include "simulation/case.hpp"
 #include "sph/stepLimits.hpp"
 #include "sph/velocityVerlet.hpp"
@@ -21,8 +22,9 @@ class Integrator {
     void start(Time& time);  // forces at the initial state, first step
     struct State {
         double viscousRate = 0, membraneRate = 0, springRate2 = 0, dt = 0;
+        implicit::ImplicitStep::State implicit;
     };
-    State state(const Time& time) const { return {viscousRate_, membraneRate_, springRate2_, time.dt}; }
+    State state(const Time& time) const;
     void resume(const State& state, Time& time);  // after a restart
 
     // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics) when the state is
@@ -30,14 +32,17 @@ class Integrator {
     void advance(coupling::Scene& scene, Time& time);
 
     const sph::StepLimits& limits() const { return limits_; }
+    const implicit::ImplicitStep* implicitStep() const { return implicit_.get(); }
 
   private:
+    void makeExplicit();
     void estimateRates();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
-    std::unique_ptr<sph::VelocityVerlet> scheme_;
+    std::unique_ptr<sph::VelocityVerlet> scheme_;  // one of the two
+    std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
     long rebuilds_ = -1;

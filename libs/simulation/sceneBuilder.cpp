@@ -37,8 +37,9 @@ std::vector<Cell> readCells(const Case& input) {
                   .firstNode = firstNode};
         cell.initialArea = cell.membrane.area();
         cell.initialVolume = cell.membrane.volume();
-        for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))
-            cell.nodeMass.push_back(input.flow.density * volume);
+        if (!input.numerics.isImmersed())
+            for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))
+                cell.nodeMass.push_back(input.flow.density * volume);
         firstNode += cell.nodeCount();
         cells.push_back(std::move(cell));
     }
@@ -117,18 +118,20 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.spacing = input.spacing();
     scene.fluidBox = input.fluidBox();
     scene.flow = input.flow;
-    const ParticleStore::Optional fields{.mass = hasCells || hasBodies,
+    const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
+    const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
                                          .viscosity = input.varyingViscosity(),
                                          .side = hasCells,
-                                         .node = hasCells,
+                                         .node = nodesAreParticles,
                                          .member = hasBodies};
     scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(),
-                                                               input.skin(), input.spacing(), input.precision());
+                                                               input.numerics.isImplicit() ? 0 : input.skin(),
+                                                               input.spacing(), input.precision());
     if (hasCells) scene.cells = readCells(input);
     if (hasBodies) addBodies(input, scene);
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
-    if (input.numerics.shifting)
+    if (input.numerics.shifting && !input.numerics.isImplicit())
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
     return scene;
@@ -178,7 +181,7 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
     }
 
     for (Cell& cell : scene.cells) {
-        for (std::size_t k = 0; k < cell.nodeMass.size(); ++k)
+        for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
             cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
         forShare(cell.nodeMass.size(), comm, [&](std::size_t k) {
             const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k),
@@ -189,7 +192,7 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
             if (s.optional().viscosity) s.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
         });
     }
-    for (const Cell& cell : scene.cells) firstId += cell.nodeCount();
+    for (const Cell& cell : scene.cells) firstId += static_cast<std::int64_t>(cell.nodeMass.size());
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all()) {
             const Vec3 centre = body.state.centre;

@@ -218,6 +218,18 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("extremes", "largestStep_s", largestDt_);
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
+    if (const implicit::ImplicitStep* implicitStep = integrator_.implicitStep()) {
+        const auto& statistics = implicitStep->statistics;
+        const double perStep = static_cast<double>(statistics.iterations) / static_cast<double>(std::max(1L, steps));
+        record_.set("performance", "iterationsPerStep", perStep);
+        record_.set("extremes", "mostIterations", statistics.mostIterations);
+        app_.log().info("implicit step: {:.1f} iterations per step, {} at most", perStep, statistics.mostIterations);
+        if (implicitStep->noFlux()) {
+            const long crossings = sum(implicitStep->noFlux()->crossings(), scene.system->comm());
+            record_.set("result", "crossings", crossings);
+            app_.log().info("membranes: {} particles put back to their side", crossings);
+        }
+    }
     if (scene.coupling) {
         record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
         record_.set("result", "guardMoves", guardMoves_);

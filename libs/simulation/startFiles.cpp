@@ -115,8 +115,10 @@ std::map<std::string, std::string> startSettings(const Case& input, const std::s
     flatten(*fill.find("jitter"), "mesh.fill.jitter", settings);
     if (mesh.fill.jitter > 0) flatten(*fill.find("seed"), "mesh.fill.seed", settings);
     flatten(*numerics.find("spacing"), "numerics.spacing", settings);
-    if (!mesh.cells.empty()) flatten(*fill.find("relaxation"), "mesh.fill.relaxation", settings);
-    if (!mesh.cells.empty() && mesh.fill.relaxation > 0) {  // the kernel evens out the particles
+    if (!mesh.cells.empty()) flatten(*numerics.find("coupling"), "numerics.coupling", settings);
+    const bool relaxed = !mesh.cells.empty() && !input.numerics.isImmersed();
+    if (relaxed) flatten(*fill.find("relaxation"), "mesh.fill.relaxation", settings);
+    if (relaxed && mesh.fill.relaxation > 0) {  // the kernel evens out the particles
         settings["numerics.kernel.type"] = input.numerics.kernel.name;
         settings["numerics.kernel.support"] = fmt::format("{:.10g} dx", input.support() / input.spacing());
     } else if (input.wallLayers() > 0) {

@@ -14,8 +14,6 @@ using particles::Precision;
 using particles::RealArray;
 
 namespace {
-// Morris' extrapolated wall velocity is bounded where a particle has come very close to the wall.
-constexpr double smallestDistanceInSpacings = 0.25, betaMax = 10;
 constexpr double nowhere = 1e6;  // in supports: the planes of a scene that has bodies but no walls
 }  // namespace
 
@@ -28,14 +26,8 @@ FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system, 
     constants_.gradientNormalisation = model.kernel->gradientNormalisation(H);
     constants_.mass = model.mass;
     const bool walls = model.walls.exist();
-    if (walls) {
-        constants_.normal[model.walls.axis] = 1;
-        constants_.middle = (0.5 * (model.walls.low + model.walls.high) - system.box().middle()[model.walls.axis]) / H;
-        constants_.half = 0.5 * (model.walls.high - model.walls.low) / H;
-        constants_.smallestDistance = smallestDistanceInSpacings * system.spacing() / H;
-        constants_.betaMax = betaMax;
-    }
-    if (groups && !walls) constants_.half = nowhere, constants_.smallestDistance = 1;
+    if (walls) constants_.walls = planes(model.walls, system.box(), system.spacing(), H);
+    if (groups && !walls) constants_.walls.half = nowhere, constants_.walls.smallestDistance = 1;
     const bool boundaries = walls || groups;
     if (system.precision() == Precision::mixed)
         float_.away = pairKernels().fluidFloat(variant_, false),

@@ -41,6 +41,8 @@ class FluidForces {
 
     // Force of the fluid on the lower and the upper wall at the last evaluation, this rank's part [N].
     const Vec3& wallForce(int upper) const { return wallForce_[upper]; }
+    // For integrators that work forces out by other operators.
+    void setWallForces(const Vec3& lower, const Vec3& upper) { wallForce_[0] = lower, wallForce_[1] = upper; }
 
     // Largest eigenvalue of the viscous operator per mass, 1/m_i (L u)_i, by power iterations with a start that depends on
     // particle numbers only [1/s]. Collective. Leaves the state as it was.

@@ -4,9 +4,7 @@
 //     drho_i/dt = - sum_j m_j F x_ij . u_ij                      F = -W'(r)/r,  grad W = -F x_ij
 //
 // mu_ij is the uniform viscosity, or across a jump the harmonic mean 2 mu_i mu_j/(mu_i + mu_j) (Cleary and Monaghan,
-// J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls. At a plane wall the particles behind its surface take the velocity
-// that continues the profile linearly, so that it vanishes (relative to the wall) on the surface (Morris, Fox, Zhu 1997):
-//     beta = min(betaMax, 1 + depth_wall/distance_fluid)
+// J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls; wallPlanes.hpp has its form at them.
 //
 // At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion is taken away:
 // with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the velocity
@@ -20,7 +18,7 @@
 // What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives forces, which
 // are equal and opposite.
 #pragma once
-#include "particles/simd.hpp"
+#include "sph/wallPlanes.hpp"
 
 namespace corpuscle::sph {
 
@@ -28,9 +26,7 @@ struct FluidConstants {
     double support = 0;                // H_s
     double gradientNormalisation = 0;  // of the kernel
     double mass = 0;                   // of a particle, or the unit of masses
-    // Two parallel plane walls with normal n through n.x = middle +- half; lengths as in the records. half is far away where there are none.
-    double normal[3] = {0, 0, 0}, middle = 0, half = 0;
-    double smallestDistance = 0, betaMax = 1;  // bounds of beta's quotient
+    WallPlanes walls;
 };
 
 template <class Kernel, bool varyingMass, bool varyingViscosity, bool bodies, bool atWall>
@@ -53,16 +49,17 @@ struct FluidPair {
             if (particles::anyNegative(i[7]) || particles::anyNegative(J(j[7]))) {
                 const V both = max(i[7], V(j[7]));
                 F = whereNegative(both, V(0.0), F);
-                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * beta(gap(i), gap(j));
+                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) *
+                          c.walls.beta(c.walls.gap(i), c.walls.gap(j));
                 for (int k = 0; k < 3; ++k) extra[k] = i[slope + 3] * V(j[slope + k]) - i[slope + k] * V(j[slope + 3]);
             }
         } else if constexpr (atWall) {
-            const V gapI = gap(i);
-            const J gapJ = gap(j);
+            const V gapI = c.walls.gap(i);
+            const J gapJ = c.walls.gap(j);
             if (particles::anyNegative(gapJ) || particles::anyNegative(gapI)) {
                 const V both = max(i[7], V(j[7]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), F);
-                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * beta(gapI, gapJ);
+                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * c.walls.beta(gapI, gapJ);
             }
         }
 
@@ -81,21 +78,6 @@ struct FluidPair {
         if constexpr (varyingMass) scale = scale / i[8];
         for (int k = 0; k < 3; ++k) sum[k] = sum[k] * scale;
         sum[3] = V(0.0) - sum[3] * scale * V(c.support);
-    }
-
-  private:
-    // Distance from the nearer wall's surface: above 0 in the fluid, below 0 behind it.
-    template <class T>
-    CORPUSCLE_INLINE T gap(const T* x) const {
-        const T height = x[0] * T(c.normal[0]) + x[1] * T(c.normal[1]) + x[2] * T(c.normal[2]) - T(c.middle);
-        return T(c.half) - particles::max(height, T(0) - height);
-    }
-    template <class V, class J>
-    CORPUSCLE_INLINE V beta(const V& gapI, const J& gapJ) const {
-        using particles::max;
-        const V depthI = max(V(0.0) - gapI, V(0.0)), distanceI = max(gapI, V(c.smallestDistance));
-        const J depthJ = max(J(0) - gapJ, J(0)), distanceJ = max(gapJ, J(c.smallestDistance));
-        return min(V(1.0) + V(depthJ) / distanceI + depthI * V(J(1) / distanceJ), V(c.betaMax));
     }
 };
 

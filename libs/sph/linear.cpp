@@ -17,6 +17,8 @@ double Linear::pressure(double density, double restDensity, double c0) const {
     return c0 * c0 * (density - restDensity);
 }
 
+double Linear::bulkModulus(double density, double, double c0) const { return c0 * c0 * density; }
+
 double Linear::density(double pressure, double restDensity, double c0) const {
     return restDensity + pressure / (c0 * c0);
 }

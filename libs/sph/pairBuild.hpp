@@ -15,7 +15,14 @@ struct PairBuild {
     static void finish(const Constants& c, int owned, const Real* records, const double* sums, double* const* results) {
         Loop::finish(Law{c}, owned, records, sums, results);
     }
-    static constexpr particles::PairKernel<Constants, Real> kernel{&run, &finish};
+    static constexpr auto finishOrNone() {  // for laws whose sums are all that is wanted
+        using Pointer = decltype(particles::PairKernel<Constants, Real>::finish);
+        if constexpr (requires { &Law::template finish<particles::Simd<Isa, double, 4>>; })
+            return Pointer(&finish);
+        else
+            return Pointer(nullptr);
+    }
+    static constexpr particles::PairKernel<Constants, Real> kernel{&run, finishOrNone()};
 };
 
 }  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

@@ -3,6 +3,7 @@
 #include "particles/pairLoop.hpp"
 #include "sph/disorderPair.hpp"
 #include "sph/fluidPair.hpp"
+#include "sph/momentPair.hpp"
 
 namespace corpuscle::sph {
 
@@ -22,6 +23,15 @@ struct PairKernels {
     Fluid<double> (*fluid)(FluidVariant, bool atWall);          // for lists of Precision::full
     Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);      // of Precision::mixed
     Disorder (*disorder)(KernelKind, particles::Precision list);
+    // Of operators.hpp.
+    template <class Real>
+    struct Operators {
+        particles::PairKernel<MomentConstants, Real> moments;          // results: MomentPair::sums
+        particles::PairKernel<WallPlanes, Real> rates, ratesAtWall;    // sums only
+        particles::PairKernel<WallPlanes, Real> stress, stressAtWall;  // sums only
+    };
+    Operators<double> (*operators)(KernelKind, bool varyingViscosity);      // Precision::full
+    Operators<float> (*operatorsFloat)(KernelKind, bool varyingViscosity);  // Precision::mixed
 };
 
 const PairKernels& pairKernels();

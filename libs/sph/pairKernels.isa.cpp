@@ -1,6 +1,7 @@
 #include "sph/pairKernels.hpp"
 
 #include "sph/fluidKernels.hpp"
+#include "sph/operatorKernels.hpp"
 
 namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
 
@@ -29,6 +30,6 @@ PairKernels::Disorder disorder(KernelKind kernel, Precision precision) {
 }  // namespace
 
 extern const PairKernels kernels;
-const PairKernels kernels{&fluidDouble, &fluidFloat, &disorder};
+const PairKernels kernels{&fluidDouble, &fluidFloat, &disorder, &operatorsDouble, &operatorsFloat};
 
 }  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

@@ -30,6 +30,10 @@ double Tait::pressure(double density, double restDensity, double c0) const {
     return restDensity * c0 * c0 / gamma * (std::pow(density / restDensity, gamma) - 1);
 }
 
+double Tait::bulkModulus(double density, double restDensity, double c0) const {
+    return restDensity * c0 * c0 * std::pow(density / restDensity, gamma);
+}
+
 double Tait::density(double pressure, double restDensity, double c0) const {
     return restDensity * std::pow(1 + pressure * gamma / (restDensity * c0 * c0), 1 / gamma);
 }

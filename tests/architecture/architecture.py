@@ -13,7 +13,7 @@ import re
 import sys
 from pathlib import Path
 
-LAYERS = [{"core"}, {"particles", "geometry"}, {"sph", "membrane"}, {"bodies"}, {"coupling"}, {"observers", "io"}, {"simulation"}]
+LAYERS = [{"core"}, {"particles", "geometry"}, {"sph", "membrane"}, {"bodies"}, {"coupling"}, {"implicit", "observers", "io"}, {"simulation"}]
 SAME_LAYER = {"observers": {"io"}}  # observers write their tables through io
 
 LIBRARIES = set().union(*LAYERS)

@@ -3,7 +3,7 @@
 //
 // A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing thick, so as
 // many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each cell stays filled to its
-// volume. A rigid body takes as many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
+// volume; where the coupling is immersed, nodes lie between the fluid's particles and the lattice stays whole. A rigid body takes as many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
 //
 // Sample runs:
 //     particleFill -case tutorials/rbcShear/Ca0.02
@@ -102,14 +102,16 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
         else
             f.walls.push_back(lattice.points[i]);
 
-    for (const TriangleMesh& cell : cells) {
-        for (const double volume : simulation::nodeVolumes(cell.vertexAreas(), input.spacing())) f.nodeVolume += volume;
-        f.nodes += cell.nodes.size();
-    }
+    if (!input.numerics.isImmersed())
+        for (const TriangleMesh& cell : cells) {
+            for (const double volume : simulation::nodeVolumes(cell.vertexAreas(), input.spacing()))
+                f.nodeVolume += volume;
+            f.nodes += cell.nodes.size();
+        }
     f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
     f.side = geometry::tagSides(f.fluid, cells, utilities::periodOf(input.fluidBox()));
     fillBodies(input, bodies, f);
-    takeOut(input, cells, f);
+    if (!input.numerics.isImmersed()) takeOut(input, cells, f);
     return f;
 }
 
@@ -206,7 +208,8 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
     std::vector<std::vector<std::string>> rows{{"fluid, outside", std::to_string(inside[0]), ""}};
     json["outside"] = inside[0];
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const double volume = cells[c].volume(), nodes = cells[c].area() * input.spacing();
+        const double volume = cells[c].volume(),
+                     nodes = input.numerics.isImmersed() ? 0 : cells[c].area() * input.spacing();
         const double filled = (static_cast<double>(inside[c + 1]) * V + 0.5 * nodes) / volume;
         rows.push_back({"fluid, in " + input.mesh.cells[c].name, std::to_string(inside[c + 1]),
                         fmt::format("with half the nodes {:.2f} % of the cell's volume", 100 * filled)});
@@ -272,7 +275,7 @@ int main(int argc, char* argv[]) {
                           joinWords(faults, "\n") +
                               "\nmove the cells and bodies in system/mesh.yaml, then run membraneMesh again");
         Filling filling = placeParticles(input, cells, bodies);
-        if (!cells.empty()) relax(input, app.communicator().handle(), cells, filling);
+        if (!cells.empty() && !input.numerics.isImmersed()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
         report(app, input, cells, filling,
                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());

@@ -1,0 +1,232 @@
+#include "coupling/immersed.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "membrane/surface.hpp"
+
+namespace corpuscle::coupling {
+
+using particles::ParticleSystem;
+
+namespace {
+
+constexpr int fewest = 8;  // particles for linear weights
+
+double wendland(double r) {
+    const double s = 1 - r, s2 = s * s;
+    return (1 + 4 * r) * s2 * s2;
+}
+
+// All images of x within `reach` of the rank's brick.
+template <class F>
+void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f) {
+    const particles::Box& box = system.box();
+    const particles::Brick& brick = system.decomposition().own();
+    const Vec3 inside = box.wrap(x);
+    int images[3];
+    for (int k = 0; k < 3; ++k) images[k] = box.periodic[static_cast<std::size_t>(k)] ? 1 : 0;
+    for (int a = -images[0]; a <= images[0]; ++a)
+        for (int b = -images[1]; b <= images[1]; ++b)
+            for (int c = -images[2]; c <= images[2]; ++c) {
+                const Vec3 image = inside + Vec3(a, b, c).cwiseProduct(box.size());
+                if (particles::distanceSquared(image, brick.low, brick.high) < reach * reach) f(image);
+            }
+}
+
+void addUp(double* values, std::size_t count, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_SUM, comm);
+}
+
+}  // namespace
+
+Immersed::Immersed(std::vector<Cell>& cells, double spacing) : cells_(cells), radius_(radiusInSpacings * spacing) {
+    for (const Cell& cell : cells_) {
+        nodes_ += static_cast<std::size_t>(cell.nodeCount());
+        stiffness_.emplace_back(static_cast<std::size_t>(cell.nodeCount()));
+    }
+}
+
+template <class F>
+void Immersed::forCells(F&& f) const {
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const auto first = static_cast<std::size_t>(cells_[c].firstNode);
+        f(c, first, first + static_cast<std::size_t>(cells_[c].nodeCount()));
+    }
+}
+
+void Immersed::move(double seconds) {
+    for (Cell& cell : cells_)
+        for (std::size_t n = 0; n < cell.membrane.position.size(); ++n)
+            cell.membrane.position[n] += seconds * cell.membrane.velocity[n];
+}
+
+Immersed::Vectors Immersed::velocities() const {
+    Vectors all;
+    for (const Cell& cell : cells_) all.insert(all.end(), cell.membrane.velocity.begin(), cell.membrane.velocity.end());
+    return all;
+}
+
+void Immersed::setVelocities(const Vectors& velocities) {
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        cells_[c].membrane.velocity.assign(velocities.begin() + static_cast<std::ptrdiff_t>(first),
+                                           velocities.begin() + static_cast<std::ptrdiff_t>(last));
+    });
+}
+
+void Immersed::restoreVolume() {
+    for (Cell& cell : cells_) {
+        membrane::Membrane& m = cell.membrane;
+        if (m.network().isOpen()) continue;
+        const Vectors g = membrane::volumeGradient(m.position, m.network().triangles());
+        double square = 0;
+        for (const Vec3& a : g) square += a.squaredNorm();
+        const double missing = cell.initialVolume - m.volume();
+        for (std::size_t n = 0; n < g.size(); ++n) m.position[n] += missing / square * g[n];
+    }
+}
+
+void Immersed::build(const ParticleSystem& system, const std::vector<double>& volume) {
+    comm_ = system.comm();
+    findEntries(system, volume);
+    findWeights();
+    findTouched(volume.size());
+    gradient_.assign(nodes_, Vec3::Zero());
+    forCells([&](std::size_t c, std::size_t first, std::size_t) {
+        membrane::Membrane& m = cells_[c].membrane;
+        m.force.assign(m.force.size(), Vec3::Zero());
+        m.addElasticForces(m.position, m.force);
+        stiffness_[c].clear();
+        m.addStiffness(membrane::Definiteness::partwise, stiffness_[c]);
+        if (m.network().isOpen()) return;
+        const Vectors g = membrane::volumeGradient(m.position, m.network().triangles());
+        std::copy(g.begin(), g.end(), gradient_.begin() + static_cast<std::ptrdiff_t>(first));
+    });
+}
+
+void Immersed::findEntries(const ParticleSystem& system, const std::vector<double>& volume) {
+    const particles::ParticleStore& s = system.store();
+    first_.assign(1, 0);
+    entries_.clear();
+    for (const Cell& cell : cells_)
+        for (const Vec3& x : cell.membrane.position) {
+            forImages(system, x, radius_, [&](const Vec3& image) {
+                system.forOwnedNear(image, radius_, [&](int i) {
+                    const Vec3 d = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
+                    const double r2 = d.squaredNorm();
+                    if (r2 < 1)
+                        entries_.push_back({i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), d});
+                });
+            });
+            first_.push_back(entries_.size());
+        }
+}
+
+void Immersed::findWeights() {
+    using Vec4 = Eigen::Vector4d;
+    constexpr std::size_t moments = 11;  // upper triangle of sum w (1, d)(1, d)^T, and how many
+    std::vector<double> sums(moments * nodes_, 0.0);
+    for (std::size_t m = 0; m < nodes_; ++m)
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+            const Vec4 v(1, entries_[k].d[0], entries_[k].d[1], entries_[k].d[2]);
+            double* sum = &sums[moments * m];
+            for (int a = 0; a < 4; ++a)
+                for (int b = a; b < 4; ++b) *sum++ += entries_[k].weight * v[a] * v[b];
+            *sum += 1;
+        }
+    addUp(sums.data(), sums.size(), comm_);
+    std::vector<Vec4> coefficients(nodes_);
+    std::vector<double> absolute(nodes_, 0.0);
+    for (std::size_t m = 0; m < nodes_; ++m) {
+        const double* sum = &sums[moments * m];
+        Eigen::Matrix4d A;
+        for (int a = 0; a < 4; ++a)
+            for (int b = a; b < 4; ++b) A(a, b) = A(b, a) = *sum++;
+        coefficients[m] = *sum < fewest ? Vec4(1 / A(0, 0), 0, 0, 0) : Vec4(A.ldlt().solve(Vec4::UnitX()));
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+            const Entry& e = entries_[k];
+            absolute[m] += std::abs(e.weight * (coefficients[m][0] + coefficients[m].tail<3>().dot(e.d)));
+        }
+        sums[m] = sums[moments * m];  // of constants alone: those of earlier nodes are no longer needed
+    }
+    addUp(absolute.data(), absolute.size(), comm_);
+    fallbacks_ = 0;
+    for (std::size_t m = 0; m < nodes_; ++m) {
+        if (!(absolute[m] <= largestWeights)) coefficients[m] = Vec4(1 / sums[m], 0, 0, 0), ++fallbacks_;
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k)
+            entries_[k].weight *= coefficients[m][0] + coefficients[m].tail<3>().dot(entries_[k].d);
+    }
+}
+
+void Immersed::findTouched(std::size_t particles) {
+    touched_.clear();
+    slot_.assign(particles, -1);
+    for (const Entry& e : entries_) {
+        int& slot = slot_[static_cast<std::size_t>(e.particle)];
+        if (slot >= 0) continue;
+        slot = static_cast<int>(touched_.size());
+        touched_.push_back(e.particle);
+    }
+}
+
+void Immersed::project(Vectors& v) const {
+    forCells([&](std::size_t, std::size_t first, std::size_t last) {
+        double dot = 0, square = 0;
+        for (std::size_t n = first; n < last; ++n) dot += gradient_[n].dot(v[n]), square += gradient_[n].squaredNorm();
+        if (square == 0) return;
+        for (std::size_t n = first; n < last; ++n) v[n] -= dot / square * gradient_[n];
+    });
+}
+
+template <class Real>
+Immersed::Vectors Immersed::interpolate(const Real* u) const {
+    Vectors v(nodes_, Vec3::Zero());
+    for (std::size_t m = 0; m < nodes_; ++m)
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+            const Real* of = u + 4 * static_cast<std::size_t>(entries_[k].particle);
+            v[m] += entries_[k].weight * Vec3(of[0], of[1], of[2]);
+        }
+    addUp(v.front().data(), 3 * nodes_, comm_);
+    project(v);
+    return v;
+}
+template Immersed::Vectors Immersed::interpolate(const double*) const;
+template Immersed::Vectors Immersed::interpolate(const float*) const;
+
+Immersed::Vectors Immersed::force() const {
+    Vectors all;
+    for (const Cell& cell : cells_) all.insert(all.end(), cell.membrane.force.begin(), cell.membrane.force.end());
+    return all;
+}
+
+void Immersed::addStiffness(double factor, const Vectors& u, Vectors& f) const {
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        stiffness_[c].addProduct(factor, {u.data() + first, last - first}, {f.data() + first, last - first});
+    });
+}
+
+void Immersed::spread(Vectors f, particles::RealArray& force) const {
+    project(f);
+    for (std::size_t m = 0; m < nodes_; ++m)
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+            double* to = force.data() + 4 * static_cast<std::size_t>(entries_[k].particle);
+            for (int a = 0; a < 3; ++a) to[a] += entries_[k].weight * f[m][a];
+        }
+}
+
+std::vector<Mat3> Immersed::diagonal() const {
+    std::vector<Mat3> blocks(touched_.size(), Mat3::Zero());
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        for (std::size_t m = first; m < last; ++m) {
+            const Mat3 own = stiffness_[c].diagonal(m - first);
+            for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+                const Entry& e = entries_[k];
+                blocks[static_cast<std::size_t>(slot_[static_cast<std::size_t>(e.particle)])] +=
+                    e.weight * e.weight * own;
+            }
+        }
+    });
+    return blocks;
+}
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,78 @@
+// Immersed coupling: fluid fills space through the membrane; a node has no fluid of its own. It moves with the velocity that it finds
+// in the fluid around it, and its force goes to that fluid with the same weights:
+//
+//     S : u_m = sum_j w_mj u_j,  w_mj = V_j W(r/R) (c0 + c.d_j/R),  W Wendland C2,  r = |d_j|,  d_j = x_j - x_m,  R = 2 dx
+// with (c0, c) such that constant and linear fields are found exactly; where that would need sum_j |w_mj| > 1.5, c = 0 (Shepard).
+//
+// A closed cell keeps its volume exactly: of velocities and forces the part along the gradient of its volume is taken away,
+//     P = I - g g^T/(g.g),  g = dV/dx;     u_m = P S u,   f_fluid = S^T P f_m
+// so that power is neither made nor lost, and what the finite step leaves is put right along g (restoreVolume). P ends when a cell
+// opens. The stiffness that the fluid feels is S^T P K P S, symmetric and positive semi-definite as K is.
+//
+// All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are added up.
+#pragma once
+#include <array>
+
+#include "coupling/cell.hpp"
+#include "membrane/blockStiffness.hpp"
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::coupling {
+
+class Immersed {
+  public:
+    using Vectors = std::vector<Vec3>;  // one of every node, cell after cell
+    static constexpr double radiusInSpacings = 2.0, largestWeights = 1.5;
+
+    Immersed(std::vector<Cell>& cells, double spacing);
+
+    std::vector<Cell>& cells() { return cells_; }
+    void move(double seconds);  // nodes along their velocities
+    Vectors velocities() const;
+    void setVelocities(const Vectors& velocities);
+    void restoreVolume();
+
+    // Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
+    // particle [m^3]. Collective.
+    void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
+
+    // P S u, u of four numbers a particle. Collective.
+    template <class Real>
+    Vectors interpolate(const Real* u) const;
+    Vectors force() const;                                                 // of the membranes [N]
+    void addStiffness(double factor, const Vectors& u, Vectors& f) const;  // f += factor K u
+    // force_j += (S^T P f)_j, of four numbers a particle.
+    void spread(Vectors f, particles::RealArray& force) const;
+
+    // The particles of this rank with weights, and what they add to the diagonal of S^T K S [N/m].
+    const std::vector<int>& touched() const { return touched_; }
+    std::vector<Mat3> diagonal() const;
+
+    long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights
+
+  private:
+    struct Entry {
+        int particle;
+        double weight;
+        Vec3 d;  // x_j - x_m in radii
+    };
+    template <class F>
+    void forCells(F&& f) const;  // f(cell, its first and last node)
+    void project(Vectors& v) const;
+    void findEntries(const particles::ParticleSystem& system, const std::vector<double>& volume);
+    void findWeights();
+    void findTouched(std::size_t particles);
+
+    std::vector<Cell>& cells_;
+    double radius_;
+    std::size_t nodes_ = 0;
+    MPI_Comm comm_ = MPI_COMM_NULL;
+    std::vector<std::size_t> first_;  // of each node in entries_, and one behind the last
+    std::vector<Entry> entries_;
+    std::vector<membrane::BlockStiffness> stiffness_;  // of each cell
+    Vectors gradient_;                                 // g of closed cells, 0 of open ones
+    std::vector<int> touched_, slot_;                  // slot_: of each particle in touched_, -1
+    long fallbacks_ = 0;
+};
+
+}  // namespace corpuscle::coupling

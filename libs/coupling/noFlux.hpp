@@ -1,0 +1,55 @@
+// Fluid does not cross a closed membrane: what the discrete velocity of a particle near one has too much along the normal is left out
+// when it is moved.
+//
+//     x_i += dt [u_i - chi ((u_i - u_m).n) n] + s_i - chi (s_i.n) n,    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
+// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point; s: shifting. After the move a
+// particle that is nearer than 0.05 dx to its own side of the membrane, or beyond it, goes to that distance; those that were beyond it
+// are counted. In the interior of the fluid nothing is done, and an opened cell is left alone.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupling/cell.hpp"
+#include "geometry/triangleGrid.hpp"
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::coupling {
+
+class NoFlux {
+  public:
+    NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
+
+    // Which of `candidates`, particles of this rank, are near a membrane now.
+    void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
+    // Those that were found, with the velocity that nodes have now.
+    template <class F>
+    void forNear(F&& f) const {  // f(particle, chi, normal, velocity of the membrane)
+        for (const Near& near : near_) f(near.particle, near.chi, near.normal, velocity(near));
+    }
+    // After particles and nodes have moved.
+    void keepSides(particles::ParticleSystem& system);
+
+    long crossings() const { return crossings_; }  // of this rank since the start
+    double deepest() const { return deepest_; }    // [m]
+    void restore(long crossings) { crossings_ = crossings; }
+
+  private:
+    struct Near {
+        int particle;
+        std::size_t cell;
+        geometry::SurfacePoint at;
+        double chi;
+        Vec3 normal;
+    };
+    geometry::TriangleGrid& surface(std::size_t cell);
+    Vec3 velocity(const Near& near) const;
+    Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
+
+    std::vector<Cell>& cells_;
+    double spacing_, deepest_ = 0;
+    long crossings_ = 0;
+    std::vector<std::unique_ptr<geometry::TriangleGrid>> grids_;
+    std::vector<Near> near_;
+};
+
+}  // namespace corpuscle::coupling

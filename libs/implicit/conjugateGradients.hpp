@@ -1,0 +1,84 @@
+// Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl. Math. 25 (1989) 153):
+// both scalar products of an iteration are added up over the ranks at once.
+//
+// It stops by the energy of the error: alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the
+// sum over the last few steps bounds the error before them from below, closely once convergence is linear (Strakos and Tichy, ETNA 13
+// (2002) 56). A norm of the residual would under-weigh smooth modes, the more the finer the resolution.
+#pragma once
+#include <mpi.h>
+
+#include <cmath>
+#include <vector>
+
+#include "particles/particleStore.hpp"
+
+namespace corpuscle::implicit {
+
+struct Convergence {
+    int iterations = 0;
+    double energy = 0;  // x.A x [W]
+    double error = 0;   // estimate of |error|_A^2 [W]
+    bool reached = true;
+};
+
+template <class Real>
+class ConjugateGradients {
+  public:
+    using Field = particles::AlignedVector<Real>;
+    static constexpr int delay = 3, most = 2000;
+
+    // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. r is used up. Ends when the estimated |error|_A^2 is below
+    // tolerance^2 max(reference, x.A x). Collective.
+    template <class Apply, class Precondition>
+    Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
+                      Precondition&& precondition) {
+        const std::size_t n = r.size();
+        for (Field* f : {&z_, &w_}) f->resize(n);
+        for (Field* f : {&p_, &s_, &x}) f->assign(n, Real(0));
+        Convergence c;
+        std::vector<double> gains;
+        double gammaBefore = 0, alpha = 0;
+        for (;; ++c.iterations) {
+            precondition(r, z_);
+            apply(z_, w_);
+            double sums[2] = {0, 0};
+            for (std::size_t k = 0; k < n; ++k) {
+                sums[0] += static_cast<double>(r[k]) * static_cast<double>(z_[k]);
+                sums[1] += static_cast<double>(w_[k]) * static_cast<double>(z_[k]);
+            }
+            MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
+            const auto [gamma, delta] = sums;
+            const double allowed = tolerance * tolerance * std::max(reference, c.energy);
+            if (gamma <= 0.01 * allowed || gamma == 0) break;
+            const double beta = c.iterations > 0 ? gamma / gammaBefore : 0;
+            alpha = gamma / (c.iterations > 0 ? delta - beta * gamma / alpha : delta);
+            if (!std::isfinite(alpha) || alpha <= 0 || c.iterations == most) {
+                c.reached = false;
+                break;
+            }
+            const auto a = static_cast<Real>(alpha), b = static_cast<Real>(beta);
+            for (std::size_t k = 0; k < n; ++k) {
+                p_[k] = z_[k] + b * p_[k];
+                s_[k] = w_[k] + b * s_[k];
+                x[k] += a * p_[k];
+                r[k] -= a * s_[k];
+            }
+            gammaBefore = gamma;
+            gains.push_back(alpha * gamma);
+            c.energy += gains.back();
+            c.error = 0;
+            for (std::size_t k = gains.size() > delay ? gains.size() - delay : 0; k < gains.size(); ++k)
+                c.error += gains[k];
+            if (gains.size() >= delay && c.error <= tolerance * tolerance * std::max(reference, c.energy)) {
+                ++c.iterations;
+                break;
+            }
+        }
+        return c;
+    }
+
+  private:
+    Field z_, w_, p_, s_;
+};
+
+}  // namespace corpuscle::implicit

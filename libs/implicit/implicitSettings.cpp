@@ -1,0 +1,18 @@
+#include "implicit/implicitSettings.hpp"
+
+namespace corpuscle::implicit {
+
+const Schema<ImplicitSettings>& ImplicitSettings::schema() {
+    static const Schema<ImplicitSettings> s =
+        Schema<ImplicitSettings>("implicit", "the implicit step; its size is set by accuracy")
+            .quantity("step", &ImplicitSettings::step, unit::none, "strain of one step, rate x dt",
+                      {.fallback = "0.05", .range = between(1e-6, 0.5)})
+            .quantity("tolerance", &ImplicitSettings::tolerance, unit::none,
+                      "largest error of the solver, relative to the disturbance of the flow, in the norm of energy",
+                      {.fallback = "1e-3", .range = between(1e-10, 0.1)})
+            .word("method", &ImplicitSettings::method, {"midpoint", "backwardEuler"}, "of second or of first order",
+                  {.fallback = "midpoint"});
+    return s;
+}
+
+}  // namespace corpuscle::implicit

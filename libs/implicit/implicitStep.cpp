@@ -1,0 +1,281 @@
+#include "implicit/implicitStep.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace corpuscle::implicit {
+
+using coupling::Immersed;
+using coupling::Scene;
+using particles::Kind;
+using particles::ParticleStore;
+using particles::RealArray;
+
+namespace {
+
+constexpr double largestShiftInSpacings = 0.05;
+
+double sumOfAll(double value, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
+    return value;
+}
+
+template <class Real>
+class Step final : public ImplicitStep {
+  public:
+    Step(Scene& scene, const Options& options)
+        : scene_(scene),
+          options_(options),
+          backward_(options.settings.method == "backwardEuler"),
+          operators_(scene.model(), *scene.system, options.form) {
+        if (scene.cells.empty()) return;
+        immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
+        noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
+    }
+
+    void advance(double dt) override {
+        const double share = backward_ ? 1 : 0.5;  // of dt, at which forces are taken
+        setTimes(dt, share);
+        moveBy(share * dt);
+        scene_.system->rebuild();
+        prepare();
+        const double reference = std::max(state.reference, leastReference());
+        findResidual();
+        factorise();
+        const Convergence c = solver_.solve(
+            scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
+            [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); });
+        if (!c.reached)
+            throw Failure(ExitCode::numerics,
+                          fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
+                                      "'implicit' of system/numerics.yaml",
+                                      statistics.steps + 1, c.iterations));
+        ++statistics.steps, statistics.iterations += c.iterations;
+        statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
+        finish(dt, share);
+    }
+
+  private:
+    using Field = particles::AlignedVector<Real>;
+    static constexpr std::size_t width = 4;
+    static std::size_t at(std::size_t i) { return width * i; }
+
+    const ParticleStore& store() const { return scene_.store(); }
+    double mass(std::size_t i) const { return scene_.mass(i); }
+    bool isFixed(std::size_t i) const { return operators_.isWall(i); }
+
+    void setTimes(double dt, double share) {
+        time_ = share * dt;
+        h_ = backward_ ? dt : 0.5 * (dt + state.lastStep);
+        const double w = backward_ || state.lastSpacing == 0 ? 0 : h_ / state.lastSpacing;
+        c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
+    }
+
+    void moveBy(double seconds) {
+        ParticleStore& s = scene_.store();
+        for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + seconds * s.velocity(i));
+        if (immersed_) immersed_->move(seconds);
+    }
+
+    void prepare() {
+        const ParticleStore& s = store();
+        const std::size_t n = s.size();
+        operators_.build(*scene_.system);
+        pressure_.resize(n), bulk_.resize(n);
+        const sph::FluidModel& model = scene_.model();
+        model.equationOfState->specificPressure(s.density.data(), pressure_.data(), static_cast<int>(n), model.density,
+                                                model.soundSpeed);
+        volumes_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            pressure_[i] *= s.density[i] * s.density[i];
+            bulk_[i] = model.equationOfState->bulkModulus(s.density[i], model.density, model.soundSpeed);
+            volumes_[i] = operators_.volume(i);
+        }
+        if (!immersed_) return;
+        immersed_->build(*scene_.system, volumes_);
+        noFlux_->find(*scene_.system, immersed_->touched());
+    }
+
+    // Of the guess: residual_ = right-hand side - A guess.
+    void findResidual() {
+        const ParticleStore& s = store();
+        const std::size_t n = s.size();
+        guess_.resize(width * n), residual_.resize(width * n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double ahead = isFixed(i) ? 0 : h_;
+            const Vec3 u = s.velocity(i) + ahead * Vec3(s.fx[i], s.fy[i], s.fz[i]);
+            put(guess_, i, u);
+        }
+        operators_.apply(*scene_.system, guess_,
+                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
+        RealArray& force = force_ = operators_.force();
+        if (immersed_) {
+            load_ = immersed_->force();
+            immersed_->addStiffness(time_, immersed_->velocities(), load_);  // of f(x) at x* + time (v - u_m)
+            Immersed::Vectors f = load_;
+            immersed_->addStiffness(-time_, immersed_->interpolate(guess_.data()), f);
+            immersed_->spread(std::move(f), force);
+        }
+        const Vec3& g = scene_.model().bodyForce;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
+            const Vec3 f = vector(force, i) + mass(i) * (g + c2_ * a - c1_ * change);
+            put(residual_, i, isFixed(i) ? Vec3(Vec3::Zero()) : f);
+        }
+    }
+
+    void apply(const Field& z, Field& w) {
+        operators_.apply(*scene_.system, z, [&](std::size_t i, double rate) { return -time_ * bulk_[i] * rate; });
+        force_ = operators_.force();
+        if (immersed_) {
+            Immersed::Vectors f(load_.size(), Vec3::Zero());
+            immersed_->addStiffness(-time_, immersed_->interpolate(z.data()), f);
+            immersed_->spread(std::move(f), force_);
+        }
+        const std::size_t n = store().size();
+        for (std::size_t i = 0; i < n; ++i)
+            put(w, i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i) - vector(force_, i)));
+    }
+
+    // Diagonal blocks: a multiple of the unit matrix, a full one where a membrane is felt.
+    void factorise() {
+        const std::size_t n = store().size();
+        inverse_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) inverse_[i] = static_cast<Real>(1 / diagonal(i));
+        if (!immersed_) return;
+        blocks_ = immersed_->diagonal();
+        for (std::size_t k = 0; k < blocks_.size(); ++k) {
+            const auto i = static_cast<std::size_t>(immersed_->touched()[k]);
+            blocks_[k] = Mat3(diagonal(i) * Mat3::Identity() + time_ * blocks_[k]).inverse();
+        }
+    }
+    double diagonal(std::size_t i) const {
+        return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
+    }
+    void precondition(const Field& r, Field& z) const {
+        for (std::size_t i = 0; i < inverse_.size(); ++i)
+            for (std::size_t k = 0; k < width; ++k) z[at(i) + k] = inverse_[i] * r[at(i) + k];
+        for (std::size_t k = 0; k < blocks_.size(); ++k) {
+            const auto i = static_cast<std::size_t>(immersed_->touched()[k]);
+            if (!isFixed(i)) put(z, i, blocks_[k] * get(r, i));
+        }
+    }
+
+    // With the velocity found: density, places, what the walls feel; the state of the next step.
+    void finish(double dt, double share) {
+        ParticleStore& s = scene_.store();
+        const std::size_t n = s.size();
+        for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += correction_[k];
+        operators_.apply(*scene_.system, guess_,
+                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
+        findReference();
+        Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
+        for (std::size_t i = 0; i < n; ++i) {
+            const double rate = operators_.divergence(i);
+            s.densityRate[i] = -s.density[i] * rate;
+            s.density[i] *= backward_ ? 1 / (1 + dt * rate) : (1 - 0.5 * dt * rate) / (1 + 0.5 * dt * rate);
+            if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += vector(operators_.force(), i);
+        }
+        scene_.forces->setWallForces(walls[0], walls[1]);
+        moveParticles(dt, share);
+    }
+
+    void moveParticles(double dt, double share) {
+        ParticleStore& s = scene_.store();
+        const std::size_t n = s.size();
+        move_.resize(n);
+        const double H = scene_.system->support(), bound = largestShiftInSpacings * scene_.spacing;
+        const double strength = options_.shifting ? *options_.shifting * H * H * scene_.flow.rate * dt : 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            move_[i].setZero();
+            if (strength == 0 || s.kindOf(i) != Kind::fluid) continue;
+            const Vec3 shift = strength * operators_.disorder(i);
+            const double length = shift.norm();
+            move_[i] = length > bound ? Vec3(bound / length * shift) : shift;
+            statistics.largestShift = std::max(statistics.largestShift, std::min(length, bound));
+        }
+        if (immersed_) {
+            const Immersed::Vectors nodes = immersed_->interpolate(guess_.data());
+            immersed_->move(-share * dt);
+            immersed_->setVelocities(nodes);
+            noFlux_->forNear([&](int particle, double chi, const Vec3& normal, const Vec3& membrane) {
+                const auto i = static_cast<std::size_t>(particle);
+                const Vec3 along = move_[i] + dt * (get(guess_, i) - membrane);
+                move_[i] -= chi * along.dot(normal) * normal;
+            });
+            immersed_->move(dt);
+            immersed_->restoreVolume();
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 v = isFixed(i) ? s.velocity(i) : get(guess_, i), u = s.velocity(i);
+            s.setPosition(i, s.position(i) + dt * v - share * dt * u + move_[i]);
+            const Vec3 a = (v - u) / h_;
+            s.fx[i] = a[0], s.fy[i] = a[1], s.fz[i] = a[2];
+            s.setVelocity(i, v);
+        }
+        if (noFlux_) noFlux_->keepSides(*scene_.system);
+        state.lastStep = dt, state.lastSpacing = h_;
+    }
+
+    // Energy of the disturbance w of the affine flow by the same form, w.A w = w.(b - A affine), where A of an affine flow is c1 M.
+    void findReference() {
+        const ParticleStore& s = store();
+        double sum = 0;
+        const Vec3& g = scene_.model().bodyForce;
+        Field& disturbance = correction_;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec3 flow = affine(s.position(i)), w = isFixed(i) ? Vec3::Zero() : Vec3(get(guess_, i) - flow);
+            const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
+            sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
+            sum += operators_.volume(i) * pressure_[i] * operators_.divergence(i);
+            put(disturbance, i, w);
+        }
+        sum = sumOfAll(sum, scene_.system->comm());
+        if (immersed_) {
+            const Immersed::Vectors w = immersed_->interpolate(disturbance.data());
+            for (std::size_t m = 0; m < w.size(); ++m) sum += w[m].dot(load_[m]);
+        }
+        state.reference = std::abs(sum);
+    }
+    Vec3 affine(const Vec3& x) const {
+        return scene_.flow.shearRate > 0 ? scene_.flow.velocity(x) : Vec3(Vec3::Zero());
+    }
+    double leastReference() const {
+        const double rate = scene_.flow.rate;
+        return 1e-10 * scene_.model().viscosity * rate * rate * scene_.fluidBox.volume();
+    }
+
+    static Vec3 get(const Field& f, std::size_t i) { return {f[at(i)], f[at(i) + 1], f[at(i) + 2]}; }
+    static Vec3 vector(const RealArray& f, std::size_t i) { return {f[at(i)], f[at(i) + 1], f[at(i) + 2]}; }
+    static void put(Field& f, std::size_t i, const Vec3& v) {
+        for (int k = 0; k < 3; ++k) f[at(i) + static_cast<std::size_t>(k)] = static_cast<Real>(v[k]);
+        f[at(i) + 3] = 0;
+    }
+
+    Scene& scene_;
+    Options options_;
+    bool backward_;
+    sph::Operators<Real> operators_;
+    ConjugateGradients<Real> solver_;
+    double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
+    Field guess_, residual_, correction_, inverse_;
+    RealArray force_, pressure_;
+    std::vector<double> bulk_, volumes_;
+    std::vector<Mat3> blocks_;
+    std::vector<Vec3> move_;
+    Immersed::Vectors load_;  // f(x*) + time k u_m
+};
+
+}  // namespace
+
+std::unique_ptr<ImplicitStep> ImplicitStep::make(Scene& scene, const Options& options) {
+    if (scene.system->precision() == particles::Precision::mixed) return std::make_unique<Step<float>>(scene, options);
+    return std::make_unique<Step<double>>(scene, options);
+}
+
+}  // namespace corpuscle::implicit

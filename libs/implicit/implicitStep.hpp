@@ -1,0 +1,68 @@
+// One implicit step for fluid and membrane: a symmetric positive-definite system for the velocity v in the middle of the step,
+//
+//     [c1 M + L + dt/2 D^T V K D + S^T P (dt/2 k) P S] v =
+//         M (c1 u + c2 a) + D^T V p^n + f_body + S^T P (f(x*) + dt/2 k u_m)
+//     x <- x + dt v,   rho <- rho (1 - dt/2 D v)/(1 + dt/2 D v),   x_m <- x_m + dt P S v
+//
+// symbol       | meaning
+// M, V         | masses and volumes m/rho of the particles
+// L, D         | viscosity and divergence (sph/operators.hpp), at the places x* in the middle of the step
+// K            | bulk modulus rho c^2, dp = -K D v dt
+// S, P, k, f   | membrane's interpolation, its volume kept, its stiffness and force (coupling/immersed.hpp)
+// x*           | x^n + dt/2 u with the velocity u of the middle of the last step; u_m likewise of nodes
+// a            | acceleration from the middle of the step before the last to that of the last
+//
+// dv/dt in the middle of the step is c1 (v - u) - c2 a, the backward difference of second order over the middles of three steps: with
+// h the time between the last two and w = h/h_before, c1 = (1 + 2w)/(h (1 + w)), c2 = w/(1 + w). It damps what is stiff, which the
+// midpoint rule u^(n+1) = 2v - u^n would leave ringing. Walls have prescribed velocities: their rows and columns are taken out, which
+// keeps the system symmetric. Pressure needs no saddle point: density carries it from step to step.
+// Backward Euler: everything at the end of the step, dt in place of dt/2, c1 = 1/dt and c2 = 0.
+//
+// The state between steps: places at t^n; u and a of the middle of the last step in the store's velocity and acceleration; nodes have
+// the velocity of the middle too.
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "coupling/immersed.hpp"
+#include "coupling/noFlux.hpp"
+#include "coupling/scene.hpp"
+#include "implicit/conjugateGradients.hpp"
+#include "implicit/implicitSettings.hpp"
+#include "sph/operators.hpp"
+
+namespace corpuscle::implicit {
+
+class ImplicitStep {
+  public:
+    struct Options {
+        ImplicitSettings settings;
+        sph::OperatorForm form = sph::OperatorForm::corrected;
+        std::optional<double> shifting;  // C, strength per unit of strain
+    };
+    virtual ~ImplicitStep() = default;
+    virtual void advance(double dt) = 0;  // Collective. Throws Failure(numerics) when the solver does not converge.
+
+    // What a restart needs beside the scene.
+    struct State {
+        double lastStep = 0, lastSpacing = 0, reference = 0;
+    };
+    State state;
+
+    struct Statistics {
+        long steps = 0, iterations = 0, mostIterations = 0;
+        double largestShift = 0;  // [m], of this rank
+    };
+    Statistics statistics;
+    coupling::Immersed* immersed() { return immersed_.get(); }
+    const coupling::NoFlux* noFlux() const { return noFlux_.get(); }
+
+    // The scene must stay where it is.
+    static std::unique_ptr<ImplicitStep> make(coupling::Scene& scene, const Options& options);
+
+  protected:
+    std::unique_ptr<coupling::Immersed> immersed_;  // none without cells
+    std::unique_ptr<coupling::NoFlux> noFlux_;
+};
+
+}  // namespace corpuscle::implicit

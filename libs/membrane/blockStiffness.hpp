@@ -1,0 +1,31 @@
+// Stiffness of one membrane for many products with vectors: blocks of 3 x 3 in rows, and low-rank parts. Which blocks there are is kept
+// from one filling to the next, so that filling again needs no memory.
+#pragma once
+#include "membrane/stiffness.hpp"
+
+namespace corpuscle::membrane {
+
+class BlockStiffness : public Stiffness {
+  public:
+    explicit BlockStiffness(std::size_t nodes) : rows_(nodes) {}
+    void clear();  // all blocks zero, no low-rank parts
+    void add(std::span<const int> nodes, const Eigen::Ref<const Eigen::MatrixXd>& matrix) override;
+    void addRankOne(double factor, std::span<const Vec3> gradient) override;
+
+    void addProduct(double factor, std::span<const Vec3> u, std::span<Vec3> result) const;  // result += factor K u
+    Mat3 diagonal(std::size_t node) const;
+
+  private:
+    struct Block {
+        int column;
+        Mat3 value;
+    };
+    struct RankOne {
+        double factor;
+        std::vector<Vec3> gradient;
+    };
+    std::vector<std::vector<Block>> rows_;
+    std::vector<RankOne> rankOne_;
+};
+
+}  // namespace corpuscle::membrane

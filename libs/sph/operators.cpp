@@ -1,0 +1,178 @@
+#include "sph/operators.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace corpuscle::sph {
+
+using particles::Kind;
+using particles::ParticleStore;
+using particles::ParticleSystem;
+
+namespace {
+constexpr int rateFields = 16, stressFields = 10, momentFields = 4;
+constexpr particles::Halo::Part velocityPart{3, 6}, stressPart{4, 10};
+constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14;
+constexpr double leastMoment = 0.05;  // of the smallest direction, 1 on an ideal set
+
+template <class Real>
+PairKernels::Operators<Real> kernelsOf(KernelKind kernel, bool varyingViscosity) {
+    if constexpr (std::is_same_v<Real, double>)
+        return pairKernels().operators(kernel, varyingViscosity);
+    else
+        return pairKernels().operatorsFloat(kernel, varyingViscosity);
+}
+}  // namespace
+
+template <class Real>
+Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system, OperatorForm form)
+    : model_(model),
+      form_(form),
+      varyingViscosity_(system.store().optional().viscosity),
+      kernels_(kernelsOf<Real>(model.kernel->kind(), varyingViscosity_)) {
+    const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
+    unitVolume_ = model.mass / model.density;
+    moments_ = {H, model.kernel->normalisation(H), gradient, unitVolume_};
+    viscousUnit_ = model.viscosity * gradient * unitVolume_ * unitVolume_;
+    rateUnit_ = gradient * H * unitVolume_ * unitVolume_;
+    wallScale_ = form == OperatorForm::plain ? 1 : 1 / model.kernel->secondMoment(H / system.spacing());
+    if (model.walls.exist()) walls_ = planes(model.walls, system.box(), system.spacing(), H);
+}
+
+template <class Real>
+std::size_t Operators<Real>::bytes() const {
+    return (momentRecords_.capacity() + rateRecords_.capacity() + stressRecords_.capacity()) * sizeof(Real) +
+           (sums_.capacity() + force_.capacity()) * sizeof(double);
+}
+
+template <class Real>
+void Operators<Real>::build(ParticleSystem& system) {
+    const ParticleStore& s = system.store();
+    const std::size_t n = s.size();
+    volume_.resize(n), wall_.resize(n), force_.resize(width * n), divergence_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        volume_[i] = (s.optional().mass ? s.mass[i] : model_.mass) / s.density[i];
+        wall_[i] = s.kindOf(i) == Kind::wall;
+    }
+    findMoments(system);
+    packRecords(system);
+}
+
+template <class Real>
+void Operators<Real>::findMoments(ParticleSystem& system) {
+    const std::size_t n = volume_.size();
+    momentRecords_.resize((n + static_cast<std::size_t>(system.ghosts())) * momentFields);
+    const particles::RecordFrame frame(system);
+    double* results[12];
+    for (std::size_t k = 0; k < moment_.size(); ++k) moment_[k].resize(n), results[k] = moment_[k].data();
+    for (std::size_t i = 0; i < n; ++i) {
+        Real* r = momentRecords_.data() + momentFields * i;
+        frame.position(i, r);
+        r[3] = static_cast<Real>(volume_[i] / unitVolume_);
+    }
+    particles::sumOverPairs(system, kernels_.moments, kernels_.moments, moments_, momentRecords_, momentFields, sums_,
+                            results, static_cast<int>(moment_.size()));
+
+    disorder_.resize(n), evenness_.resize(n), viscous_.resize(n), bulk_.resize(n), correction_.resize(n);
+    scale_.assign(n, wallScale_);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto m = [&](int k) { return moment_[static_cast<std::size_t>(k)][i]; };
+        disorder_[i] = Vec3(m(0), m(1), m(2));
+        evenness_[i] = m(11);
+        correction_[i] = {1, 1, 1, 0, 0, 0};
+        if (!wall_[i] && form_ == OperatorForm::corrected) {
+            Mat3 M;
+            M << m(3), m(6), m(7), m(6), m(4), m(8), m(7), m(8), m(5);
+            const double scale = M.trace() / 3, determinant = M.determinant();
+            if (!(scale > leastMoment && determinant > leastMoment * leastMoment * scale)) {
+                const Vec3 x = system.store().position(i);
+                throw Failure(ExitCode::numerics,
+                              fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has too few neighbours for a "
+                                          "gradient: the run has come apart. Start again from the last checkpoint with "
+                                          "a smaller step",
+                                          system.store().id[i], x[0], x[1], x[2]));
+            }
+            const Mat3 B = M.inverse();
+            correction_[i] = {B(0, 0), B(1, 1), B(2, 2), B(0, 1), B(0, 2), B(1, 2)};
+            scale_[i] = 1 / scale;
+        }
+        const double mu = varyingViscosity_ ? system.store().viscosity[i] : model_.viscosity;
+        viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(9);
+        bulk_[i] = m(10) * volume_[i] / 3;
+    }
+}
+
+template <class Real>
+void Operators<Real>::packRecords(ParticleSystem& system) {
+    const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
+    rateRecords_.assign(all * rateFields, Real(0));
+    stressRecords_.assign(all * stressFields, Real(0));
+    for (std::size_t i = 0; i < n; ++i) {
+        Real *rate = rateRecords_.data() + rateFields * i, *stress = stressRecords_.data() + stressFields * i;
+        std::copy_n(momentRecords_.data() + momentFields * i, 3, rate);
+        std::copy_n(rate, 3, stress);
+        rate[volumeAt] = static_cast<Real>((wall_[i] ? -1 : 1) * volume_[i] / unitVolume_);
+        rate[scaleAt] = static_cast<Real>(scale_[i]);
+        for (std::size_t k = 0; k < 6; ++k) rate[correctionAt + k] = static_cast<Real>(correction_[i][k]);
+        if (varyingViscosity_) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
+        stress[3] = rate[volumeAt];
+    }
+    const double scale = 1 / system.support();
+    particles::Halo& halo = system.halo();
+    halo.begin(rateRecords_.data(), system.owned(), rateFields, scale);
+    halo.finish(rateRecords_.data(), system.owned(), rateFields);
+    halo.begin(stressRecords_.data(), system.owned(), stressFields, scale);
+    halo.finish(stressRecords_.data(), system.owned(), stressFields);
+}
+
+template <class Real>
+template <class Kernel>
+void Operators<Real>::sum(ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
+                          particles::Halo::Part part) {
+    using particles::PairList;
+    system.forEachPair(records.data(), fields, part, [&](PairList::Group group) {
+        const std::vector<int>& blocks = system.list().blocks(group);
+        const bool wall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
+        (wall ? atWall : away)
+            .run(walls_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
+                 sums_.data());
+    });
+    system.halo().foldImages(sums_.data(), system.owned());
+}
+
+template <class Real>
+void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
+    const std::size_t n = volume_.size();
+    for (std::size_t i = 0; i < n; ++i) std::copy_n(u.data() + width * i, 3, rateRecords_.data() + rateFields * i + 3);
+    sums_.assign((n + static_cast<std::size_t>(system.ghosts())) * width, 0.0);
+    sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart);
+    for (std::size_t i = 0; i < n; ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
+}
+
+// The stress is in units that let both passes share one sum.
+template <class Real>
+void Operators<Real>::setPressure(std::size_t i, double pressure) {
+    const double p = pressure * rateUnit_ / viscousUnit_;
+    Real* stress = stressRecords_.data() + stressFields * i + stressPart.first;
+    for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
+}
+
+template <class Real>
+void Operators<Real>::addStress(ParticleSystem& system) {
+    const std::size_t n = volume_.size();
+    std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // ghosts': folded already
+    sum(system, kernels_.stress, kernels_.stressAtWall, stressRecords_, stressFields, stressPart);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) force_[width * i + k] = viscousUnit_ * sums_[width * i + k];
+        force_[width * i + 3] = 0;
+    }
+}
+
+template class Operators<double>;
+template class Operators<float>;
+
+}  // namespace corpuscle::sph

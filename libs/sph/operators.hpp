@@ -1,0 +1,83 @@
+// The operators of the fluid as the implicit step needs them: viscosity, divergence, and the transpose of the divergence.
+//
+//     B_i = (sum_j V_j F x_ij x_ij^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
+//     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields
+//     (D^T V p)_i = -V_i sum_j V_j F (p_i B_i + p_j B_j) d                        force of the pressure p
+//     (L u)_i     = sum_j V_i V_j mu_ij F (1/S2_i + 1/S2_j) beta (u_i - u_j)      Morris' viscosity, with unit second moment
+// D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite, and no force is left over in the
+// sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
+//
+// The weights are worked out anew at each application: that needs a hundred bytes a particle and is as fast as reading them.
+// Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the last one 0.
+#pragma once
+#include <array>
+
+#include "particles/sumOverPairs.hpp"
+#include "sph/fluidForces.hpp"
+
+namespace corpuscle::sph {
+
+enum class OperatorForm { plain, corrected };
+
+template <class Real>
+class Operators {
+  public:
+    using Field = particles::AlignedVector<Real>;
+    static constexpr std::size_t width = 4;
+
+    Operators(const FluidModel& model, const particles::ParticleSystem& system, OperatorForm form);
+
+    // For the particles at their present positions, whose lists have just been built there. Collective.
+    // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
+    void build(particles::ParticleSystem& system);
+
+    // force_i = -(L u)_i + (D^T V p)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa]. Collective.
+    template <class Pressure>
+    void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
+        findRates(system, u);
+        for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
+        addStress(system);
+    }
+    const particles::RealArray& force() const { return force_; }
+    double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]
+
+    double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
+    bool isWall(std::size_t i) const { return wall_[i] != 0; }
+    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // sum_j V_j F x_ij [1/m]
+    double evenness(std::size_t i) const { return evenness_[i]; }       // sum_j V_j W
+    // Diagonal of L [N s/m], and of D^T V D [m], both as multiples of the unit matrix.
+    double viscousDiagonal(std::size_t i) const { return viscous_[i]; }
+    double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
+    std::size_t bytes() const;
+
+  private:
+    void findMoments(particles::ParticleSystem& system);
+    void packRecords(particles::ParticleSystem& system);
+    void findRates(particles::ParticleSystem& system, const Field& u);
+    void setPressure(std::size_t i, double pressure);
+    void addStress(particles::ParticleSystem& system);
+    template <class Kernel>
+    void sum(particles::ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
+             particles::Halo::Part part);
+
+    FluidModel model_;
+    OperatorForm form_;
+    bool varyingViscosity_;
+    PairKernels::Operators<Real> kernels_;
+    MomentConstants moments_;
+    WallPlanes walls_;
+    double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
+    Field momentRecords_, rateRecords_, stressRecords_;
+    particles::RealArray sums_, force_, divergence_;
+    std::array<particles::RealArray, 12> moment_;
+    std::vector<double> volume_, evenness_, viscous_, bulk_;
+    std::vector<std::array<double, 6>> correction_;  // B: xx yy zz xy xz yz
+    std::vector<double> scale_;                      // 1/S2
+    std::vector<Vec3> disorder_;
+    std::vector<char> wall_;
+};
+
+extern template class Operators<double>;
+extern template class Operators<float>;
+
+}  // namespace corpuscle::sph
