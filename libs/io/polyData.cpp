@@ -13,8 +13,8 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
-#include <numeric>
 #include <stdexcept>
 
 #include "core/error.hpp"
@@ -76,31 +76,46 @@ void addArrays(vtkFieldData* target, const Arrays& arrays, std::size_t count, co
     for (const auto& [name, values] : arrays.integers) add(name, values.size(), copy(values));
 }
 
-// 32-bit cells: a piece never has 2^31 points, and its connectivity is half as large.
-vtkSmartPointer<vtkCellArray> makeCells(const PolyData& data, Cells kind) {
-    const auto perCell = kind == Cells::triangles ? 3 : 1;
-    const auto count = kind == Cells::triangles ? data.triangles.size() : data.points.size();
+std::size_t cellCount(const PolyData& data, Cells kind) {
+    return kind == Cells::triangles ? data.triangles.size() : kind == Cells::lines ? data.lines.size() : 0;
+}
+
+// 32-bit cells: a piece never has 2^31 points, and its connectivity is half as large. cornersOf(i): the points of cell i.
+template <class F>
+vtkSmartPointer<vtkCellArray> makeCells(std::size_t count, std::size_t pointCount, F&& cornersOf) {
     vtkNew<vtkTypeInt32Array> offsets, corners;
     offsets->SetNumberOfTuples(static_cast<vtkIdType>(count) + 1);
-    corners->SetNumberOfTuples(static_cast<vtkIdType>(count) * perCell);
-    for (vtkIdType i = 0; i <= static_cast<vtkIdType>(count); ++i) offsets->SetValue(i, static_cast<int>(i) * perCell);
-    if (kind == Cells::vertices) {
-        std::iota(corners->GetPointer(0), corners->GetPointer(0) + count, 0);
-    } else {
-        const auto pointCount = static_cast<int>(data.points.size());
-        for (std::size_t i = 0; i < count; ++i) {
-            for (int corner = 0; corner < 3; ++corner) {
-                const int p = data.triangles[i][corner];
-                if (p < 0 || p >= pointCount) {
-                    throw std::invalid_argument(fmt::format("triangle {} names point {} of {}", i, p, pointCount));
-                }
-                corners->SetValue(static_cast<vtkIdType>(3 * i) + corner, p);
+    offsets->SetValue(0, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (const int p : cornersOf(i)) {
+            if (p < 0 || p >= static_cast<int>(pointCount)) {
+                throw std::invalid_argument(fmt::format("cell {} names point {} of {}", i, p, pointCount));
             }
+            corners->InsertNextValue(p);
         }
+        offsets->SetValue(static_cast<vtkIdType>(i) + 1, static_cast<int>(corners->GetNumberOfTuples()));
     }
     auto cells = vtkSmartPointer<vtkCellArray>::New();
     cells->SetData(offsets, corners);
     return cells;
+}
+
+void addCells(vtkPolyData& poly, const PolyData& data, Cells kind) {
+    const std::size_t points = data.points.size();
+    if (!data.triangles.empty() && !data.lines.empty()) {
+        throw std::invalid_argument("triangles and lines in one file");
+    }
+    switch (kind) {
+        case Cells::vertices:
+            return poly.SetVerts(
+                makeCells(points, points, [](std::size_t i) { return std::array{static_cast<int>(i)}; }));
+        case Cells::triangles:
+            return poly.SetPolys(makeCells(data.triangles.size(), points,
+                                           [&](std::size_t i) -> const Index3& { return data.triangles[i]; }));
+        case Cells::lines:
+            return poly.SetLines(makeCells(data.lines.size(), points,
+                                           [&](std::size_t i) -> const std::vector<int>& { return data.lines[i]; }));
+    }
 }
 
 }  // namespace
@@ -126,7 +141,10 @@ std::vector<std::string> Arrays::names() const {
 }
 
 void writeVtp(const std::filesystem::path& path, const PolyData& data) {
-    writeVtp(path, data, data.triangles.empty() ? Cells::vertices : Cells::triangles, {});
+    const Cells cells = !data.lines.empty()       ? Cells::lines
+                        : !data.triangles.empty() ? Cells::triangles
+                                                  : Cells::vertices;
+    writeVtp(path, data, cells, {});
 }
 
 void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cells,
@@ -136,13 +154,9 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cel
     points->SetDataTypeToDouble();
     points->SetData(view(data.points.empty() ? nullptr : data.points[0].data(), data.points.size(), 3));
     poly->SetPoints(points);
-    if (cells == Cells::triangles) {
-        poly->SetPolys(makeCells(data, cells));
-    } else {
-        poly->SetVerts(makeCells(data, cells));
-    }
+    addCells(*poly, data, cells);
     addArrays(poly->GetPointData(), data.point, data.points.size(), "points");
-    addArrays(poly->GetCellData(), data.cell, data.triangles.size(), "triangles");
+    addArrays(poly->GetCellData(), data.cell, cellCount(data, cells), cells == Cells::lines ? "lines" : "triangles");
     auto allFields = data.field;
     for (const auto& [name, value] : field) allFields[name] = value;
     for (const auto& [name, value] : allFields) {

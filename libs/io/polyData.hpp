@@ -1,7 +1,7 @@
-// Points, triangles and their arrays as one plain value, and its file: VTK's .vtp.
+// Points, their triangles or lines and the arrays of both as one plain value, and its file: VTK's .vtp.
 //
-// A fluid is points alone; a membrane is points and triangles. Everything SI. A file written here holds appended raw
-// data, compressed with lz4, with 64-bit headers; doubles keep all their bits. Points without triangles get one vertex
+// A fluid is points alone; a membrane is points and triangles; rims of holes are points and lines. Everything SI. A file written here holds appended raw
+// data, compressed with lz4, with 64-bit headers; doubles keep all their bits. Points alone get one vertex
 // cell each, so that ParaView shows them. Files are written under a temporary name and renamed (io/publish.hpp).
 #pragma once
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace corpuscle::io {
 
-// Arrays of the points or of the triangles, by name; each as long as there are points or triangles.
+// Arrays of the points or of the cells (triangles or lines), by name; each as long as there are of them.
 struct Arrays {
     std::map<std::string, std::vector<double>> scalars;
     std::map<std::string, std::vector<Vec3>> vectors;
@@ -35,24 +35,25 @@ struct Arrays {
 };
 
 struct PolyData {
-    std::vector<Vec3> points;       // [m]
-    std::vector<Index3> triangles;  // indices into points
+    std::vector<Vec3> points;             // [m]
+    std::vector<Index3> triangles;        // indices into points
+    std::vector<std::vector<int>> lines;  // the same, along each line; triangles or lines, not both
     Arrays point, cell;
     std::map<std::string, double> field;       // one number each: TimeValue [s], strain
     std::map<std::string, std::string> texts;  // field data too, one text each
 };
 
-enum class Cells { vertices, triangles };
+enum class Cells { vertices, triangles, lines };
 
 // Throws Failure(ExitCode::io) when the file cannot be written, std::invalid_argument when an array has the wrong
-// length or a triangle names a point that does not exist. The second form says which cells to write (a rank without
-// triangles in a stream that has some writes none) and adds numbers to the field data.
+// length, a triangle or line names a point that does not exist, or there are both. The second form says which cells to write (a rank without
+// triangles or lines in a stream that has some writes none) and adds numbers to the field data.
 void writeVtp(const std::filesystem::path& path, const PolyData& data);
 void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cells,
               const std::map<std::string, double>& field);
 
-// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, or has cells other than vertices and
-// triangles. Numbers of any width are read: floating point with 1 or 3 components as scalars or vectors, integers with
+// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, has cells other than vertices,
+// triangles and lines, or both of these. Numbers of any width are read: floating point with 1 or 3 components as scalars or vectors, integers with
 // 1 as integers.
 PolyData readVtp(const std::filesystem::path& path);
 

@@ -74,6 +74,25 @@ void readArrays(vtkDataSetAttributes& source, const std::string& where, Arrays& 
     }
 }
 
+// The points of each cell. fail(text) makes the exception for a cell that names none.
+template <class F>
+std::vector<std::vector<int>> toCells(vtkCellArray& source, std::size_t pointCount, F&& fail) {
+    std::vector<std::vector<int>> all;
+    const auto cells = vtk::TakeSmartPointer(source.NewIterator());
+    for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
+        vtkIdType count = 0;
+        const vtkIdType* corners = nullptr;
+        cells->GetCurrentCell(count, corners);
+        auto& cell = all.emplace_back();
+        for (int i = 0; i < count; ++i) {
+            if (corners[i] < 0 || corners[i] >= static_cast<vtkIdType>(pointCount))
+                throw fail(fmt::format("cell {} names point {} of {}.", all.size() - 1, corners[i], pointCount));
+            cell.push_back(static_cast<int>(corners[i]));
+        }
+    }
+    return all;
+}
+
 // VTK reports a cut file only where an array runs short; the closing tag says it for every file.
 void checkWhole(const std::filesystem::path& path) {
     std::error_code error;
@@ -129,24 +148,15 @@ PolyData readVtp(const std::filesystem::path& path) {
 
     PolyData data;
     if (poly->GetPoints()) data.points = toVectors(*poly->GetPoints()->GetData());
-    if (poly->GetNumberOfLines() + poly->GetNumberOfStrips() > 0)
-        throw fail("only points and triangles are read, the file has lines or strips.");
-    const auto pointCount = static_cast<vtkIdType>(data.points.size());
-    const auto cells = vtk::TakeSmartPointer(poly->GetPolys()->NewIterator());
-    for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
-        vtkIdType count = 0;
-        const vtkIdType* corners = nullptr;
-        cells->GetCurrentCell(count, corners);
-        if (count != 3)
+    if (poly->GetNumberOfStrips() > 0) throw fail("only points, triangles and lines are read, the file has strips.");
+    if (poly->GetNumberOfLines() > 0 && poly->GetNumberOfPolys() > 0)
+        throw fail("triangles or lines are read, the file has both.");
+    data.lines = toCells(*poly->GetLines(), data.points.size(), fail);
+    for (const std::vector<int>& corners : toCells(*poly->GetPolys(), data.points.size(), fail)) {
+        if (corners.size() != 3)
             throw fail(
-                fmt::format("cell {} has {} corners; only triangles are read.", cells->GetCurrentCellId(), count));
-        for (int i = 0; i < 3; ++i) {
-            if (corners[i] < 0 || corners[i] >= pointCount)
-                throw fail(
-                    fmt::format("cell {} names point {} of {}.", cells->GetCurrentCellId(), corners[i], pointCount));
-        }
-        data.triangles.push_back(
-            {static_cast<int>(corners[0]), static_cast<int>(corners[1]), static_cast<int>(corners[2])});
+                fmt::format("cell {} has {} corners; only triangles are read.", data.triangles.size(), corners.size()));
+        data.triangles.push_back({corners[0], corners[1], corners[2]});
     }
     readArrays(*poly->GetPointData(), path.string() + ": point array", data.point);
     if (poly->GetNumberOfVerts() > 0 && poly->GetCellData()->GetNumberOfArrays() > 0) {
@@ -181,6 +191,10 @@ PolyData readPvtp(const std::filesystem::path& path) {
         const int first = static_cast<int>(all.points.size());
         all.points.insert(all.points.end(), piece.points.begin(), piece.points.end());
         for (const auto& t : piece.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        for (std::vector<int> line : piece.lines) {
+            for (int& corner : line) corner += first;
+            all.lines.push_back(std::move(line));
+        }
         append(all.point, piece.point, path.string() + ": point array");
         append(all.cell, piece.cell, path.string() + ": cell array");
         all.field.insert(piece.field.begin(), piece.field.end());

@@ -81,8 +81,8 @@ void VtkSeries::removeFiles(const SeriesEntry& entry) const {
 }
 
 void VtkSeries::start() {
+    if (started_) return;
     onRoot(comm_, [&] {
-        makeFolder(results_ / stream_);
         const auto index = results_ / (stream_ + ".pvd");
         if (!std::filesystem::exists(index)) return;
         const double limit = startTime_ - 1e-9 * std::abs(startTime_);
@@ -97,10 +97,12 @@ void VtkSeries::start() {
 }
 
 Cells VtkSeries::agreeOnCells(const PolyData& piece) const {
-    const int mine = !piece.triangles.empty() || !piece.cell.empty();
-    int any = 0;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, comm_);
-    return any ? Cells::triangles : Cells::vertices;
+    const Cells mine = !piece.lines.empty()                              ? Cells::lines
+                       : !piece.triangles.empty() || !piece.cell.empty() ? Cells::triangles
+                                                                         : Cells::vertices;
+    auto agreed = static_cast<int>(mine);
+    MPI_Allreduce(MPI_IN_PLACE, &agreed, 1, MPI_INT, MPI_MAX, comm_);
+    return static_cast<Cells>(agreed);
 }
 
 void VtkSeries::writeIndex() const {
@@ -115,7 +117,7 @@ void VtkSeries::writeIndex() const {
 void VtkSeries::write(double time, std::optional<double> strain, const PolyData& piece) {
     std::map<std::string, double> field{{"TimeValue", time}};
     if (strain) field["strain"] = *strain;
-    if (!started_) start();
+    start();
     const std::string name = stepName(number_);
     const auto folder = results_ / stream_;
     const std::string arrays = "    <PPointData>\n" + arrayTags(piece.point) + "    </PPointData>\n    <PCellData>\n" +

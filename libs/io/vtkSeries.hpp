@@ -35,8 +35,10 @@ class VtkSeries {
     // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws Failure(ExitCode::io) on all ranks.
     void write(double time, std::optional<double> strain, const PolyData& piece);
 
-  private:
+    // Collective. Removes what a run that went further left, as the first write does: for a stream that has nothing to write yet.
     void start();
+
+  private:
     Cells agreeOnCells(const PolyData& piece) const;
     void writeIndex() const;
     void removeFiles(const SeriesEntry& entry) const;

@@ -76,6 +76,12 @@ void Membrane::addStiffness(Definiteness definiteness, Stiffness& stiffness) con
     }
 }
 
+void Membrane::addDamping(Stiffness& damping) const {
+    if (isViscous()) {
+        laws_.viscosity->addDamping(*network_, position, damping);
+    }
+}
+
 double Membrane::maxStiffness() const {
     double sum = 0;
     for (const auto& term : terms_) {

@@ -37,6 +37,8 @@ class Membrane {
                           std::span<Vec3> f) const;  // for velocities v at the present positions
     double energy() const;                           // J
     void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;
+    // The matrix C of viscous forces -C v at the present positions, N s/m; nothing when the membrane is not viscous.
+    void addDamping(Stiffness& damping) const;
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 
     bool canRupture() const { return static_cast<bool>(laws_.rupture); }

@@ -35,4 +35,25 @@ void SurfaceViscosity::addForces(const Network& network, std::span<const Vec3> x
     }
 }
 
+void SurfaceViscosity::addDamping(const Network& network, std::span<const Vec3> x, Stiffness& damping) const {
+    for (const int triangle : network.wholeTriangles()) {
+        const Index3& node = network.triangles()[triangle];
+        const Vec3 a = x[node[1]] - x[node[0]], b = x[node[2]] - x[node[0]];
+        const double l = a.norm();
+        const Vec3 ex = a / l;
+        const double p = b.dot(ex), q = (b - p * ex).norm();  // triangle (0, 0), (l, 0), (p, q) of area l q/2
+        const Vec3 ey = (b - p * ex) / q;
+        const std::array<double, 3> dNdx{-1 / l, 1 / l, 0}, dNdy{(p - l) / (l * q), -p / (l * q), 1 / q};
+        const double ofShape = std::sqrt(0.5 * l * q * shear), ofArea = std::sqrt(0.5 * l * q * dilatation);
+        Eigen::Matrix<double, 3, 9> rates;
+        for (int n = 0; n < 3; ++n) {
+            const Vec3 xx = dNdx[n] * ex, yy = dNdy[n] * ey, twiceXy = dNdy[n] * ex + dNdx[n] * ey;
+            rates.block<1, 3>(0, 3 * n) = ofShape * (xx - yy).transpose();
+            rates.block<1, 3>(1, 3 * n) = ofShape * twiceXy.transpose();
+            rates.block<1, 3>(2, 3 * n) = ofArea * (xx + yy).transpose();
+        }
+        damping.add(node, rates.transpose().lazyProduct(rates));
+    }
+}
+
 }  // namespace corpuscle::membrane

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "observers/summary.hpp"
+
 namespace corpuscle::observers {
 
 const Schema<ObserverSettings>& ObserverSettings::schema() {
@@ -11,6 +13,8 @@ const Schema<ObserverSettings>& ObserverSettings::schema() {
                       {.range = positive});
     return s;
 }
+
+std::optional<Summary> Observation::summary(const Scene&, const Time&) { return {}; }
 
 void Observation::restore(std::span<const double> saved) {
     const std::size_t expected = state().size();

@@ -10,7 +10,6 @@
 // CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
 #pragma once
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,11 +35,7 @@ struct Row {
     std::vector<double> values;  // one for each column of the table, SI
 };
 
-// What there is to say at the end of a run: figures for run.json, lines for the log.
-struct Summary {
-    nlohmann::ordered_json figures;
-    std::vector<std::string> lines;
-};
+struct Summary;  // summary.hpp
 
 class Observation {
   public:
@@ -56,7 +51,7 @@ class Observation {
     virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
 
     // At the end of a run; empty: nothing to say. Collective.
-    virtual std::optional<Summary> summary(const Scene&, const Time&) { return {}; }
+    virtual std::optional<Summary> summary(const Scene& scene, const Time& time);
 
     // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a state
     // of another length.

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "observers/summary.hpp"
+
 namespace corpuscle::observers {
 
 const Schema<ObserversSettings>& ObserversSettings::schema() {

@@ -37,6 +37,7 @@
 #include "observers/cells.hpp"
 #include "observers/observer.hpp"
 #include "observers/ruptureFigures.hpp"
+#include "observers/summary.hpp"
 
 namespace corpuscle::observers {
 

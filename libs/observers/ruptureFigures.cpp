@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
 
 #include "membrane/diagnostics.hpp"
 #include "observers/cells.hpp"
@@ -11,7 +13,11 @@ namespace corpuscle::observers {
 
 namespace {
 
-constexpr std::size_t lossNumbers = sizeof(Losses) / sizeof(double);
+// In the order in which the numbers travel between ranks.
+constexpr std::array members{&Losses::bonds,       &Losses::triangles,    &Losses::holes,
+                             &Losses::holeArea,    &Losses::holeRestArea, &Losses::bondStrain,
+                             &Losses::arealStrain, &Losses::tension,      &Losses::damage};
+static_assert(sizeof(Losses) == members.size() * sizeof(double), "a member is not named above");
 
 Losses lossesOf(const coupling::Cell& cell) {
     const membrane::Membrane& m = cell.membrane;
@@ -20,15 +26,15 @@ Losses lossesOf(const coupling::Cell& cell) {
     double damage = 0;
     if (!m.damage().empty())
         for (const int t : network.wholeTriangles()) damage = std::max(damage, m.damage()[static_cast<std::size_t>(t)]);
-    return {static_cast<double>(network.brokenBonds()),
-            static_cast<double>(network.brokenTriangles()),
-            broken ? static_cast<double>(network.rims().size()) : 0,
-            broken ? network.holeArea(m.position) : 0,
-            network.holeRestArea(),
-            membrane::maxBondStrain(network, m.position),
-            membrane::maxArealStrain(network, m.position),
-            membrane::maxTension(network, m.laws(), m.position),
-            damage};
+    return {.bonds = static_cast<double>(network.brokenBonds()),
+            .triangles = static_cast<double>(network.brokenTriangles()),
+            .holes = broken ? static_cast<double>(network.rims().size()) : 0,
+            .holeArea = broken ? network.holeArea(m.position) : 0,
+            .holeRestArea = network.holeRestArea(),
+            .bondStrain = membrane::maxBondStrain(network, m.position),
+            .arealStrain = membrane::maxArealStrain(network, m.position),
+            .tension = membrane::maxTension(network, m.laws(), m.position),
+            .damage = damage};
 }
 
 std::vector<double> list(const Vec3& v) { return {v.data(), v.data() + 3}; }
@@ -42,12 +48,13 @@ std::vector<double> FirstBreak::numbers() const {
 FirstBreak FirstBreak::of(const double* n) { return {n[0], n[1], n[2], Vec3(n + 3), Vec3(n + 6)}; }
 
 std::vector<Losses> losses(const coupling::Scene& scene) {
-    std::vector<Losses> all;
-    for (const auto& n : ofEachCell(scene, lossNumbers, [](const coupling::Cell&cell, std::size_t, double*out) {
-             const Losses lost = lossesOf(cell);
-             std::copy_n(&lost.bonds, lossNumbers, out);
-         }))
-        all.push_back({n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]});
+    const auto numbers = ofEachCell(scene, members.size(), [](const coupling::Cell& cell, std::size_t, double* out) {
+        const Losses lost = lossesOf(cell);
+        for (const auto member : members) *out++ = lost.*member;
+    });
+    std::vector<Losses> all(numbers.size());
+    for (std::size_t c = 0; c < all.size(); ++c)
+        for (std::size_t k = 0; k < members.size(); ++k) all[c].*members[k] = numbers[c][k];
     return all;
 }
 

@@ -1,7 +1,7 @@
 // What the observer rupture knows of each cell, and how it says it.
 #pragma once
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

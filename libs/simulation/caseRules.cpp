@@ -124,13 +124,14 @@ void checkTogether(const Case& c, Problems& problems) {
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
-    std::set<std::string> names{"fluid", "walls", "bodies"};
+    std::set<std::string> names{"fluid", "walls", "bodies", "holes"};
     for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         const std::string& name = surface.settings.name;
         if (!names.insert(name).second)
-            problems.add(mesh, surface.key + ".name",
-                         "the name '" + name +
-                             "' is taken; each cell and body needs its own, and fluid, walls and bodies are reserved");
+            problems.add(
+                mesh, surface.key + ".name",
+                "the name '" + name +
+                    "' is taken; each cell and body needs its own, and fluid, walls, bodies and holes are reserved");
         const std::string user = "the " + surface.kind + " '" + name + "' of system/mesh.yaml";
         if (surface.kind == "cell")
             requireEntry(c.membranes.types, static_cast<const CellSettings&>(surface.settings).type(), user,

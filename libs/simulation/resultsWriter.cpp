@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/communicator.hpp"
 #include "membrane/diagnostics.hpp"
 
 namespace corpuscle::simulation {
@@ -26,6 +27,9 @@ ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& 
     for (const Cell& cell : scene.cells)
         cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name,
                             static_cast<int>(input.control.write.keep.value_or(0)), start.t);
+    if (std::any_of(scene.cells.begin(), scene.cells.end(), [](const Cell& c) { return c.membrane.canRupture(); }))
+        holes_.emplace(scene.system->comm(), input.directory, "holes",
+                       static_cast<int>(input.control.write.keep.value_or(0)), start.t);
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             bodies_.emplace_back(scene.system->comm(), input.directory, body.name,
@@ -92,6 +96,23 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     return data;
 }
 
+void addRims(const membrane::Membrane& m, io::PolyData& data) {
+    auto& cells = data.cell.integers["cell"];
+    auto& holes = data.cell.integers["hole"];
+    std::int64_t number = 0;
+    for (const std::vector<int>& rim : m.network().rims()) {
+        const int first = static_cast<int>(data.points.size());
+        auto& line = data.lines.emplace_back();
+        for (const int node : rim) {
+            line.push_back(static_cast<int>(data.points.size()));
+            data.points.push_back(m.position[static_cast<std::size_t>(node)]);
+        }
+        line.push_back(first);
+        cells.push_back(m.cell);
+        holes.push_back(++number);
+    }
+}
+
 io::PolyData bodyPiece(const Scene& scene, const bodies::Body& body, bool writer) {
     io::PolyData data;
     auto& velocity = data.point.vectors["velocity"];
@@ -108,9 +129,18 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
     int rank = 0;
     MPI_Comm_rank(scene.system->comm(), &rank);
     fluid_.write(time.t, time.strain(), fluidPiece(scene));
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-        cells_[c].write(time.t, time.strain(),
-                        cellPiece(scene, scene.cells[c], lowestHolder(scene, scene.cells[c]) == rank));
+    io::PolyData rims;
+    rims.cell.integers = {{"cell", {}}, {"hole", {}}};
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const Cell& cell = scene.cells[c];
+        const bool writer = lowestHolder(scene, cell) == rank;
+        cells_[c].write(time.t, time.strain(), cellPiece(scene, cell, writer));
+        if (writer && cell.membrane.network().brokenTriangles() > 0) addRims(cell.membrane, rims);
+    }
+    if (holes_) {
+        holes_->start();
+        if (Communicator(scene.system->comm()).anyTrue(!rims.lines.empty())) holes_->write(time.t, time.strain(), rims);
+    }
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         bodies_[b].write(time.t, time.strain(), bodyPiece(scene, scene.bodies->all()[b], rank == 0));
     ++written_;

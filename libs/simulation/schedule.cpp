@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "observers/summary.hpp"
 #include "particles/isa.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/sceneBuilder.hpp"

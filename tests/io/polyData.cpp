@@ -74,6 +74,25 @@ TEST(Vtp, PointsAloneAndNothingAtAll) {
     EXPECT_TRUE(empty.point.vector("velocity").empty());
 }
 
+TEST(Vtp, LinesComeBackWithTheirArrays) {
+    TemporaryFolder folder;
+    PolyData rims;
+    rims.points = {{0, 0, 0}, {1e-6, 0, 0}, {0, 1e-6, 0}, {0, 0, 1}, {0, 0, 2}};
+    rims.lines = {{0, 1, 2, 0}, {3, 4}};
+    rims.cell.integers["hole"] = {2, 1};
+    writeVtp(folder.path() / "holes.vtp", rims);
+    const PolyData after = readVtp(folder.path() / "holes.vtp");
+    EXPECT_EQ(after.points, rims.points);
+    EXPECT_EQ(after.lines, rims.lines);
+    EXPECT_TRUE(after.triangles.empty());
+    EXPECT_EQ(after.cell.integer("hole"), rims.cell.integer("hole"));
+    rims.lines[1][1] = 5;
+    EXPECT_THROW(writeVtp(folder.path() / "a.vtp", rims), std::invalid_argument);
+    rims.lines[1][1] = 4;
+    rims.triangles = {{0, 1, 2}};
+    EXPECT_THROW(writeVtp(folder.path() / "a.vtp", rims), std::invalid_argument);
+}
+
 TEST(Vtp, SaysWhichArrayIsMissingOrOfTheWrongType) {
     TemporaryFolder folder;
     writeVtp(folder.path() / "rbc.vtp", membrane());

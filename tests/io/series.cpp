@@ -81,6 +81,38 @@ TEST(VtkSeries, TheReaderOfParaViewAgrees) {
     }
 }
 
+// Rank r has r lines, rank 0 none.
+TEST(VtkSeries, LinesOfAllRanksComeBackTogether) {
+    TemporaryFolder folder;
+    PolyData data;
+    auto& number = data.cell.integers["hole"];
+    for (int i = 0; i < rankHere(); ++i) {
+        for (int n = 0; n < 3; ++n) data.points.emplace_back(rankHere(), i, n);
+        data.lines.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        number.push_back(10 * rankHere() + i);
+    }
+    VtkSeries(MPI_COMM_WORLD, folder.path(), "holes", 0, 0).write(0.1, {}, data);
+    MPI_Barrier(MPI_COMM_WORLD);
+    const PolyData all = readPvtp(readPvd(folder.path() / "results" / "holes.pvd").at(0).file);
+    ASSERT_EQ(static_cast<int>(all.lines.size()), ranks() * (ranks() - 1) / 2);
+    for (std::size_t k = 0; k < all.lines.size(); ++k)
+        for (int n = 0; n < 3; ++n) {
+            const Vec3& x = all.points[static_cast<std::size_t>(all.lines[k][static_cast<std::size_t>(n)])];
+            EXPECT_EQ(10 * x[0] + x[1], static_cast<double>(all.cell.integer("hole")[k]));
+            EXPECT_EQ(x[2], n);
+        }
+}
+
+TEST(VtkSeries, AStreamThatHasNothingToWriteCanDropToo) {
+    TemporaryFolder folder;
+    VtkSeries(MPI_COMM_WORLD, folder.path(), "nothing", 0, 0).start();
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "results"));
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    for (int i = 0; i < 3; ++i) series.write(0.1 * i, i, piece(i));
+    VtkSeries(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0.1).start();
+    EXPECT_EQ(times(folder.path()), (std::vector<double>{0.0}));
+}
+
 TEST(VtkSeries, RestartDropsWhatComesAfterIt) {
     TemporaryFolder folder;
     {

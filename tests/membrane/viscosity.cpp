@@ -1,6 +1,8 @@
 // Viscosity of the membrane: tension of homogeneous rates, power, rigid motions, broken triangles, the pressure of a growing sphere.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "membrane/membrane.hpp"
 #include "membrane/surface.hpp"
 #include "meshes.hpp"
@@ -102,6 +104,48 @@ TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
         EXPECT_NEAR(vw, wv, 1e-12 * std::abs(vw)) << name;
         EXPECT_GT(power(forces(network, x, v), v), 0) << name;
     }
+}
+
+// The matrix is made from squares of rates, the forces from the metric: two ways to the same law. Holes are left out of both.
+TEST(SurfaceViscosity, DampingMatrixGivesTheForcesAndIsSymmetricAndSemiDefinite) {
+    for (const auto& [name, mesh, x] : deformedMeshes()) {
+        for (const SurfaceViscosity& viscosity : {law, SurfaceViscosity{0.7, 0}, SurfaceViscosity{0, 1.9}}) {
+            MembraneSettings settings;
+            settings.viscosity = viscosity;
+            Membrane membrane("cell", 1, mesh.nodes, mesh.triangles, settings, 1);
+            membrane.position = x;
+            membrane.breakBonds({{17, 1.2, Vec3::Zero()}, {40, 1.2, Vec3::Zero()}});
+            AssembledStiffness damping(x.size());
+            membrane.addDamping(damping);
+            ASSERT_TRUE(damping.rankOne().empty()) << name;
+            const Eigen::MatrixXd c(damping.sparse());
+            EXPECT_EQ((c - c.transpose()).cwiseAbs().maxCoeff(), 0) << name;
+            const Eigen::VectorXd eigenvalues =
+                Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(c, Eigen::EigenvaluesOnly).eigenvalues();
+            const double largest = eigenvalues[eigenvalues.size() - 1];
+            EXPECT_GE(eigenvalues[0], -1e-12 * largest) << name;
+
+            const auto times = [&](const Vectors& v) {
+                return Eigen::VectorXd(c * Eigen::Map<const Eigen::VectorXd>(v.front().data(), c.cols()));
+            };
+            const Vectors v = anyVelocities(x.size());
+            Vectors f(x.size(), Vec3::Zero());
+            membrane.addViscousForces(v, f);
+            const Eigen::Map<const Eigen::VectorXd> force(f.front().data(), c.cols());
+            EXPECT_LT((times(v) + force).norm(), 1e-12 * force.norm()) << name;
+
+            const Vec3 spin(0.3, -1.1, 0.6);
+            const Vectors rigid = velocities(x, [&](const Vec3& p) -> Vec3 { return Vec3(1, 2, 3) + spin.cross(p); });
+            EXPECT_LT(times(rigid).cwiseAbs().maxCoeff(), 1e-13 * largest) << name;
+        }
+    }
+}
+
+TEST(SurfaceViscosity, DampsNothingWhereItIsNotNamed) {
+    const Mesh mesh = testing::icosphere(1);
+    AssembledStiffness damping(mesh.nodes.size());
+    Membrane("cell", 1, mesh.nodes, mesh.triangles, MembraneSettings{}, 1).addDamping(damping);
+    EXPECT_EQ(damping.sparse().nonZeros(), 0);
 }
 
 // Tension 2 dilatation dR/dt / R, and Laplace's law: 2/R of it as pressure. The sum of radial forces is 4 pi R^2 times that.

@@ -8,6 +8,7 @@
 #include "geometry/kuchelFackerell.hpp"
 #include "geometry/spheroid.hpp"
 #include "observers/sampleScene.hpp"
+#include "observers/summary.hpp"
 
 namespace corpuscle::observers::testing {
 namespace {

@@ -348,7 +348,7 @@ def instructions(folder, case, application, steps):
 
 
 def test_skipping(folder):
-    """A fluid alone costs the same instructions per step under dmpFlow as under sphFlow, and stores nothing for cells."""
+    """A fluid alone costs the same instructions per step under dmpFlow as under sphFlow; particles have what the case needs and no more."""
     case = prepared(folder / "case", FLUID_CASE)
     perStep = {}
     for application in ("sphFlow", "dmpFlow"):
@@ -356,9 +356,17 @@ def test_skipping(folder):
     ratio = perStep["dmpFlow"] / perStep["sphFlow"]
     print(f"instructions per step: {perStep}, ratio {ratio:.5f}")
     assert abs(ratio - 1) < 0.01
-    names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/data/particles"], capture_output=True, text=True, check=True).stdout
-    stored = {line.split()[0] for line in names.splitlines()}
-    assert not stored & {"mass", "viscosity", "side", "node"}, stored
+    optional = {"mass", "viscosity", "side", "node", "member"}
+    cells = {"mass", "side", "node"}
+    thick = CELL_CASE["constant/membranes.yaml"] + "  interior: {viscosityRatio: 5}\n"
+    for name, files, changes, wanted in (("fluid", FLUID_CASE, {}, set()), ("cells", CELL_CASE, {}, cells),
+                                         ("thick", CELL_CASE, {"constant/membranes.yaml": thick}, cells | {"viscosity"}),
+                                         ("bodies", BODY_CASE, {}, {"mass", "member"})):
+        other = prepared(folder / name, files, **changes)
+        run(other, "dmpFlow", "-steps", "1")
+        names = subprocess.run(["h5ls", f"{last_checkpoint(other)}/data/particles"], capture_output=True, text=True, check=True).stdout
+        stored = {line.split()[0] for line in names.splitlines()}
+        assert "density" in stored and stored & optional == wanted, (name, stored)
 
 
 def tearing(folder, rupture, strain):

@@ -17,7 +17,8 @@ std::vector<std::string> membranesIn(const std::filesystem::path& folder, const 
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == extension && name != "fluid" && name != "walls") names.push_back(name);
+        if (entry.path().extension() == extension && name != "fluid" && name != "walls" && name != "holes")
+            names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     return names;

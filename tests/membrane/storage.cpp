@@ -1,0 +1,34 @@
+// operator new and delete with the size kept in front of each block. Blocks of greater alignment go the library's own way and are not counted.
+#include "storage.hpp"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr std::size_t front = alignof(std::max_align_t);
+std::size_t stored = 0;
+
+}  // namespace
+
+std::size_t corpuscle::membrane::testing::storedBytes() { return stored; }
+
+void* operator new(std::size_t bytes) {
+    void* const block = std::malloc(front + bytes);
+    if (block == nullptr) {
+        throw std::bad_alloc();
+    }
+    *static_cast<std::size_t*>(block) = bytes;
+    stored += bytes;
+    return static_cast<char*>(block) + front;
+}
+
+void operator delete(void* place) noexcept {
+    if (place != nullptr) {
+        void* const block = static_cast<char*>(place) - front;
+        stored -= *static_cast<const std::size_t*>(block);
+        std::free(block);
+    }
+}
+
+void operator delete(void* place, std::size_t) noexcept { operator delete(place); }

@@ -1,0 +1,9 @@
+// Memory that this program holds now through operator new, which storage.cpp replaces. [bytes]
+#pragma once
+#include <cstddef>
+
+namespace corpuscle::membrane::testing {
+
+std::size_t storedBytes();
+
+}  // namespace corpuscle::membrane::testing
