@@ -40,12 +40,13 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
         return node ? std::array{regionOfCell(cellOfNode(s.node[i])), std::size_t(0)}
                     : std::array{regionOf(i), regionOf(i)};
     };
+    const auto massOf = [&](std::size_t i) { return s.optional().mass ? s.mass[i] : mass_; };
     std::vector<Region> regions(cells.size() + 1);
     for (std::size_t i = 0; i < n; ++i) {
         if (particles::isBoundary(s.kindOf(i))) continue;
         for (const std::size_t r : sidesOf(i)) {
-            regions[r].space += 0.5 * s.mass[i] / s.density[i];
-            regions[r].mass += 0.5 * s.mass[i];
+            regions[r].space += 0.5 * massOf(i) / s.density[i];
+            regions[r].mass += 0.5 * massOf(i);
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(2 * regions.size()), MPI_DOUBLE, MPI_SUM,

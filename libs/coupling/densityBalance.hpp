@@ -22,8 +22,10 @@ namespace corpuscle::coupling {
 
 class DensityBalance {
   public:
-    // fluidVolume: of the box between the walls, less the rigid bodies outside all cells [m^3]; density: rho0.
-    DensityBalance(double fluidVolume, double density) : fluidVolume_(fluidVolume), density_(density) {}
+    // fluidVolume: of the box between the walls, less the rigid bodies outside all cells [m^3]; density: rho0; mass: of a particle
+    // where all have the same.
+    DensityBalance(double fluidVolume, double density, double mass = 0)
+        : fluidVolume_(fluidVolume), density_(density), mass_(mass) {}
 
     // Collective.
     void apply(particles::ParticleSystem& system, const std::vector<Cell>& cells);
@@ -32,7 +34,7 @@ class DensityBalance {
     double largest() const { return largest_; }
 
   private:
-    double fluidVolume_, density_, largest_ = 0;
+    double fluidVolume_, density_, mass_, largest_ = 0;
 };
 
 }  // namespace corpuscle::coupling

@@ -44,6 +44,7 @@ Immersed::Immersed(std::vector<Cell>& cells, double spacing) : cells_(cells), ra
     for (const Cell& cell : cells_) {
         nodes_ += static_cast<std::size_t>(cell.nodeCount());
         stiffness_.emplace_back(static_cast<std::size_t>(cell.nodeCount()));
+        damping_.emplace_back(static_cast<std::size_t>(cell.membrane.isViscous() ? cell.nodeCount() : 0));
     }
 }
 
@@ -98,6 +99,8 @@ void Immersed::build(const ParticleSystem& system, const std::vector<double>& vo
         m.addElasticForces(m.position, m.force);
         stiffness_[c].clear();
         m.addStiffness(membrane::Definiteness::partwise, stiffness_[c]);
+        damping_[c].clear();
+        m.addDamping(damping_[c]);
         if (m.network().isOpen()) return;
         const Vectors g = membrane::volumeGradient(m.position, m.network().triangles());
         std::copy(g.begin(), g.end(), gradient_.begin() + static_cast<std::ptrdiff_t>(first));
@@ -205,6 +208,14 @@ void Immersed::addStiffness(double factor, const Vectors& u, Vectors& f) const {
     });
 }
 
+void Immersed::addResistance(double time, const Vectors& u, Vectors& f) const {
+    addStiffness(-time, u, f);
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        if (cells_[c].membrane.isViscous())
+            damping_[c].addProduct(-1, {u.data() + first, last - first}, {f.data() + first, last - first});
+    });
+}
+
 void Immersed::spread(Vectors f, particles::RealArray& force) const {
     project(f);
     for (std::size_t m = 0; m < nodes_; ++m)
@@ -214,11 +225,12 @@ void Immersed::spread(Vectors f, particles::RealArray& force) const {
         }
 }
 
-std::vector<Mat3> Immersed::diagonal() const {
+std::vector<Mat3> Immersed::diagonal(double time) const {
     std::vector<Mat3> blocks(touched_.size(), Mat3::Zero());
     forCells([&](std::size_t c, std::size_t first, std::size_t last) {
         for (std::size_t m = first; m < last; ++m) {
-            const Mat3 own = stiffness_[c].diagonal(m - first);
+            Mat3 own = time * stiffness_[c].diagonal(m - first);
+            if (cells_[c].membrane.isViscous()) own += damping_[c].diagonal(m - first);
             for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
                 const Entry& e = entries_[k];
                 blocks[static_cast<std::size_t>(slot_[static_cast<std::size_t>(e.particle)])] +=

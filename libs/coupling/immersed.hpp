@@ -41,12 +41,13 @@ class Immersed {
     Vectors interpolate(const Real* u) const;
     Vectors force() const;                                                 // of the membranes [N]
     void addStiffness(double factor, const Vectors& u, Vectors& f) const;  // f += factor K u
+    void addResistance(double time, const Vectors& u, Vectors& f) const;   // f -= (time K + C) u
     // force_j += (S^T P f)_j, of four numbers a particle.
     void spread(Vectors f, particles::RealArray& force) const;
 
-    // The particles of this rank with weights, and what they add to the diagonal of S^T K S [N/m].
+    // The particles of this rank with weights, and what they add to the diagonal of S^T (time K + C) S [N s/m].
     const std::vector<int>& touched() const { return touched_; }
-    std::vector<Mat3> diagonal() const;
+    std::vector<Mat3> diagonal(double time) const;
 
     long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights
 
@@ -69,9 +70,9 @@ class Immersed {
     MPI_Comm comm_ = MPI_COMM_NULL;
     std::vector<std::size_t> first_;  // of each node in entries_, and one behind the last
     std::vector<Entry> entries_;
-    std::vector<membrane::BlockStiffness> stiffness_;  // of each cell
-    Vectors gradient_;                                 // g of closed cells, 0 of open ones
-    std::vector<int> touched_, slot_;                  // slot_: of each particle in touched_, -1
+    std::vector<membrane::BlockStiffness> stiffness_, damping_;  // K and C of each cell
+    Vectors gradient_;                                           // g of closed cells, 0 of open ones
+    std::vector<int> touched_, slot_;                            // slot_: of each particle in touched_, -1
     long fallbacks_ = 0;
 };
 

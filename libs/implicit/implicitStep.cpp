@@ -38,7 +38,7 @@ class Step final : public ImplicitStep {
         noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
     }
 
-    void advance(double dt) override {
+    std::vector<coupling::RuptureEvent> advance(double dt) override {
         const double share = backward_ ? 1 : 0.5;  // of dt, at which forces are taken
         setTimes(dt, share);
         moveBy(share * dt);
@@ -58,6 +58,7 @@ class Step final : public ImplicitStep {
         ++statistics.steps, statistics.iterations += c.iterations;
         statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
         finish(dt, share);
+        return endStep(dt);
     }
 
   private:
@@ -118,7 +119,7 @@ class Step final : public ImplicitStep {
             load_ = immersed_->force();
             immersed_->addStiffness(time_, immersed_->velocities(), load_);  // of f(x) at x* + time (v - u_m)
             Immersed::Vectors f = load_;
-            immersed_->addStiffness(-time_, immersed_->interpolate(guess_.data()), f);
+            immersed_->addResistance(time_, immersed_->interpolate(guess_.data()), f);
             immersed_->spread(std::move(f), force);
         }
         const Vec3& g = scene_.model().bodyForce;
@@ -134,7 +135,7 @@ class Step final : public ImplicitStep {
         force_ = operators_.force();
         if (immersed_) {
             Immersed::Vectors f(load_.size(), Vec3::Zero());
-            immersed_->addStiffness(-time_, immersed_->interpolate(z.data()), f);
+            immersed_->addResistance(time_, immersed_->interpolate(z.data()), f);
             immersed_->spread(std::move(f), force_);
         }
         const std::size_t n = store().size();
@@ -148,10 +149,10 @@ class Step final : public ImplicitStep {
         inverse_.resize(n);
         for (std::size_t i = 0; i < n; ++i) inverse_[i] = static_cast<Real>(1 / diagonal(i));
         if (!immersed_) return;
-        blocks_ = immersed_->diagonal();
+        blocks_ = immersed_->diagonal(time_);
         for (std::size_t k = 0; k < blocks_.size(); ++k) {
             const auto i = static_cast<std::size_t>(immersed_->touched()[k]);
-            blocks_[k] = Mat3(diagonal(i) * Mat3::Identity() + time_ * blocks_[k]).inverse();
+            blocks_[k] = Mat3(diagonal(i) * Mat3::Identity() + blocks_[k]).inverse();
         }
     }
     double diagonal(std::size_t i) const {
@@ -220,6 +221,22 @@ class Step final : public ImplicitStep {
         }
         if (noFlux_) noFlux_->keepSides(*scene_.system);
         state.lastStep = dt, state.lastSpacing = h_;
+    }
+
+    // Rupture, density balance.
+    std::vector<coupling::RuptureEvent> endStep(double dt) {
+        ++state.steps;
+        if (options_.densityBalance && state.steps % options_.balanceInterval == 0)
+            options_.densityBalance->apply(*scene_.system, scene_.cells);
+        std::vector<coupling::RuptureEvent> events;
+        for (coupling::Cell& cell : scene_.cells) {
+            if (!cell.membrane.canRupture()) continue;
+            std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
+            if (broken.empty()) continue;
+            cell.membrane.breakBonds(broken);
+            events.push_back({cell.membrane.cell, std::move(broken)});
+        }
+        return events;
     }
 
     // Energy of the disturbance w of the affine flow by the same form, w.A w = w.(b - A affine), where A of an affine flow is c1 M.

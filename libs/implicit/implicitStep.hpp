@@ -1,6 +1,6 @@
 // One implicit step for fluid and membrane: a symmetric positive-definite system for the velocity v in the middle of the step,
 //
-//     [c1 M + L + dt/2 D^T V K D + S^T P (dt/2 k) P S] v =
+//     [c1 M + L + dt/2 D^T V K D + S^T P (dt/2 k + C) P S] v =
 //         M (c1 u + c2 a) + D^T V p^n + f_body + S^T P (f(x*) + dt/2 k u_m)
 //     x <- x + dt v,   rho <- rho (1 - dt/2 D v)/(1 + dt/2 D v),   x_m <- x_m + dt P S v
 //
@@ -8,7 +8,8 @@
 // M, V         | masses and volumes m/rho of the particles
 // L, D         | viscosity and divergence (sph/operators.hpp), at the places x* in the middle of the step
 // K            | bulk modulus rho c^2, dp = -K D v dt
-// S, P, k, f   | membrane's interpolation, its volume kept, its stiffness and force (coupling/immersed.hpp)
+// S, P, k, f   | membrane's interpolation, its volume kept, its stiffness and elastic force (coupling/immersed.hpp)
+// C            | damping by the membrane's own viscosity
 // x*           | x^n + dt/2 u with the velocity u of the middle of the last step; u_m likewise of nodes
 // a            | acceleration from the middle of the step before the last to that of the last
 //
@@ -39,13 +40,17 @@ class ImplicitStep {
         ImplicitSettings settings;
         sph::OperatorForm form = sph::OperatorForm::corrected;
         std::optional<double> shifting;  // C, strength per unit of strain
+        std::optional<coupling::DensityBalance> densityBalance;
+        long balanceInterval = 0;  // steps between two balances
     };
     virtual ~ImplicitStep() = default;
-    virtual void advance(double dt) = 0;  // Collective. Throws Failure(numerics) when the solver does not converge.
+    // One step; what broke in it. Collective. Throws Failure(numerics) when the solver does not converge.
+    virtual std::vector<coupling::RuptureEvent> advance(double dt) = 0;
 
     // What a restart needs beside the scene.
     struct State {
         double lastStep = 0, lastSpacing = 0, reference = 0;
+        long steps = 0;
     };
     State state;
 

@@ -84,11 +84,6 @@ void checkScheme(const Case& c, Problems& problems) {
         problems.add(numerics, "integrator",
                      "found implicit, but system/mesh.yaml has bodies, which move with 'integrator: velocityVerlet' "
                      "only; write that, or remove the bodies");
-    for (const auto& [name, laws] : c.membranes.types)
-        if (laws.rupture || laws.viscosity)
-            problems.add({"constant/membranes.yaml", 0, 0}, name + (laws.rupture ? ".rupture" : ".viscosity"),
-                         "found with 'integrator: implicit', which does not know it; write 'integrator: "
-                         "velocityVerlet' in system/numerics.yaml, or leave it out");
 }
 
 }  // namespace

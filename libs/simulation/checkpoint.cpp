@@ -80,7 +80,8 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("springRate2", state.integrator.springRate2);
     if (input.numerics.isImplicit()) {
         const implicit::ImplicitStep::State& s = state.integrator.implicit;
-        file.writeReplicated("implicit", std::vector<double>{s.lastStep, s.lastSpacing, s.reference});
+        file.writeReplicated("implicit",
+                             std::vector<double>{s.lastStep, s.lastSpacing, s.reference, static_cast<double>(s.steps)});
     }
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
@@ -139,7 +140,7 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
                                             " was written by 'integrator: velocityVerlet'; start from firstTime, or "
                                             "write that in system/numerics.yaml");
         const std::vector<double> s = file.readReplicated<double>("implicit");
-        state.integrator.implicit = {s.at(0), s.at(1), s.at(2)};
+        state.integrator.implicit = {s.at(0), s.at(1), s.at(2), std::lround(s.at(3))};
     }
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();

@@ -15,6 +15,14 @@ constexpr double powerReserve = 1.03;  // power iterations approach the eigenval
 constexpr long stepsPerEstimate = 1000;
 constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25;
 constexpr double largestDensityChange = 0.5;
+
+coupling::DensityBalance densityBalance(const Scene& scene) {
+    double volume = scene.fluidBox.volume();
+    if (scene.bodies)
+        for (const bodies::Body& body : scene.bodies->all())
+            if (body.cell == 0) volume -= body.solid.volume;
+    return {volume, scene.model().density, scene.model().mass};
+}
 }  // namespace
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
@@ -26,6 +34,8 @@ Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(
     options.settings = input.numerics.implicit;
     if (input.numerics.operators == "plain") options.form = sph::OperatorForm::plain;
     if (input.numerics.shifting) options.shifting = input.numerics.shifting->coefficient;
+    if (input.numerics.densityBalance > 0) options.densityBalance = densityBalance(scene);
+    options.balanceInterval = input.numerics.densityBalance;
     implicit_ = implicit::ImplicitStep::make(scene, options);
 }
 
@@ -34,13 +44,8 @@ void Integrator::makeExplicit() {
     Scene& scene = scene_;
     std::vector<sph::Load*> loads;
     if (!scene.cells.empty()) {
-        double fluidVolume = scene.fluidBox.volume();
-        if (scene.bodies)
-            for (const bodies::Body& body : scene.bodies->all())
-                if (body.cell == 0) fluidVolume -= body.solid.volume;
-        const coupling::DensityBalance balance(fluidVolume, scene.model().density);
         scene.coupling = std::make_unique<coupling::DualIdentity>(
-            scene.cells, scene.spacing, balance,
+            scene.cells, scene.spacing, densityBalance(scene),
             coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
         loads.push_back(scene.coupling.get());
     }
@@ -73,7 +78,7 @@ void Integrator::resume(const State& state, Time& time) {
 
 void Integrator::advance(Scene& scene, Time& time) {
     if (implicit_) {
-        implicit_->advance(time.dt);
+        scene.broken = implicit_->advance(time.dt);
         time.advance(time.dt);
         checkState(time);
         updateLimits(time);
