@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <utility>
 
 #include "membrane/surface.hpp"
 
@@ -162,14 +163,10 @@ void Immersed::findWeights() {
 }
 
 void Immersed::findTouched(std::size_t particles) {
+    std::vector<char> seen(particles, 0);
     touched_.clear();
-    slot_.assign(particles, -1);
-    for (const Entry& e : entries_) {
-        int& slot = slot_[static_cast<std::size_t>(e.particle)];
-        if (slot >= 0) continue;
-        slot = static_cast<int>(touched_.size());
-        touched_.push_back(e.particle);
-    }
+    for (const Entry& e : entries_)
+        if (!std::exchange(seen[static_cast<std::size_t>(e.particle)], char(1))) touched_.push_back(e.particle);
 }
 
 void Immersed::project(Vectors& v) const {
@@ -223,22 +220,6 @@ void Immersed::spread(Vectors f, particles::RealArray& force) const {
             double* to = force.data() + 4 * static_cast<std::size_t>(entries_[k].particle);
             for (int a = 0; a < 3; ++a) to[a] += entries_[k].weight * f[m][a];
         }
-}
-
-std::vector<Mat3> Immersed::diagonal(double time) const {
-    std::vector<Mat3> blocks(touched_.size(), Mat3::Zero());
-    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
-        for (std::size_t m = first; m < last; ++m) {
-            Mat3 own = time * stiffness_[c].diagonal(m - first);
-            if (cells_[c].membrane.isViscous()) own += damping_[c].diagonal(m - first);
-            for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-                const Entry& e = entries_[k];
-                blocks[static_cast<std::size_t>(slot_[static_cast<std::size_t>(e.particle)])] +=
-                    e.weight * e.weight * own;
-            }
-        }
-    });
-    return blocks;
 }
 
 }  // namespace corpuscle::coupling

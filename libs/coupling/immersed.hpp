@@ -45,9 +45,7 @@ class Immersed {
     // force_j += (S^T P f)_j, of four numbers a particle.
     void spread(Vectors f, particles::RealArray& force) const;
 
-    // The particles of this rank with weights, and what they add to the diagonal of S^T (time K + C) S [N s/m].
-    const std::vector<int>& touched() const { return touched_; }
-    std::vector<Mat3> diagonal(double time) const;
+    const std::vector<int>& touched() const { return touched_; }  // particles of this rank with weights
 
     long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights
 
@@ -72,7 +70,7 @@ class Immersed {
     std::vector<Entry> entries_;
     std::vector<membrane::BlockStiffness> stiffness_, damping_;  // K and C of each cell
     Vectors gradient_;                                           // g of closed cells, 0 of open ones
-    std::vector<int> touched_, slot_;                            // slot_: of each particle in touched_, -1
+    std::vector<int> touched_;
     long fallbacks_ = 0;
 };
 

@@ -11,7 +11,9 @@ const Schema<ImplicitSettings>& ImplicitSettings::schema() {
                       "largest error of the solver, relative to the disturbance of the flow, in the norm of energy",
                       {.fallback = "1e-3", .range = between(1e-10, 0.1)})
             .word("method", &ImplicitSettings::method, {"midpoint", "backwardEuler"}, "of second or of first order",
-                  {.fallback = "midpoint"});
+                  {.fallback = "midpoint"})
+            .word("preconditioner", &ImplicitSettings::preconditioner, {"twoLevel", "blockJacobi"},
+                  "of the solver: with or without the flow on a background grid", {.fallback = "twoLevel"});
     return s;
 }
 

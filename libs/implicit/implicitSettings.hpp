@@ -9,7 +9,7 @@ namespace corpuscle::implicit {
 struct ImplicitSettings {
     double step = 0.05;       // strain a step
     double tolerance = 1e-3;  // of the velocity, in the norm of energy
-    std::string method = "midpoint";
+    std::string method = "midpoint", preconditioner = "twoLevel";
     static const Schema<ImplicitSettings>& schema();
 };
 

@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "implicit/coarseGrid.hpp"
 
 namespace corpuscle::implicit {
 
@@ -33,6 +33,8 @@ class Step final : public ImplicitStep {
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
           operators_(scene.model(), *scene.system, options.form) {
+        if (options.settings.preconditioner == "twoLevel")
+            grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
         if (scene.cells.empty()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
         noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
@@ -55,6 +57,8 @@ class Step final : public ImplicitStep {
                           fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
                                       "'implicit' of system/numerics.yaml",
                                       statistics.steps + 1, c.iterations));
+        fprintf(stderr, "step %ld its %d E %.3e ref %.3e err %.2e\n", statistics.steps, c.iterations, c.energy,
+                reference, c.error);
         ++statistics.steps, statistics.iterations += c.iterations;
         statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
         finish(dt, share);
@@ -143,17 +147,21 @@ class Step final : public ImplicitStep {
             put(w, i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i) - vector(force_, i)));
     }
 
-    // Diagonal blocks: a multiple of the unit matrix, a full one where a membrane is felt.
+    // Diagonal blocks of the fluid, multiples of the unit matrix. Those of the membrane make it worse: near it they hold back all that is
+    // not smooth along it (benchmarks/RESULTS.md).
     void factorise() {
         const std::size_t n = store().size();
         inverse_.resize(n);
         for (std::size_t i = 0; i < n; ++i) inverse_[i] = static_cast<Real>(1 / diagonal(i));
-        if (!immersed_) return;
-        blocks_ = immersed_->diagonal(time_);
-        for (std::size_t k = 0; k < blocks_.size(); ++k) {
-            const auto i = static_cast<std::size_t>(immersed_->touched()[k]);
-            blocks_[k] = Mat3(diagonal(i) * Mat3::Identity() + blocks_[k]).inverse();
-        }
+        if (grid_) placeOnGrid();
+    }
+    void placeOnGrid() {
+        const sph::FluidModel& model = scene_.model();
+        const double bulk = model.equationOfState->bulkModulus(model.density, model.density, model.soundSpeed);
+        grid_->setCoefficients(c1_ * model.density, model.viscosity, time_ * bulk);
+        grid_->begin(inverse_.size());
+        for (std::size_t i = 0; i < inverse_.size(); ++i)
+            if (!isFixed(i)) grid_->place(i, store().position(i));
     }
     double diagonal(std::size_t i) const {
         return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
@@ -161,10 +169,7 @@ class Step final : public ImplicitStep {
     void precondition(const Field& r, Field& z) const {
         for (std::size_t i = 0; i < inverse_.size(); ++i)
             for (std::size_t k = 0; k < width; ++k) z[at(i) + k] = inverse_[i] * r[at(i) + k];
-        for (std::size_t k = 0; k < blocks_.size(); ++k) {
-            const auto i = static_cast<std::size_t>(immersed_->touched()[k]);
-            if (!isFixed(i)) put(z, i, blocks_[k] * get(r, i));
-        }
+        if (grid_) grid_->add(scene_.system->comm(), r.data(), z.data());
     }
 
     // With the velocity found: density, places, what the walls feel; the state of the next step.
@@ -278,12 +283,12 @@ class Step final : public ImplicitStep {
     Options options_;
     bool backward_;
     sph::Operators<Real> operators_;
+    std::unique_ptr<CoarseGrid> grid_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
     Field guess_, residual_, correction_, inverse_;
     RealArray force_, pressure_;
     std::vector<double> bulk_, volumes_;
-    std::vector<Mat3> blocks_;
     std::vector<Vec3> move_;
     Immersed::Vectors load_;  // f(x*) + time k u_m
 };

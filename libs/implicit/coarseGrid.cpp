@@ -1,0 +1,207 @@
+#include "implicit/coarseGrid.hpp"
+
+#include <fftw3.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace corpuscle::implicit {
+
+namespace {
+constexpr int components = 3;
+}
+
+// Values on the grid and their transforms, component after component.
+struct CoarseGrid::Plans {
+    std::size_t nodes, modes;  // of one component
+    double* values;
+    fftw_complex* spectrum;
+    fftw_plan forward, backward;
+
+    Plans(const std::array<int, 3>& count, bool walls) {
+        const int last = count[2] / 2 + 1;
+        nodes = static_cast<std::size_t>(count[0] * count[1] * count[2]);
+        modes = static_cast<std::size_t>(count[0] * count[1] * last);
+        values = fftw_alloc_real(components * nodes);
+        spectrum = fftw_alloc_complex(components * modes);
+        // Between walls every plane is transformed by itself.
+        const int rank = walls ? 2 : 3, many = walls ? components * count[0] : components;
+        const int* n = count.data() + (walls ? 1 : 0);
+        const int real = walls ? count[1] * count[2] : static_cast<int>(nodes);
+        const int complex = walls ? count[1] * last : static_cast<int>(modes);
+        forward = fftw_plan_many_dft_r2c(rank, n, many, values, nullptr, 1, real, spectrum, nullptr, 1, complex,
+                                         FFTW_ESTIMATE);
+        backward = fftw_plan_many_dft_c2r(rank, n, many, spectrum, nullptr, 1, complex, values, nullptr, 1, real,
+                                          FFTW_ESTIMATE);
+    }
+    ~Plans() {
+        fftw_destroy_plan(forward);
+        fftw_destroy_plan(backward);
+        fftw_free(values);
+        fftw_free(spectrum);
+    }
+    Plans(const Plans&) = delete;
+    Plans& operator=(const Plans&) = delete;
+
+    Complex* mode(int component, std::size_t k) {
+        return reinterpret_cast<Complex*>(spectrum) + static_cast<std::size_t>(component) * modes + k;
+    }
+};
+
+CoarseGrid::CoarseGrid(const particles::Box& box, double spacing) : box_(box) {
+    axis_ = {2, 0, 1};
+    for (int k = 0; k < 3; ++k)
+        if (!box.periodic[static_cast<std::size_t>(k)]) axis_ = {k, (k + 1) % 3, (k + 2) % 3}, walls_ = true;
+    for (int k = 0; k < 3; ++k) {
+        const double length = box.size()[axis_[static_cast<std::size_t>(k)]];
+        const bool wall = walls_ && k == 0;
+        const int intervals = std::max(wall ? 2 : 1, static_cast<int>(std::lround(length / spacing)));
+        step_[k] = length / intervals;
+        count_[static_cast<std::size_t>(k)] = wall ? intervals - 1 : intervals;
+    }
+    plans_ = std::make_unique<Plans>(count_, walls_);
+}
+
+CoarseGrid::~CoarseGrid() = default;
+
+std::size_t CoarseGrid::nodeAt(int i, int j, int k) const {
+    return static_cast<std::size_t>((i * count_[1] + j) * count_[2] + k);
+}
+
+// Of linear elements along a periodic axis, for exp(i theta n) on its nodes.
+CoarseGrid::Symbol CoarseGrid::symbol(int axis, int mode) const {
+    const double h = step_[axis];
+    const double theta = 2 * std::numbers::pi * mode / count_[static_cast<std::size_t>(axis)];
+    return {h * (2 + std::cos(theta)) / 3, (2 - 2 * std::cos(theta)) / h, Complex(0, std::sin(theta))};
+}
+
+CoarseGrid::Block CoarseGrid::block(const std::array<Symbol, 3>& s) const {
+    const auto product = [&](int p) {  // of masses, that of axis p replaced by its stiffness
+        double value = 1;
+        for (int k = 0; k < 3; ++k) value *= k == p ? s[k].stiffness : s[k].mass;
+        return value;
+    };
+    Block b = Block::Identity() * Complex(inertia_ * product(-1) + viscosity_ * (product(0) + product(1) + product(2)));
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q)
+            b(p, q) += p == q ? Complex(lambda_ * product(p)) : -lambda_ * s[p].slope * s[q].slope * s[3 - p - q].mass;
+    return b;
+}
+
+void CoarseGrid::setCoefficients(double inertia, double viscosity, double lambda) {
+    if (inertia == inertia_ && viscosity == viscosity_ && lambda == lambda_) return;
+    inertia_ = inertia, viscosity_ = viscosity, lambda_ = lambda;
+    factorise();
+}
+
+void CoarseGrid::factorise() {
+    const int last = count_[2] / 2 + 1, planes = count_[0];
+    const double scale = 1.0 / (count_[1] * count_[2] * (walls_ ? 1 : planes));  // of both transforms together
+    inverse_.resize(plans_->modes);
+    const std::size_t perPlane = static_cast<std::size_t>(count_[1] * last);
+    if (walls_) upper_.resize(perPlane);
+    const double h = step_[0];
+    const Symbol own{2 * h / 3, 2 / h, 0}, next{h / 6, -1 / h, 0.5};  // of a node with itself and with the next plane
+    for (int a = 0; a < count_[1]; ++a)
+        for (int b = 0; b < last; ++b) {
+            const Symbol sa = symbol(1, a), sb = symbol(2, b);
+            const auto k = static_cast<std::size_t>(a * last + b);
+            if (!walls_) {
+                for (int c = 0; c < planes; ++c)
+                    inverse_[static_cast<std::size_t>(c) * perPlane + k] =
+                        scale * block({symbol(0, c), sa, sb}).inverse();
+                continue;
+            }
+            // The derivatives of test and trial function along the walls' normal have one matrix, with opposite signs.
+            const Block diagonal = block({own, sa, sb}) / scale, upper = block({next, sa, sb}) / scale;
+            upper_[k] = upper;
+            Block pivot = diagonal;
+            for (int c = 0; c < planes; ++c) {
+                const std::size_t at = static_cast<std::size_t>(c) * perPlane + k;
+                if (c > 0) pivot = diagonal - upper.adjoint() * inverse_[at - perPlane] * upper;
+                inverse_[at] = pivot.inverse();
+            }
+        }
+}
+
+void CoarseGrid::solve() {
+    using Vector = Eigen::Vector3cd;
+    const std::size_t perPlane = walls_ ? plans_->modes / static_cast<std::size_t>(count_[0]) : plans_->modes;
+    const auto get = [&](std::size_t k) {
+        return Vector(*plans_->mode(0, k), *plans_->mode(1, k), *plans_->mode(2, k));
+    };
+    const auto put = [&](std::size_t k, const Vector& v) {
+        for (int c = 0; c < components; ++c) *plans_->mode(c, k) = v[c];
+    };
+    if (!walls_) {
+        for (std::size_t k = 0; k < plans_->modes; ++k) put(k, inverse_[k] * get(k));
+        return;
+    }
+    for (std::size_t k = perPlane; k < plans_->modes; ++k)
+        put(k, get(k) - upper_[k % perPlane].adjoint() * (inverse_[k - perPlane] * get(k - perPlane)));
+    for (std::size_t k = plans_->modes; k-- > 0;) {
+        Vector v = get(k);
+        if (k + perPlane < plans_->modes) v -= upper_[k % perPlane] * get(k + perPlane);
+        put(k, inverse_[k] * v);
+    }
+}
+
+void CoarseGrid::place(std::size_t particle, const Vec3& x) {
+    Place& p = places_[particle];
+    for (int k = 0; k < 3; ++k) {
+        const int axis = axis_[static_cast<std::size_t>(k)], n = count_[static_cast<std::size_t>(k)];
+        const double along = (box_.wrap(x[axis], axis) - box_.low[axis]) / step_[k];
+        if (walls_ && k == 0) {
+            const double inside = std::clamp((x[axis] - box_.low[axis]) / step_[k], 0.0, n + 1.0);
+            const int first = std::min(static_cast<int>(inside), n);
+            p.node[k][0] = first - 1;  // node 0 of the grid is one step from the wall
+            p.node[k][1] = first < n ? first : -1;
+            p.weight[k] = static_cast<float>(inside - first);
+        } else {
+            const int first = std::min(static_cast<int>(along), n - 1);
+            p.node[k][0] = first, p.node[k][1] = (first + 1) % n;
+            p.weight[k] = static_cast<float>(along - first);
+        }
+    }
+}
+
+template <class Real>
+void CoarseGrid::add(MPI_Comm comm, const Real* r, Real* z) {
+    // f(particle, node, weight) for the nodes of every particle.
+    const auto forNodes = [&](auto&& f) {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& p = places_[i];
+            const float first[3] = {1 - p.weight[0], 1 - p.weight[1], 1 - p.weight[2]};
+            for (int a = 0; a < 2; ++a) {
+                if (p.node[0][a] < 0) continue;
+                const float wa = a ? p.weight[0] : first[0];
+                for (int b = 0; b < 2; ++b) {
+                    const float wb = wa * (b ? p.weight[1] : first[1]);
+                    for (int c = 0; c < 2; ++c)
+                        f(i, nodeAt(p.node[0][a], p.node[1][b], p.node[2][c]), wb * (c ? p.weight[2] : first[2]));
+                }
+            }
+        }
+    };
+    const std::size_t nodes = plans_->nodes;
+    double* const values = plans_->values;
+    std::fill_n(values, components * nodes, 0.0);
+    forNodes([&](std::size_t i, std::size_t node, float w) {
+        for (std::size_t k = 0; k < 3; ++k)
+            values[k * nodes + node] += static_cast<double>(w * r[4 * i + static_cast<std::size_t>(axis_[k])]);
+    });
+    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(components * nodes), MPI_DOUBLE, MPI_SUM, comm);
+    fftw_execute(plans_->forward);
+    solve();
+    fftw_execute(plans_->backward);
+    forNodes([&](std::size_t i, std::size_t node, float w) {
+        for (std::size_t k = 0; k < 3; ++k)
+            z[4 * i + static_cast<std::size_t>(axis_[k])] += static_cast<Real>(w * values[k * nodes + node]);
+    });
+}
+template void CoarseGrid::add(MPI_Comm, const double*, double*);
+template void CoarseGrid::add(MPI_Comm, const float*, float*);
+
+}  // namespace corpuscle::implicit

@@ -1,0 +1,79 @@
+// The smooth part of a preconditioner: the flow of a uniform fluid on a background grid, solved exactly.
+//
+//     z = P A_c^-1 P^T r,    A_c: c1 rho u - mu lap u - lambda grad div u   in trilinear finite elements
+// symbol  | meaning
+// P       | trilinear interpolation from the grid to the particles
+// c1 rho  | inertia of the step [kg/(m^3 s)]
+// lambda  | bulk modulus x time over which pressure is implicit [Pa s]
+//
+// The coefficients are constants, so that A_c falls apart into Fourier modes along the periodic axes; between walls each mode is a block
+// tridiagonal system of 3 x 3 blocks, factorised once for as long as step and fluid stay the same. On the grid's nodes at the walls the
+// velocity is zero. What the grid does not resolve, and the membrane, is left to the rest of the preconditioner. The work is a few per
+// cent of one application of the operators, and every rank does all of it.
+#pragma once
+#include <mpi.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "particles/box.hpp"
+
+namespace corpuscle::implicit {
+
+class CoarseGrid {
+  public:
+    static constexpr double spacingInParticles = 2;
+
+    // box: of the fluid; the axis that is not periodic, if there is one, has walls. spacing: of the grid, about.
+    CoarseGrid(const particles::Box& box, double spacing);
+    ~CoarseGrid();
+    CoarseGrid(const CoarseGrid&) = delete;
+    CoarseGrid& operator=(const CoarseGrid&) = delete;
+
+    // inertia c1 rho, viscosity, lambda. Factorises when they have changed.
+    void setCoefficients(double inertia, double viscosity, double lambda);
+
+    // Which nodes each particle of this rank has, for `add`.
+    void begin(std::size_t particles) { places_.assign(particles, Place{}); }
+    void place(std::size_t particle, const Vec3& x);  // particles without a place take no part
+
+    // z += P A_c^-1 P^T r, four numbers a particle. Collective.
+    template <class Real>
+    void add(MPI_Comm comm, const Real* r, Real* z);
+
+    const std::array<int, 3>& nodes() const { return count_; }
+
+  private:
+    using Complex = std::complex<double>;
+    using Block = Eigen::Matrix3cd;
+    struct Place {
+        int node[3][2] = {{-1, -1}, {-1, -1}, {-1, -1}};  // along each axis, -1: at a wall
+        float weight[3] = {0, 0, 0};                      // of the second
+    };
+    struct Plans;
+    struct Symbol {  // of one axis: mass, stiffness, and of the derivative
+        double mass, stiffness;
+        Complex slope;
+    };
+    Symbol symbol(int axis, int mode) const;
+    Block block(const std::array<Symbol, 3>& symbols) const;
+    void factorise();
+    void solve();
+    std::size_t nodeAt(int i, int j, int k) const;
+
+    particles::Box box_;
+    std::array<int, 3> axis_{};  // the axis across the walls (or the last), then the other two: slowest first in memory
+    std::array<int, 3> count_{};  // nodes along these
+    Vec3 step_ = Vec3::Zero();    // along these [m]
+    bool walls_ = false;
+    double inertia_ = 0, viscosity_ = 0, lambda_ = 0;
+    std::vector<Place> places_;
+    std::unique_ptr<Plans> plans_;
+    std::vector<Block> inverse_;  // pivots of every mode, or its inverse
+    std::vector<Block> upper_;    // of every mode between two planes
+};
+
+}  // namespace corpuscle::implicit
