@@ -57,8 +57,8 @@ inline std::vector<Particle> lattice(const Index3& n, double disorder, unsigned 
 
 inline void deal(const std::vector<Particle>& all, ParticleSystem& system) {
     int rank = 0, size = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Comm_rank(system.comm(), &rank);
+    MPI_Comm_size(system.comm(), &size);
     ParticleStore& s = system.store();
     for (std::size_t i = static_cast<std::size_t>(rank); i < all.size(); i += static_cast<std::size_t>(size)) {
         const std::size_t k = s.size();
