@@ -134,11 +134,14 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
                         file.attribute<double>("springRate2"),
                         file.attribute<double>("dt"),
                         {}};
-    if (input.numerics.isImplicit()) {
-        if (!file.has("implicit"))
-            throw Failure(ExitCode::io, path.string() +
-                                            " was written by 'integrator: velocityVerlet'; start from firstTime, or "
-                                            "write that in system/numerics.yaml");
+    const bool isImplicit = input.numerics.isImplicit();
+    if (file.has("implicit") != isImplicit)
+        throw Failure(
+            ExitCode::io,
+            path.string() + " was written by 'integrator: " + (isImplicit ? "velocityVerlet" : "implicit") +
+                "', whose velocities belong to another moment of the step; start from firstTime, or write that "
+                "in system/numerics.yaml");
+    if (isImplicit) {
         const std::vector<double> s = file.readReplicated<double>("implicit");
         state.integrator.implicit = {s.at(0), s.at(1), s.at(2), std::lround(s.at(3))};
     }

@@ -1,4 +1,4 @@
-// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1.
+// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1. Nodes are particles, or lie in the fluid (immersed).
 #pragma once
 #include "coupling/dualIdentity.hpp"
 #include "membrane/meshes.hpp"
@@ -27,10 +27,10 @@ struct SphereScene {
     std::vector<std::vector<Vec3>> start;  // nodes at first, by cell
     int fluidCount = 0;
 
-    SphereScene(const Index3& size, const std::vector<Vec3>& centres) {
+    SphereScene(const Index3& size, const std::vector<Vec3>& centres, bool immersed = false) {
         const Box box = sph::testing::cube(size);
-        system = std::make_unique<ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{true, false, true, true},
-                                                  2.3, skin, 1.0);
+        system = std::make_unique<ParticleSystem>(
+            MPI_COMM_WORLD, box, ParticleStore::Optional{!immersed, false, true, !immersed}, 2.3, skin, 1.0);
         membrane::MembraneSettings laws;
         laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
         laws.bending = choice<membrane::BendingLaw>("{type: dihedral, kappa: 0.3 J}");
@@ -55,9 +55,9 @@ struct SphereScene {
             const std::size_t i = s.size();
             s.resize(i + 1);
             s.setPosition(i, x);
-            s.density[i] = 1, s.mass[i] = kind == Kind::membrane ? nodeMass : 1;
-            s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side,
-            s.node[i] = node;
+            s.density[i] = 1;
+            s.id[i] = static_cast<std::int64_t>(i), s.kind[i] = static_cast<std::int64_t>(kind), s.side[i] = side;
+            if (!immersed) s.mass[i] = kind == Kind::membrane ? nodeMass : 1, s.node[i] = node;
         };
         if (rank == 0) {
             for (const sph::testing::Particle& p : sph::testing::lattice(size, 0.1)) {
@@ -68,10 +68,10 @@ struct SphereScene {
                     if (distance < radius) side = static_cast<int>(c) + 1;
                     free &= std::abs(distance - radius) > 0.15;
                 }
-                if (free) add(p.x, Kind::fluid, side, -1);
+                if (free || immersed) add(p.x, Kind::fluid, side, -1);
             }
             for (const Cell& cell : cells)
-                for (int n = 0; n < cell.nodeCount(); ++n)
+                for (int n = 0; n < cell.nodeCount() && !immersed; ++n)
                     add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
         }
         system->start();

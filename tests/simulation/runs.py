@@ -65,6 +65,25 @@ bodies: [{name: bead, shape: {type: spheroid, a: 3 um, c: 2 um}, edge: 0.7 um, c
     "constant/flow.yaml": "type: shear\nshearRate: 200 1/s\ninertia: {Re: 0.5}\n",
 }
 
+# A capsule of four particles along its radius.
+IMPLICIT_CASE = {
+    **CELL_CASE,
+    "system/control.yaml": "application: dmpFlow\nendStrain: 0.6\nwrite: {strain: 0.3}\ncheckpoint: {wallClock: never}\n",
+    "system/numerics.yaml": """spacing: 1 um
+kernel: {type: wendlandC2, support: 2.4 dx}
+integrator: implicit
+coupling: immersed
+operators: corrected
+implicit: {step: 0.05, tolerance: 1e-5}
+shifting: {coefficient: 1}
+""",
+    "system/mesh.yaml": """domain: {size: [16, 16, 16] um, periodic: [true, true, false]}
+cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centre: [5, 0.3, 0] um}]
+""",
+    "constant/membranes.yaml": "rbc:\n  triangles: {type: skalak, Gs: 5e-6 N/m, C: 1}\n",
+    "constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n",
+}
+
 
 def make(folder, files, **changes):
     for name, text in {**files, **changes}.items():
@@ -131,6 +150,52 @@ def test_restart(folder):
     run(other, "dmpFlow", "-steps", "37", ranks=1)
     run(other, "dmpFlow", ranks=2)
     close(series(folder / "whole1double", "balance"), series(other, "balance"), 1e-7)
+
+
+def test_implicit(folder):
+    """The implicit step: the same on 1, 2 and 4 ranks to ten times its tolerance, restarts to the same bits in either precision, volume
+    kept, the cell deforms; a checkpoint of the other integrator is refused."""
+    start = prepared(folder / "start", IMPLICIT_CASE)
+    cases = {}
+    for ranks in (1, 2, 4):
+        case = cases[ranks] = folder / f"np{ranks}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", ranks=ranks)
+        record = json.loads((case / "run.json").read_text())
+        assert record["performance"]["steps"] == 12 and 1 <= record["performance"]["iterationsPerStep"] < 100, record["performance"]
+        for observer, tolerance in (("deformation", 1e-4), ("balance", 1e-4)):
+            close(series(cases[1], observer), series(case, observer), tolerance)
+    def table(observer):
+        with open(next((cases[1] / "postProcessing" / observer).glob("*/*.csv"))) as file:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    assert 0.1 < table("deformation")[-1]["D12_inertia"] < 0.35, table("deformation")[-1]
+    rows = table("balance")
+    for row in rows:
+        assert abs(row["rbc_volume_m3"] / rows[0]["rbc_volume_m3"] - 1) < 1e-8 and row["changedSide"] == 0, row
+        assert abs(row["density_mean"] - rows[0]["density_mean"]) < 1e-3, row
+    # Of second order in the step.
+    D = []
+    for step in (0.1, 0.05, 0.025):
+        case = folder / f"step{step}"
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", "-set", f"system/numerics.yaml:/implicit/step={step}", "-set", "system/observers.yaml:/deformation/every=0.6 strain")
+        D.append(float(series(case, "deformation")[-1][3]))
+    assert 3 < (D[0] - D[1]) / (D[1] - D[2]) < 5, D
+    for ranks, precision in ((1, "double"), (2, "mixed")):
+        terms = ("-set", f"system/numerics.yaml:/precision={precision}")
+        whole, parts = folder / f"whole{precision}", folder / f"parts{precision}"
+        for case in (whole, parts):
+            shutil.copytree(start, case)
+        run(whole, "dmpFlow", *terms, ranks=ranks)
+        run(parts, "dmpFlow", "-steps", "5", *terms, ranks=ranks)
+        run(parts, "dmpFlow", *terms, ranks=ranks)
+        same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+    # Fluid alone starts from either integrator's files, but not from its checkpoints.
+    for first, second in (("velocityVerlet", "implicit"), ("implicit", "velocityVerlet")):
+        case = prepared(folder / first, FLUID_CASE)
+        run(case, "sphFlow", "-steps", "3", "-set", f"system/numerics.yaml:/integrator={first}")
+        said = run(case, "sphFlow", "-steps", "3", "-set", f"system/numerics.yaml:/integrator={second}", code=4).stderr
+        assert f"was written by 'integrator: {first}'" in said and "firstTime" in said, said
 
 
 def close(a, b, tolerance):

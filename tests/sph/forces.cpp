@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "sph/samples.hpp"
 
@@ -12,20 +11,7 @@ using namespace corpuscle::sph::testing;
 
 namespace {
 
-constexpr double support = 2.3, skin = 0.3, pi = std::numbers::pi;
-
-// dW/dr as printed in the literature.
-double kernelDerivative(const std::string& kernel, double r, double H) {
-    const double q = r / H;
-    if (q >= 1) return 0;
-    if (kernel == "lucy") return -315 / (4 * pi * std::pow(H, 4)) * q * (1 - q) * (1 - q);
-    if (kernel == "wendlandC2") return -210 / (pi * std::pow(H, 4)) * q * std::pow(1 - q, 3);
-    const double h = H / 3, t = r / h;
-    double sum = std::pow(3 - t, 4);
-    if (t < 2) sum -= 6 * std::pow(2 - t, 4);
-    if (t < 1) sum += 15 * std::pow(1 - t, 4);
-    return -5 * sum / (120 * pi * std::pow(h, 4));
-}
+constexpr double support = 2.3, skin = 0.3;
 
 struct Case {
     const char* name;
@@ -89,16 +75,6 @@ class Forces : public ::testing::TestWithParam<Case> {
     // Forces against the double loop, errors relative to the largest.
     void compare(double tolerance);
 
-    double beta(const Vec3& a, const Vec3& b) const {
-        if (!fluid.walls.exist()) return 1;
-        const auto gap = [&](const Vec3& p) { return std::min(p[2] - fluid.walls.low, fluid.walls.high - p[2]); };
-        const double ga = gap(a), gb = gap(b), least = 0.25;
-        double value = 1;
-        if (gb < 0) value += -gb / std::max(ga, least);
-        if (ga < 0) value += -ga / std::max(gb, least);
-        return std::min(value, 10.0);
-    }
-
     struct Sum {
         Vec3 a = Vec3::Zero();
         double rate = 0;
@@ -131,7 +107,7 @@ class Forces : public ::testing::TestWithParam<Case> {
                         if (r == 0 || r >= support) continue;
                         const Vec3 gradient = kernelDerivative(c.kernel, r, support) * d / r;
                         sum.a -= mass * (pressure(p) + pressure(o)) * gradient;
-                        sum.a += 2 * viscosity * mass / (p.density * o.density) * beta(p.x, at) *
+                        sum.a += 2 * viscosity * mass / (p.density * o.density) * wallFactor(fluid.walls, p.x, at) *
                                  kernelDerivative(c.kernel, r, support) / r * du;
                         sum.rate += mass * du.dot(gradient);
                     }

@@ -2,6 +2,8 @@
 #pragma once
 #include <mpi.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -55,8 +57,8 @@ inline std::vector<Particle> lattice(const Index3& n, double disorder, unsigned 
 
 inline void deal(const std::vector<Particle>& all, ParticleSystem& system) {
     int rank = 0, size = 1;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Comm_rank(system.comm(), &rank);
+    MPI_Comm_size(system.comm(), &size);
     ParticleStore& s = system.store();
     for (std::size_t i = static_cast<std::size_t>(rank); i < all.size(); i += static_cast<std::size_t>(size)) {
         const std::size_t k = s.size();
@@ -80,6 +82,31 @@ inline FluidModel model(const std::string& kernel, const std::string& equationOf
     m.soundSpeed = 3;
     m.mass = 1;
     return m;
+}
+
+// dW/dr as printed in the literature.
+inline double kernelDerivative(const std::string& kernel, double r, double H) {
+    constexpr double pi = std::numbers::pi;
+    const double q = r / H;
+    if (q >= 1) return 0;
+    if (kernel == "lucy") return -315 / (4 * pi * std::pow(H, 4)) * q * (1 - q) * (1 - q);
+    if (kernel == "wendlandC2") return -210 / (pi * std::pow(H, 4)) * q * std::pow(1 - q, 3);
+    const double h = H / 3, t = r / h;
+    double sum = std::pow(3 - t, 4);
+    if (t < 2) sum -= 6 * std::pow(2 - t, 4);
+    if (t < 1) sum += 15 * std::pow(1 - t, 4);
+    return -5 * sum / (120 * pi * std::pow(h, 4));
+}
+
+// What the viscosity between two particles is multiplied by at plane walls across z (wallPlanes.hpp).
+inline double wallFactor(const Walls& walls, const Vec3& a, const Vec3& b) {
+    if (!walls.exist()) return 1;
+    const auto gap = [&](const Vec3& p) { return std::min(p[2] - walls.low, walls.high - p[2]); };
+    const double ga = gap(a), gb = gap(b), least = 0.25;
+    double value = 1;
+    if (gb < 0) value += -gb / std::max(ga, least);
+    if (ga < 0) value += -ga / std::max(gb, least);
+    return std::min(value, 10.0);
 }
 
 inline double sumOverRanks(double value) {

@@ -73,6 +73,9 @@ VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), repl
                        replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
 
 # The base case with a rigid sphere beside its cell.
+IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), replace(NUMERICS, "dualIdentity", "immersed")]
+
+
 def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, centre: [7, 0, 0] um}"):
     return [append(MESH, f"bodies:\n  - {place}\n"), rewrite(BODIES, bodies)]
 
@@ -228,6 +231,24 @@ CASES = [
     Case("observerEveryStrainWithoutShear", VORTICES + [rewrite(OBSERVERS, "balance: {type: conservation, every: 0.1 strain}\n")],
          [Problem(OBSERVERS, "balance", "balance", ["every", "no shear rate", "in s or in steps"])]),
     case("observerLooksTooRarely", replace(OBSERVERS, "0.02 strain", "2 strain"), OBSERVERS, "deformation", "deformation", "1.5 strain"),
+
+    # What goes with which integrator
+    case("immersedWithVelocityVerlet", replace(NUMERICS, "dualIdentity", "immersed"), NUMERICS, "coupling", "immersed", "found immersed",
+         "'integrator: implicit'", "coupling: dualIdentity"),
+    case("correctedWithVelocityVerlet", append(NUMERICS, "operators: corrected\n"), NUMERICS, "operators", "corrected", "found corrected",
+         "'integrator: implicit'", "operators: plain"),
+    case("dualIdentityWithImplicit", replace(NUMERICS, "velocityVerlet", "implicit"), NUMERICS, "coupling", "dualIdentity",
+         "found dualIdentity", "'integrator: velocityVerlet'", "coupling: immersed"),
+    case("ruptureWithImplicit", [*IMPLICIT, replace(MEMBRANES, "rupture: none", "rupture: {type: bondStretch, limit: 1.2}")], MEMBRANES,
+         "rbc.rupture", "{type: bondStretch", "'integrator: implicit'", "does not know it", "velocityVerlet"),
+    case("membraneViscosityWithImplicit", [*IMPLICIT, append(MEMBRANES, "  viscosity: {shear: 2e-9 N s/m}\n")], MEMBRANES,
+         "rbc.viscosity", "{shear", "'integrator: implicit'", "does not know it", "velocityVerlet"),
+    case("bodiesWithImplicit", [*IMPLICIT, *with_body("bead: {density: 1200 kg/m^3, motion: free}\n")], NUMERICS, "integrator",
+         "implicit", "found implicit", "has bodies", "velocityVerlet"),
+    case("implicitStepTooLarge", append(NUMERICS, "implicit: {step: 0.8}\n"), NUMERICS, "implicit.step", "0.8", "'0.8'", "0.5"),
+    case("implicitUnknownMethod", append(NUMERICS, "implicit: {method: euler}\n"), NUMERICS, "implicit.method", "euler",
+         "'euler' is not allowed", "midpoint", "backwardEuler"),
+    case("implicitUnknownKey", append(NUMERICS, "implicit: {dt: 0.1}\n"), NUMERICS, "implicit.dt", "dt", "unknown key 'dt'", "step"),
 
     # Rigid bodies
     case("bodiesWithoutFile", with_body("")[0], BODIES, "", None, "no such file"),

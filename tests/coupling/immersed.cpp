@@ -1,0 +1,279 @@
+#include "coupling/immersed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numeric>
+
+#include "coupling/sphereScene.hpp"
+#include "membrane/surface.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::coupling;
+using namespace corpuscle::coupling::testing;
+
+namespace {
+
+constexpr double reach = Immersed::radiusInSpacings;
+const Index3 size{14, 10, 10};
+
+// Two cells, the first across a periodic edge of the box, stretched; the second some boxes away from it.
+struct InFluid : SphereScene {
+    std::vector<sph::testing::Particle> all = sph::testing::lattice(size, 0.1);
+    std::vector<double> volumes;  // by number
+    Immersed immersed;
+
+    InFluid() : SphereScene(size, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true), immersed(cells, 1) {
+        for (Cell& cell : cells) {
+            const Vec3 middle = middleOf(cell), away = cell.membrane.cell == 2 ? Vec3(-28, 10, 0) : Vec3(0, 0, 0);
+            for (Vec3& x : cell.membrane.position) {
+                const Vec3 d = x - middle;
+                x += away + Vec3(0.05 * d[0], -0.04 * d[1], 0.03 * std::sin(d[0]));
+            }
+            cell.initialVolume = cell.membrane.volume();
+        }
+        for (std::size_t j = 0; j < all.size(); ++j) volumes.push_back(1 + 0.1 * std::sin(static_cast<double>(j)));
+        build();
+    }
+    void build() {
+        std::vector<double> own;
+        for (const std::int64_t id : system->store().id) own.push_back(volumes[static_cast<std::size_t>(id)]);
+        immersed.build(*system, own);
+    }
+    void open(std::size_t cell) {
+        membrane::Membrane& m = cells[cell].membrane;
+        std::vector<char> alive(m.network().allBonds().size(), 1);
+        alive[3] = 0;
+        m.restore(alive);
+    }
+    std::size_t nodes() const { return start[0].size() + start[1].size(); }
+    std::vector<Vec3> positions() const {
+        std::vector<Vec3> x;
+        for (const Cell& cell : cells) x.insert(x.end(), cell.membrane.position.begin(), cell.membrane.position.end());
+        return x;
+    }
+
+    // f(id, place) -> the velocity of a particle; as the fields of the implicit step are.
+    template <class Real, class F>
+    std::vector<Real> field(F&& f) const {
+        const ParticleStore& s = system->store();
+        std::vector<Real> u(4 * s.size(), Real(0));
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec3 v = f(static_cast<std::size_t>(s.id[i]), s.position(i));
+            for (std::size_t k = 0; k < 3; ++k) u[4 * i + k] = static_cast<Real>(v[static_cast<int>(k)]);
+        }
+        return u;
+    }
+    std::vector<Vec3> random(std::size_t n, unsigned seed) const {
+        std::vector<Vec3> v(n, Vec3::Zero());
+        membrane::testing::jitter(v, 1, seed);
+        return v;
+    }
+
+    // The weights of the header, from all particles and images: of each node, by the number of the particle.
+    struct Weight {
+        std::size_t particle;
+        double weight;
+    };
+    std::vector<std::vector<Weight>> weights(long& shepard) const;
+};
+
+std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const {
+    std::vector<std::vector<Weight>> result;
+    shepard = 0;
+    for (const Vec3& node : positions()) {
+        std::vector<Weight>& own = result.emplace_back();
+        std::vector<Vec3> d;
+        Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
+        const Vec3 x = system->box().wrap(node);
+        for (std::size_t j = 0; j < all.size(); ++j)
+            for (int image = 0; image < 27; ++image) {
+                const Vec3 shift(size[0] * (image % 3 - 1), size[1] * (image / 3 % 3 - 1), size[2] * (image / 9 - 1));
+                const Vec3 at = (all[j].x + shift - x) / reach;
+                const double q = at.norm();
+                if (q >= 1) continue;
+                const double w = volumes[j] * std::pow(1 - q, 4) * (1 + 4 * q);
+                const Eigen::Vector4d v(1, at[0], at[1], at[2]);
+                moments += w * v * v.transpose();
+                own.push_back({j, w}), d.push_back(at);
+            }
+        const Eigen::Vector4d c = moments.fullPivLu().solve(Eigen::Vector4d::UnitX());
+        double absolute = 0;
+        for (std::size_t k = 0; k < own.size(); ++k)
+            absolute += std::abs(own[k].weight * (c[0] + c.tail<3>().dot(d[k])));
+        const bool linear = absolute <= Immersed::largestWeights && own.size() >= 8;
+        shepard += !linear;
+        for (std::size_t k = 0; k < own.size(); ++k)
+            own[k].weight *= linear ? c[0] + c.tail<3>().dot(d[k]) : 1 / moments(0, 0);
+    }
+    return result;
+}
+
+double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
+                              [](const Vec3& x, const Vec3& y) { return x.dot(y); });
+}
+
+}  // namespace
+
+// Of an opened cell, where nothing is projected; both cells, images and ranks.
+TEST(Immersed, weightsAreThoseOfTheMomentMatrix) {
+    InFluid scene;
+    scene.open(0), scene.open(1);
+    scene.build();
+    long shepard = 0;
+    const auto weights = scene.weights(shepard);
+    EXPECT_EQ(shepard, 0);
+    EXPECT_EQ(scene.immersed.fallbacks(), 0);
+    const std::vector<Vec3> u = scene.random(scene.all.size(), 2);
+    const auto of = [&](std::size_t id, const Vec3&) { return u[id]; };
+    const auto found = scene.immersed.interpolate(scene.field<double>(of).data());
+    const auto rounded = scene.immersed.interpolate(scene.field<float>(of).data());
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+        Vec3 expected = Vec3::Zero();
+        for (const auto& [particle, weight] : weights[m]) expected += weight * u[particle];
+        EXPECT_LT((found[m] - expected).norm(), 1e-12);
+        EXPECT_LT((rounded[m] - expected).norm(), 2e-7);
+    }
+}
+
+TEST(Immersed, constantAndLinearFieldsAreFoundExactly) {
+    InFluid scene;
+    Mat3 G;
+    G << 0.5, -1, 0.3, 0.2, -0.8, 0.7, 1.2, 0.1, 0.6;  // its trace, 0.3, would change the volume
+    const Vec3 a(1, -2, 0.5);
+    const particles::Box& box = scene.system->box();
+    for (std::size_t c = 0; c < 2; ++c) {
+        const Cell& cell = scene.cells[c];
+        const Vec3 middle = middleOf(cell);
+        const auto u = scene.field<double>(
+            [&](std::size_t, const Vec3& x) -> Vec3 { return a + G * box.minimumImage(x - middle); });
+        const auto v = scene.immersed.interpolate(u.data());
+        const auto& x = cell.membrane.position;
+        const auto g = membrane::volumeGradient(x, cell.membrane.network().triangles());
+        const double grows = G.trace() * cell.membrane.volume() / dot(g, g);
+        for (std::size_t n = 0; n < x.size(); ++n)
+            EXPECT_LT(
+                (v[static_cast<std::size_t>(cell.firstNode) + n] - (a + G * (x[n] - middle) - grows * g[n])).norm(),
+                1e-12);
+    }
+}
+
+TEST(Immersed, whatNodesFindDoesNotChangeTheVolume) {
+    InFluid scene;
+    const std::vector<Vec3> u = scene.random(scene.all.size(), 3);
+    const auto v =
+        scene.immersed.interpolate(scene.field<double>([&](std::size_t id, const Vec3&) { return u[id]; }).data());
+    scene.immersed.setVelocities(v);
+    EXPECT_EQ(scene.immersed.velocities(), v);
+    double change[2];
+    for (int k = 0; k < 2; ++k) {
+        const double h = k == 0 ? 1e-2 : 1e-3;
+        scene.immersed.move(h);
+        const Cell& cell = scene.cells[0];
+        change[k] = std::abs(cell.membrane.volume() / cell.initialVolume - 1);
+        scene.immersed.move(-h);
+    }
+    EXPECT_LT(change[0], 1e-3);
+    EXPECT_NEAR(change[1] / change[0], 0.01, 0.002) << "of second order";
+}
+
+TEST(Immersed, spreadIsTheTransposeOfInterpolate) {
+    InFluid scene;
+    const std::vector<Vec3> u = scene.random(scene.all.size(), 4), f = scene.random(scene.nodes(), 5);
+    const auto field = scene.field<double>([&](std::size_t id, const Vec3&) { return u[id]; });
+    const double atNodes = dot(f, scene.immersed.interpolate(field.data()));
+    particles::RealArray force(field.size(), 0.0);
+    scene.immersed.spread(f, force);
+    double power = 0, magnitude = 0;
+    Vec3 total = Vec3::Zero();
+    for (std::size_t k = 0; k < field.size(); ++k) {
+        power += field[k] * force[k], magnitude += std::abs(field[k] * force[k]);
+        if (k % 4 < 3) total[static_cast<int>(k % 4)] += force[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_NEAR(sph::testing::sumOverRanks(power), atNodes, 1e-14 * sph::testing::sumOverRanks(magnitude));
+    EXPECT_GT(std::abs(atNodes), 0.01);
+    // Projection leaves the sum, as the gradient of the volume of a closed cell has none.
+    EXPECT_LT((total - std::accumulate(f.begin(), f.end(), Vec3(Vec3::Zero()))).norm(), 1e-12 * std::sqrt(dot(f, f)));
+}
+
+TEST(Immersed, stiffnessAndItsDiagonalAreThoseOfTheMembranes) {
+    InFluid scene;
+    const std::vector<Vec3> u = scene.random(scene.nodes(), 6);
+    std::vector<Vec3> f(u.size(), Vec3::Zero());
+    scene.immersed.addStiffness(0.7, u, f);
+    const auto forces = scene.immersed.force();
+    std::vector<membrane::BlockStiffness> stiffness;
+    for (const Cell& cell : scene.cells) {
+        const auto first = static_cast<std::size_t>(cell.firstNode), n = cell.membrane.position.size();
+        const membrane::Membrane& m = cell.membrane;
+        std::vector<Vec3> expected(n, Vec3::Zero()), elastic = expected;
+        m.addElasticForces(m.position, elastic);
+        stiffness.emplace_back(n);
+        m.addStiffness(membrane::Definiteness::partwise, stiffness.back());
+        stiffness.back().addProduct(0.7, {u.data() + first, n}, expected);
+        for (std::size_t k = 0; k < n; ++k) {
+            EXPECT_LT((f[first + k] - expected[k]).norm(), 1e-12);
+            EXPECT_LT((forces[first + k] - elastic[k]).norm(), 1e-12);
+        }
+    }
+    long shepard = 0;
+    const auto weights = scene.weights(shepard);
+    std::vector<Mat3> expected(scene.all.size(), Mat3::Zero());
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+        const std::size_t c = m >= scene.start[0].size();
+        const Mat3 own = stiffness[c].diagonal(m - static_cast<std::size_t>(scene.cells[c].firstNode));
+        for (const auto& [particle, weight] : weights[m]) expected[particle] += weight * weight * own;
+    }
+    const auto blocks = scene.immersed.diagonal();
+    ASSERT_EQ(blocks.size(), scene.immersed.touched().size());
+    const auto touched = static_cast<double>(blocks.size());
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+        const auto i = static_cast<std::size_t>(scene.immersed.touched()[k]);
+        EXPECT_LT((blocks[k] - expected[static_cast<std::size_t>(scene.system->store().id[i])]).norm(), 1e-12);
+    }
+    EXPECT_EQ(sph::testing::sumOverRanks(touched),
+              std::count_if(expected.begin(), expected.end(), [](const Mat3& m) { return m.norm() > 0; }));
+}
+
+TEST(Immersed, volumeIsRestoredAlongItsGradient) {
+    InFluid scene;
+    for (Cell& cell : scene.cells) cell.initialVolume *= 1.001;
+    const auto before = scene.positions();
+    scene.open(1);
+    scene.immersed.restoreVolume();
+    const Cell& cell = scene.cells[0];
+    EXPECT_NEAR(cell.membrane.volume() / cell.initialVolume, 1, 1e-6);
+    const std::size_t n = cell.membrane.position.size();
+    const auto g = membrane::volumeGradient({before.data(), n}, cell.membrane.network().triangles());
+    std::vector<Vec3> moved(n);
+    for (std::size_t k = 0; k < n; ++k) moved[k] = cell.membrane.position[k] - before[k];
+    EXPECT_NEAR(dot(moved, g) / std::sqrt(dot(moved, moved) * dot(g, g)), 1, 1e-12);
+    EXPECT_TRUE(std::equal(before.begin() + static_cast<std::ptrdiff_t>(n), before.end(),
+                           scene.cells[1].membrane.position.begin()))
+        << "an opened cell has no volume to keep";
+}
+
+// Fluid only well outside of the first cell: linear weights would extrapolate.
+TEST(Immersed, shepardsWeightsWhereLinearOnesAreLarge) {
+    InFluid scene;
+    const particles::Box& box = scene.system->box();
+    const Vec3 middle = middleOf(scene.cells[0]);
+    for (std::size_t j = 0; j < scene.all.size(); ++j)
+        if (box.minimumImage(scene.all[j].x - middle).norm() < radius + 0.6) scene.volumes[j] = 0;
+    scene.open(0), scene.open(1);
+    scene.build();
+    long shepard = 0;
+    const auto weights = scene.weights(shepard);
+    EXPECT_EQ(scene.immersed.fallbacks(), shepard);
+    EXPECT_GT(shepard, 20);
+    const std::vector<Vec3> u = scene.random(scene.all.size(), 7);
+    const auto found =
+        scene.immersed.interpolate(scene.field<double>([&](std::size_t id, const Vec3&) { return u[id]; }).data());
+    for (std::size_t m = 0; m < weights.size(); ++m) {
+        Vec3 expected = Vec3::Zero();
+        for (const auto& [particle, weight] : weights[m]) expected += weight * u[particle];
+        EXPECT_LT((found[m] - expected).norm(), 1e-10);
+    }
+}

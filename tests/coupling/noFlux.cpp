@@ -1,0 +1,173 @@
+#include "coupling/noFlux.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+
+#include "coupling/immersed.hpp"
+#include "coupling/sphereScene.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::coupling;
+using namespace corpuscle::coupling::testing;
+
+namespace {
+
+const Vec3 centre(6, 3.5, 0.4);  // the sphere lies across the face z = 0
+
+struct Near {
+    double chi;
+    Vec3 normal, velocity;
+};
+
+struct Watched : SphereScene {
+    NoFlux noFlux{cells, 1};
+    Watched() : SphereScene({12, 8, 8}, {centre}, true) {
+        for (std::size_t n = 0; n < start[0].size(); ++n) {
+            cells[0].membrane.velocity[n] = flow(start[0][n]);
+            cells[0].membrane.position[n] += Vec3(24, -8, 0);  // some boxes away
+        }
+        ParticleStore& s = system->store();
+        for (std::size_t i = 0; i < s.size(); ++i) s.side[i] = nearest(i).second < 0;
+        find();
+        noFlux.keepSides(*system);
+        EXPECT_EQ(noFlux.crossings(), 0) << "nobody is on the wrong side yet";
+        find();
+    }
+    static Vec3 flow(const Vec3& x) { return {0.3 * x[1], 1 - 0.2 * x[2], 0.1 * x[0]}; }
+    void find() {
+        std::vector<int> every(system->store().size());
+        for (std::size_t i = 0; i < every.size(); ++i) every[i] = static_cast<int>(i);
+        noFlux.find(*system, every);
+    }
+    Vec3 fromCentre(std::size_t i) const { return system->box().minimumImage(system->store().position(i) - centre); }
+
+    // Nearest point of the mesh, triangle by triangle: its place from the centre, and the distance from it, positive outside.
+    std::pair<Vec3, double> nearest(std::size_t i) const {
+        const Vec3 x = fromCentre(i) + centre;
+        double best = std::numeric_limits<double>::infinity();
+        Vec3 at = x;
+        for (const Index3& t : cells[0].membrane.network().triangles()) {
+            const Vec3 &a = start[0][t[0]], &b = start[0][t[1]], &c = start[0][t[2]];
+            const Vec3 w = geometry::nearestWeights(x, a, b, c), p = w[0] * a + w[1] * b + w[2] * c;
+            if ((x - p).norm() < best) best = (x - p).norm(), at = p;
+        }
+        return {at, (x - at).dot(at - centre) > 0 ? best : -best};
+    }
+    // The fluid particle of this side nearest to the membrane, on the rank that owns it: its number, or -1.
+    int nearestOf(int side) const {
+        const ParticleStore& s = system->store();
+        struct {
+            double value;
+            int rank;
+        } least{std::numeric_limits<double>::infinity(), 0};
+        int found = -1;
+        for (std::size_t i = 0; i < s.size(); ++i)
+            if (const double gap = std::abs(nearest(i).second); s.side[i] == side && gap < least.value)
+                least.value = gap, found = static_cast<int>(i);
+        MPI_Comm_rank(MPI_COMM_WORLD, &least.rank);
+        const int self = least.rank;
+        MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, MPI_COMM_WORLD);
+        return least.rank == self ? found : -1;
+    }
+    // Puts a particle at this distance from the membrane, along the normal at its nearest point.
+    void put(int particle, double distance) {
+        if (particle < 0) return;
+        const auto i = static_cast<std::size_t>(particle);
+        const auto [at, now] = nearest(i);
+        const Vec3 x = fromCentre(i) + centre;
+        system->store().setPosition(i, system->store().position(i) + (distance / now - 1) * (x - at));
+    }
+    double crossings() const { return sph::testing::sumOverRanks(static_cast<double>(noFlux.crossings())); }
+};
+
+class Sides : public ::testing::TestWithParam<int> {};
+
+}  // namespace
+
+TEST(NoFlux, findsWhatIsNearWithDistanceNormalAndVelocity) {
+    Watched scene;
+    std::map<int, Near> near;
+    scene.noFlux.forNear([&](int particle, double chi, const Vec3& normal, const Vec3& velocity) {
+        EXPECT_TRUE(near.insert({particle, {chi, normal, velocity}}).second) << "once";
+    });
+    double found = 0;
+    for (std::size_t i = 0; i < scene.system->store().size(); ++i) {
+        const auto [at, distance] = scene.nearest(i);
+        const auto entry = near.find(static_cast<int>(i));
+        EXPECT_EQ(entry != near.end(), std::abs(distance) < 1);
+        if (entry == near.end()) continue;
+        const auto& [chi, normal, velocity] = entry->second;
+        EXPECT_NEAR(chi, std::pow(1 - distance * distance, 2), 1e-12);
+        EXPECT_LT((normal - (scene.fromCentre(i) + centre - at) / distance).norm(), 1e-9);
+        EXPECT_GT(normal.dot(at - centre), 0) << "outwards";
+        EXPECT_LT((velocity - Watched::flow(at)).norm(), 1e-12);
+        ++found;
+    }
+    EXPECT_GT(sph::testing::sumOverRanks(found), 50);
+}
+
+TEST_P(Sides, aParticleBeyondTheMembraneGoesBackAndIsCounted) {
+    const int side = GetParam();
+    const double own = side == 1 ? -1 : 1;
+    Watched scene;
+    const int i = scene.nearestOf(side);
+    scene.put(i, -0.4 * own);
+    const double depth = i < 0 ? 0 : std::abs(scene.nearest(static_cast<std::size_t>(i)).second);
+    const ParticleStore before = scene.system->store();
+    scene.noFlux.keepSides(*scene.system);
+    EXPECT_EQ(scene.crossings(), 1);
+    const ParticleStore& s = scene.system->store();
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        const double distance = own * scene.nearest(k).second;
+        if (static_cast<int>(k) == i) {
+            EXPECT_NEAR(distance, 0.05, 1e-9);
+            EXPECT_LT((s.position(k) - before.position(k)).norm(), 0.46) << "no jump to another image";
+            EXPECT_NEAR(scene.noFlux.deepest(), depth, 1e-9);
+        } else {
+            EXPECT_LT((s.position(k) - before.position(k)).norm(), 1e-12);
+        }
+    }
+    scene.noFlux.keepSides(*scene.system);
+    EXPECT_EQ(scene.crossings(), 1) << "it stays";
+}
+
+TEST_P(Sides, aParticleTooCloseOnItsOwnSideIsMovedNotCounted) {
+    const int side = GetParam();
+    const double own = side == 1 ? -1 : 1;
+    Watched scene;
+    const int i = scene.nearestOf(side);
+    scene.put(i, 0.01 * own);
+    scene.noFlux.keepSides(*scene.system);
+    EXPECT_EQ(scene.crossings(), 0);
+    EXPECT_EQ(scene.noFlux.deepest(), 0);
+    if (i >= 0) {
+        EXPECT_NEAR(own * scene.nearest(static_cast<std::size_t>(i)).second, 0.05, 1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(InAndOut, Sides, ::testing::Values(0, 1));
+
+TEST(NoFlux, leavesAnOpenedCellAlone) {
+    Watched scene;
+    std::vector<char> alive(scene.cells[0].membrane.network().allBonds().size(), 1);
+    alive[3] = 0;
+    scene.cells[0].membrane.restore(alive);
+    scene.find();
+    const int i = scene.nearestOf(0);
+    scene.put(i, -0.4);
+    const ParticleStore before = scene.system->store();
+    scene.noFlux.keepSides(*scene.system);
+    EXPECT_EQ(before.x, scene.system->store().x);
+    EXPECT_EQ(scene.crossings(), 0);
+    scene.noFlux.forNear([](int, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
+}
+
+TEST(NoFlux, leavesWallParticlesAlone) {
+    Watched scene;
+    ParticleStore& s = scene.system->store();
+    for (std::int64_t& kind : s.kind) kind = static_cast<std::int64_t>(Kind::wall);
+    scene.find();
+    scene.noFlux.forNear([](int, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
+}

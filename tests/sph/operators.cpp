@@ -1,0 +1,201 @@
+// The operators of the implicit step against a plain double loop over all pairs and images, written from the equations of
+// sph/operators.hpp, and against what they must keep.
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "sph/operatorSamples.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::sph;
+using namespace corpuscle::sph::testing;
+
+namespace {
+
+class CorrectedDivergence : public OperatorTest {
+  public:
+    static std::vector<OperatorCase> chosen() {
+        std::vector<OperatorCase> some;
+        for (const OperatorCase& c : operatorCases)
+            if (c.form == corrected && c.size[2] > 2 * support + 1) some.push_back(c);
+        return some;
+    }
+};
+
+}  // namespace
+
+TEST_P(OperatorTest, equalThePlainDoubleLoop) {
+    build(Precision::full);
+    compare<double>(1e-12);
+}
+
+// Mixed precision: the rounding of float, 6e-8, in positions and weights.
+TEST_P(OperatorTest, equalItToTheRoundingOfFloatInMixedPrecision) {
+    build(Precision::mixed);
+    compare<float>(2e-6);
+}
+
+TEST_P(OperatorTest, momentsEqualThePlainDoubleLoop) {
+    build(Precision::full);
+    Operators<double> operators(fluid, *system, GetParam().form);
+    operators.build(*system);
+    std::vector<Vec3> disorder(all.size(), Vec3::Zero());
+    std::vector<double> viscous(all.size(), 0.0), bulk(all.size(), 0.0);
+    const auto W = [&](double r) { return fluid.kernel->normalisation(support) * fluid.kernel->value(r / support); };
+    std::vector<double> evenness;
+    for (const double V : volume) evenness.push_back(V * W(0));
+    for (const Pair& p : pairs) {
+        evenness[p.i] += volume[p.j] * W(p.d.norm());
+        disorder[p.i] -= volume[p.j] * p.F * p.d;
+        const double mu = GetParam().varying ? all[p.i].viscosity : fluid.viscosity;
+        viscous[p.i] += 2 * mu * volume[p.i] * volume[p.j] * p.F * scale[p.i];
+        bulk[p.i] += volume[p.i] * volume[p.i] * volume[p.j] * p.F * p.F * p.d.squaredNorm() / 3;
+    }
+    forOwned([&](std::size_t id, std::size_t k) {
+        if (all[id].wall) return;
+        EXPECT_LT((operators.disorder(k) - disorder[id]).norm(), 1e-12);
+        EXPECT_NEAR(operators.evenness(k), evenness[id], 1e-12);
+        EXPECT_NEAR(operators.viscousDiagonal(k), viscous[id], 1e-12 * viscous[id]);
+        EXPECT_NEAR(operators.bulkDiagonal(k), bulk[id], 1e-12 * bulk[id]);
+    });
+}
+
+// Where no periodic face cuts the field, walls or not.
+TEST_P(CorrectedDivergence, isExactForALinearField) {
+    const OperatorCase& c = GetParam();
+    build(Precision::full);
+    Mat3 G;
+    G << 0.7, -2, 0.3, 1.1, 0.4, -0.6, 0.2, 3, -0.5;
+    std::vector<Vec3> u;
+    for (const Particle& p : all) u.push_back(Vec3(0.3, -1, 2) + G * p.x);
+    Operators<double> operators(fluid, *system, c.form);
+    operators.build(*system);
+    apply(operators, u, std::vector<double>(all.size(), 0.0));
+    double looked = 0;
+    forOwned([&](std::size_t id, std::size_t k) {
+        bool far = !all[id].wall;
+        for (int a = 0; a < (c.walls ? 2 : 3); ++a)
+            far &= all[id].x[a] > support + 0.25 && all[id].x[a] < c.size[a] - support - 0.25;
+        if (!far) return;
+        EXPECT_NEAR(operators.divergence(k), G.trace(), 1e-12);
+        ++looked;
+    });
+    EXPECT_GE(sumOverRanks(looked), 3);
+}
+
+TEST_P(OperatorTest, pressureForceIsTheTransposeOfTheDivergence) {
+    build(Precision::full);
+    Operators<double> operators(fluid, *system, GetParam().form);
+    operators.build(*system);
+    const std::vector<Vec3> u = randomVectors(all.size(), 5);
+    const std::vector<double> q = first(randomVectors(all.size(), 6));
+    apply(operators, u, q);
+    double byDivergence = 0, magnitude = 0;
+    forOwned([&](std::size_t id, std::size_t k) {
+        const double term = q[id] * volume[id] * operators.divergence(k);
+        byDivergence += term, magnitude += std::abs(term);
+    });
+    apply(operators, std::vector<Vec3>(all.size(), Vec3::Zero()), q);
+    const double byForce = power(operators, u);
+    EXPECT_NEAR(byForce, sumOverRanks(byDivergence), 1e-14 * sumOverRanks(magnitude));
+    EXPECT_GT(std::abs(byForce), 1e-3 * sumOverRanks(magnitude));
+}
+
+TEST_P(OperatorTest, viscosityIsSymmetricAndTakesPowerAway) {
+    build(Precision::full);
+    Operators<double> operators(fluid, *system, GetParam().form);
+    operators.build(*system);
+    const std::vector<Vec3> u = randomVectors(all.size(), 7), v = randomVectors(all.size(), 8);
+    const std::vector<double> none(all.size(), 0.0);
+    apply(operators, v, none);
+    const double uLv = power(operators, u);
+    apply(operators, u, none);
+    const double vLu = power(operators, v), uLu = power(operators, u);
+    EXPECT_LT(uLu, 0);
+    EXPECT_NEAR(uLv, vLu, 1e-14 * std::abs(uLu));
+    EXPECT_GT(std::abs(uLv), 1e-5 * std::abs(uLu));
+    // Only a uniform velocity costs nothing.
+    apply(operators, std::vector<Vec3>(all.size(), Vec3(1, 2, 3)), none);
+    EXPECT_EQ(power(operators, u), 0);
+}
+
+TEST_P(OperatorTest, noForceIsLeftOver) {
+    build(Precision::full);
+    Operators<double> operators(fluid, *system, GetParam().form);
+    operators.build(*system);
+    apply(operators, randomVectors(all.size(), 9), first(randomVectors(all.size(), 10)));
+    Vec3 total = Vec3::Zero();
+    double magnitude = 0;
+    forOwned([&](std::size_t, std::size_t k) {
+        total += force(operators, k);
+        magnitude += force(operators, k).norm();
+    });
+    MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_LT(total.norm(), 1e-14 * sumOverRanks(magnitude));
+    EXPECT_GT(sumOverRanks(magnitude), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, OperatorTest, ::testing::ValuesIn(operatorCases),
+                         [](const auto& instance) { return instance.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Variants, CorrectedDivergence, ::testing::ValuesIn(CorrectedDivergence::chosen()),
+                         [](const auto& instance) { return instance.param.name; });
+
+// On a lattice there is no disorder, and the diagonals are those of the operators.
+TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
+    const Index3 size{6, 6, 6};
+    for (const OperatorForm form : {plain, corrected}) {
+        ParticleSystem system(MPI_COMM_WORLD, cube(size), {}, support, 0, 1.0);
+        deal(lattice(size, 0), system);
+        const FluidModel fluid = model("wendlandC2");
+        Operators<double> operators(fluid, system, form);
+        operators.build(system);
+        const ParticleStore& s = system.store();
+        const std::int64_t chosen = 43;
+        typename Operators<double>::Field u(4 * s.size(), 0.0);
+        std::size_t at = s.size();
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            EXPECT_LT(operators.disorder(k).norm(), 1e-13);
+            if (s.id[k] == chosen) at = k, u[4 * k + 1] = 1;
+        }
+        operators.apply(system, u, [](std::size_t, double) { return 0.0; });
+        if (at < s.size()) {
+            EXPECT_NEAR(operators.viscousDiagonal(at), -operators.force()[4 * at + 1],
+                        1e-12 * operators.viscousDiagonal(at));
+        }
+        operators.apply(system, std::vector<double, Operators<double>::Field::allocator_type>(4 * s.size(), 0.0),
+                        [](std::size_t, double) { return 3.0; });
+        for (const double f : operators.force()) EXPECT_NEAR(f, 0, 1e-12) << "of a uniform pressure";
+        if (form == plain) {
+            double square = 0;
+            operators.apply(system, u,
+                            [&](std::size_t k, double D) { return square += operators.volume(k) * D * D, 0; });
+            square = sumOverRanks(square);
+            if (at < s.size()) {
+                EXPECT_NEAR(operators.bulkDiagonal(at), square, 1e-12 * square);
+            }
+        }
+    }
+}
+
+TEST(LoneParticle, hasNoGradientAndIsNamed) {
+    const Index3 size{8, 8, 8};
+    ParticleSystem system(MPI_COMM_SELF, cube(size), {}, support, 0, 1.0);
+    ParticleStore& s = system.store();
+    s.resize(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        s.setPosition(i, Vec3(4, 4, 2 + 2 * static_cast<double>(i)));
+        s.density[i] = 1, s.id[i] = 70 + static_cast<std::int64_t>(i);
+    }
+    system.start();
+    Operators<double> operators(model("wendlandC2"), system, corrected);
+    try {
+        operators.build(system);
+        FAIL() << "two particles on a line span no space";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::numerics);
+        const std::string text = failure.what();
+        EXPECT_NE(text.find("particle 70 at (4, 4, 2) m has too few neighbours"), std::string::npos) << text;
+        EXPECT_NE(text.find("smaller step"), std::string::npos) << text;
+    }
+    Operators<double>(model("wendlandC2"), system, plain).build(system);
+}
