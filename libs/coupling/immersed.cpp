@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::coupling {
@@ -156,7 +157,14 @@ void Immersed::findWeights() {
     addUp(absolute.data(), absolute.size(), comm_);
     fallbacks_ = 0;
     for (std::size_t m = 0; m < nodes_; ++m) {
-        if (!(absolute[m] <= largestWeights)) coefficients[m] = Vec4(1 / sums[m], 0, 0, 0), ++fallbacks_;
+        if (!(sums[m] > 0))
+            throw Failure(ExitCode::numerics,
+                          "node " + std::to_string(m) +
+                              " of the membranes, counted through all cells, has no fluid within " +
+                              std::to_string(radius_) +
+                              " m: the run has come apart. Start again from the last checkpoint with a smaller step");
+        if (!(absolute[m] <= largestWeights)) coefficients[m] = Vec4(1 / sums[m], 0, 0, 0);
+        fallbacks_ += coefficients[m].tail<3>().isZero(0);
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k)
             entries_[k].weight *= coefficients[m][0] + coefficients[m].tail<3>().dot(entries_[k].d);
     }

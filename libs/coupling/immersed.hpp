@@ -32,7 +32,7 @@ class Immersed {
     void setVelocities(const Vectors& velocities);
     void restoreVolume();
 
-    // Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
+    // Throws Failure(numerics), on all ranks, where a node has no fluid around it. Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
     // particle [m^3]. Collective.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
 
@@ -47,7 +47,7 @@ class Immersed {
 
     const std::vector<int>& touched() const { return touched_; }  // particles of this rank with weights
 
-    long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights
+    long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights, for either reason
 
   private:
     struct Entry {

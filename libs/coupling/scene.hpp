@@ -21,7 +21,8 @@ struct Scene {
     std::vector<Cell> cells;                   // empty for a fluid alone
     std::unique_ptr<DualIdentity> coupling;    // none without cells
     std::vector<RuptureEvent> broken;          // at the last step
-    double spacing = 0;                        // dx [m]
+    long putBack = 0;    // fluid particles of this rank that had crossed a membrane and were put back, since the start
+    double spacing = 0;  // dx [m]
 
     const sph::FluidModel& model() const { return forces->model(); }
     particles::ParticleStore& store() { return system->store(); }

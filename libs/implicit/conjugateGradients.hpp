@@ -26,6 +26,7 @@ class ConjugateGradients {
   public:
     using Field = particles::AlignedVector<Real>;
     static constexpr int delay = 3, most = 2000;
+    static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
     // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. r is used up. Ends when the estimated |error|_A^2 is below
     // tolerance^2 max(reference, x.A x). Collective.
@@ -49,10 +50,10 @@ class ConjugateGradients {
             MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
             const auto [gamma, delta] = sums;
             const double allowed = tolerance * tolerance * std::max(reference, c.energy);
-            if (gamma <= 0.01 * allowed || gamma == 0) break;
+            if (gamma >= 0 && gamma <= negligible * allowed) break;
             const double beta = c.iterations > 0 ? gamma / gammaBefore : 0;
             alpha = gamma / (c.iterations > 0 ? delta - beta * gamma / alpha : delta);
-            if (!std::isfinite(alpha) || alpha <= 0 || c.iterations == most) {
+            if (!(gamma > 0) || !std::isfinite(alpha) || alpha <= 0 || c.iterations == most) {
                 c.reached = false;
                 break;
             }

@@ -57,8 +57,6 @@ class Step final : public ImplicitStep {
                           fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
                                       "'implicit' of system/numerics.yaml",
                                       statistics.steps + 1, c.iterations));
-        fprintf(stderr, "step %ld its %d E %.3e ref %.3e err %.2e\n", statistics.steps, c.iterations, c.energy,
-                reference, c.error);
         ++statistics.steps, statistics.iterations += c.iterations;
         statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
         finish(dt, share);

@@ -39,8 +39,8 @@ class ImplicitStep {
     struct Options {
         ImplicitSettings settings;
         sph::OperatorForm form = sph::OperatorForm::corrected;
-        std::optional<double> shifting;  // C, strength per unit of strain
-        std::optional<coupling::DensityBalance> densityBalance;
+        std::optional<double> shifting{};  // C, strength per unit of strain
+        std::optional<coupling::DensityBalance> densityBalance{};
         long balanceInterval = 0;  // steps between two balances
     };
     virtual ~ImplicitStep() = default;
@@ -53,6 +53,10 @@ class ImplicitStep {
         long steps = 0;
     };
     State state;
+    void resume(const State& saved, long crossings) {  // crossings: of this rank
+        state = saved;
+        if (noFlux_) noFlux_->restore(crossings);
+    }
 
     struct Statistics {
         long steps = 0, iterations = 0, mostIterations = 0;

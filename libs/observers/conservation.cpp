@@ -97,7 +97,6 @@ class ConservationObservation : public Observation {
         long changed = 0;
         for (std::size_t i = 0; i < s.size(); ++i)
             if (s.kindOf(i) == particles::Kind::fluid && sides.side(s.position(i)) != s.side[i]) ++changed;
-        const long moves = scene.coupling ? scene.coupling->guard().moves() : 0;
 
         const auto measured = ofEachCell(scene, 5, [](const coupling::Cell& cell, std::size_t, double* out) {
             out[0] = cell.membrane.area();
@@ -108,7 +107,8 @@ class ConservationObservation : public Observation {
         });
         double energy = 0;
         for (const auto& cell : measured) energy += cell[4];
-        row.insert(row.end(), {energy, static_cast<double>(ranks.sum(changed)), static_cast<double>(ranks.sum(moves))});
+        row.insert(row.end(),
+                   {energy, static_cast<double>(ranks.sum(changed)), static_cast<double>(ranks.sum(scene.putBack))});
         for (const auto& cell : measured) row.insert(row.end(), cell.begin(), cell.begin() + 4);
     }
 };

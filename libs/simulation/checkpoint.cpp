@@ -87,8 +87,8 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.coupling) {
         file.attribute("couplingSteps", static_cast<std::int64_t>(scene.coupling->steps()));
-        file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.coupling->guard().moves(), comm)));
     }
+    if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.putBack, comm)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
     std::vector<double> fixed;
@@ -173,6 +173,9 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.readReplicated<double>("bodies/" + body.name + "/state"));
     if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
+    // The sum over ranks is what counts: rank 0 takes it up.
+    if (!scene.cells.empty() && scene.system->decomposition().rank() == 0)
+        scene.putBack = file.attribute<std::int64_t>("guardMoves");
     if (file.sameRanks())
         scene.system->resume(file.readReplicated<double>("bricks"), file.attribute<std::int64_t>("rebuilds"));
     else
@@ -184,9 +187,7 @@ void restoreCoupling(const std::filesystem::path& path, Scene& scene) {
     if (!scene.coupling) return;
     io::CheckpointReader file(scene.system->comm(), path);
     scene.coupling->restore(file.attribute<std::int64_t>("couplingSteps"));
-    // The sum over ranks is what counts: rank 0 takes it up.
-    const auto moves = file.attribute<std::int64_t>("guardMoves");
-    scene.coupling->guard().restore(scene.system->decomposition().rank() == 0 ? moves : 0);
+    scene.coupling->guard().restore(scene.putBack);
 }
 
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log) {

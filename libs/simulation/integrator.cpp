@@ -68,7 +68,7 @@ void Integrator::start(Time& time) {
 
 void Integrator::resume(const State& state, Time& time) {
     if (scheme_) scheme_->resume();
-    if (implicit_) implicit_->state = state.implicit;
+    if (implicit_) implicit_->resume(state.implicit, scene_.putBack);
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
@@ -79,13 +79,17 @@ void Integrator::resume(const State& state, Time& time) {
 void Integrator::advance(Scene& scene, Time& time) {
     if (implicit_) {
         scene.broken = implicit_->advance(time.dt);
+        if (implicit_->noFlux()) scene.putBack = implicit_->noFlux()->crossings();
         time.advance(time.dt);
         checkState(time);
         updateLimits(time);
         return;
     }
     scheme_->advance(time.dt);
-    if (scene.coupling) scene.broken = scene.coupling->endStep(*scene.system, time.dt);
+    if (scene.coupling) {
+        scene.broken = scene.coupling->endStep(*scene.system, time.dt);
+        scene.putBack = scene.coupling->guard().moves();
+    }
     time.advance(time.dt);
     if (time.step % stepsPerEstimate == 0) estimateRates();
     if (scene.system->rebuilds() != rebuilds_) {

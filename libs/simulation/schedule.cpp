@@ -180,10 +180,9 @@ void Schedule::reportRupture(const Scene& scene, const Time& time) {
 }
 
 void Schedule::reportGuard(const Scene& scene, const Time& time) {
-    if (!scene.coupling) return;
-    const long moves = sum(scene.coupling->guard().moves(), scene.system->comm());
+    const long moves = sum(scene.putBack, scene.system->comm());
     if (moves > guardMoves_)
-        app_.log().info("leakage guard: {} particles put back until strain {:.3f} ({} since the last note)", moves,
+        app_.log().info("membranes: {} particles put back until strain {:.3f} ({} since the last note)", moves,
                         time.strain(), moves - guardMoves_);
     guardMoves_ = moves;
 }
@@ -225,14 +224,9 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         record_.set("performance", "iterationsPerStep", perStep);
         record_.set("extremes", "mostIterations", statistics.mostIterations);
         app_.log().info("implicit step: {:.1f} iterations per step, {} at most", perStep, statistics.mostIterations);
-        if (implicitStep->noFlux()) {
-            const long crossings = sum(implicitStep->noFlux()->crossings(), scene.system->comm());
-            record_.set("result", "crossings", crossings);
-            app_.log().info("membranes: {} particles put back to their side", crossings);
-        }
     }
-    if (scene.coupling) {
-        record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
+    if (scene.coupling) record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
+    if (!scene.cells.empty()) {
         record_.set("result", "guardMoves", guardMoves_);
         record_.set("result", "brokenBonds", brokenBonds_);
     }

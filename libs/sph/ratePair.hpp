@@ -25,10 +25,12 @@ struct RatePair {
         if constexpr (varyingViscosity)
             w = w * (i[viscosity] * V(J(2) * j[viscosity])) / (i[viscosity] + V(j[viscosity]));
         if constexpr (atWall) {
-            if (particles::anyNegative(i[volume]) || particles::anyNegative(J(j[volume]))) {
+            const V gapI = walls.gap(i);
+            const J gapJ = walls.gap(j);
+            if (particles::anyNegative(min(gapI, i[volume])) || particles::anyNegative(gapJ) || particles::anyNegative(J(j[volume]))) {
                 const V both = max(i[volume], V(j[volume]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), max(F, V(0.0) - F));
-                w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * walls.beta(walls.gap(i), walls.gap(j));
+                w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * walls.beta(gapI, gapJ);
             }
         }
         V du[3];

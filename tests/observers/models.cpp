@@ -132,7 +132,7 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_GE(inside, 88);
     EXPECT_LE(inside, 136);
     EXPECT_NEAR(static_cast<double>(left), 0.5 * static_cast<double>(inside), 8);
-    scene.coupling->guard().restore(3);
+    scene.putBack = 3;
     rows = observation->observe(scene, {});
     EXPECT_EQ(value(*observation, rows, "changedSide"), static_cast<double>(inside));
     EXPECT_EQ(value(*observation, rows, "guardMoves"), 3.0 * Communicator().size());
