@@ -126,7 +126,7 @@ void CoarseGrid::factorise() {
         }
 }
 
-void CoarseGrid::solve() {
+void CoarseGrid::solveModes() {
     using Vector = Eigen::Vector3cd;
     const std::size_t perPlane = walls_ ? plans_->modes / static_cast<std::size_t>(count_[0]) : plans_->modes;
     const auto get = [&](std::size_t k) {
@@ -167,40 +167,68 @@ void CoarseGrid::place(std::size_t particle, const Vec3& x) {
     }
 }
 
-template <class Real>
-void CoarseGrid::add(MPI_Comm comm, const Real* r, Real* z) {
-    // f(particle, node, weight) for the nodes of every particle.
-    const auto forNodes = [&](auto&& f) {
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            const Place& p = places_[i];
-            const float first[3] = {1 - p.weight[0], 1 - p.weight[1], 1 - p.weight[2]};
-            for (int a = 0; a < 2; ++a) {
-                if (p.node[0][a] < 0) continue;
-                const float wa = a ? p.weight[0] : first[0];
-                for (int b = 0; b < 2; ++b) {
-                    const float wb = wa * (b ? p.weight[1] : first[1]);
-                    for (int c = 0; c < 2; ++c)
-                        f(i, nodeAt(p.node[0][a], p.node[1][b], p.node[2][c]), wb * (c ? p.weight[2] : first[2]));
-                }
+template <class F>
+void CoarseGrid::forNodes(const std::vector<int>* particles, F&& f) const {
+    const std::size_t count = particles ? particles->size() : places_.size();
+    for (std::size_t entry = 0; entry < count; ++entry) {
+        const std::size_t i = particles ? static_cast<std::size_t>((*particles)[entry]) : entry;
+        const Place& p = places_[i];
+        const float first[3] = {1 - p.weight[0], 1 - p.weight[1], 1 - p.weight[2]};
+        for (int a = 0; a < 2; ++a) {
+            if (p.node[0][a] < 0) continue;
+            const float wa = a ? p.weight[0] : first[0];
+            for (int b = 0; b < 2; ++b) {
+                const float wb = wa * (b ? p.weight[1] : first[1]);
+                for (int c = 0; c < 2; ++c)
+                    f(i, nodeAt(p.node[0][a], p.node[1][b], p.node[2][c]), wb * (c ? p.weight[2] : first[2]));
             }
         }
-    };
+    }
+}
+
+std::span<double> CoarseGrid::values() { return {plans_->values, components * plans_->nodes}; }
+
+template <class Real>
+void CoarseGrid::gather(const Real* r, const std::vector<int>* particles) {
     const std::size_t nodes = plans_->nodes;
     double* const values = plans_->values;
     std::fill_n(values, components * nodes, 0.0);
-    forNodes([&](std::size_t i, std::size_t node, float w) {
+    forNodes(particles, [&](std::size_t i, std::size_t node, float w) {
         for (std::size_t k = 0; k < 3; ++k)
-            values[k * nodes + node] += static_cast<double>(w * r[4 * i + static_cast<std::size_t>(axis_[k])]);
+            values[k * nodes + node] +=
+                static_cast<double>(w) * static_cast<double>(r[4 * i + static_cast<std::size_t>(axis_[k])]);
     });
-    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(components * nodes), MPI_DOUBLE, MPI_SUM, comm);
+}
+
+void CoarseGrid::solve(MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, plans_->values, static_cast<int>(components * plans_->nodes), MPI_DOUBLE, MPI_SUM,
+                  comm);
     fftw_execute(plans_->forward);
-    solve();
+    solveModes();
     fftw_execute(plans_->backward);
-    forNodes([&](std::size_t i, std::size_t node, float w) {
+}
+
+template <class Real>
+void CoarseGrid::spread(Real* z, const std::vector<int>* particles) const {
+    const std::size_t nodes = plans_->nodes;
+    const double* const values = plans_->values;
+    forNodes(particles, [&](std::size_t i, std::size_t node, float w) {
         for (std::size_t k = 0; k < 3; ++k)
             z[4 * i + static_cast<std::size_t>(axis_[k])] += static_cast<Real>(w * values[k * nodes + node]);
     });
 }
+
+template <class Real>
+void CoarseGrid::add(MPI_Comm comm, const Real* r, Real* z) {
+    gather(r);
+    solve(comm);
+    spread(z);
+}
+
+template void CoarseGrid::gather(const double*, const std::vector<int>*);
+template void CoarseGrid::gather(const float*, const std::vector<int>*);
+template void CoarseGrid::spread(double*, const std::vector<int>*) const;
+template void CoarseGrid::spread(float*, const std::vector<int>*) const;
 template void CoarseGrid::add(MPI_Comm, const double*, double*);
 template void CoarseGrid::add(MPI_Comm, const float*, float*);
 

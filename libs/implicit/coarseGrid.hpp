@@ -17,6 +17,7 @@
 #include <array>
 #include <complex>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "particles/box.hpp"
@@ -44,6 +45,15 @@ class CoarseGrid {
     template <class Real>
     void add(MPI_Comm comm, const Real* r, Real* z);
 
+    // The same in parts, for all particles or some: values = P^T r of this rank; values <- A_c^-1 values, added up over the ranks; z += P values.
+    static constexpr const std::vector<int>* all = nullptr;
+    template <class Real>
+    void gather(const Real* r, const std::vector<int>* particles = all);
+    void solve(MPI_Comm comm);  // Collective.
+    template <class Real>
+    void spread(Real* z, const std::vector<int>* particles = all) const;
+    std::span<double> values();  // on the nodes, component after component
+
     const std::array<int, 3>& nodes() const { return count_; }
 
   private:
@@ -61,7 +71,9 @@ class CoarseGrid {
     Symbol symbol(int axis, int mode) const;
     Block block(const std::array<Symbol, 3>& symbols) const;
     void factorise();
-    void solve();
+    void solveModes();
+    template <class F>
+    void forNodes(const std::vector<int>* particles, F&& f) const;  // f(particle, node, weight)
     std::size_t nodeAt(int i, int j, int k) const;
 
     particles::Box box_;

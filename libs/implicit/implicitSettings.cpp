@@ -12,8 +12,9 @@ const Schema<ImplicitSettings>& ImplicitSettings::schema() {
                       {.fallback = "1e-3", .range = between(1e-10, 0.1)})
             .word("method", &ImplicitSettings::method, {"midpoint", "backwardEuler"}, "of second or of first order",
                   {.fallback = "midpoint"})
-            .word("preconditioner", &ImplicitSettings::preconditioner, {"twoLevel", "blockJacobi"},
-                  "of the solver: with or without the flow on a background grid", {.fallback = "twoLevel"});
+            .word("preconditioner", &ImplicitSettings::preconditioner, {"twoLevel", "withMembrane", "blockJacobi"},
+                  "of the solver: with the flow on a background grid, with that and the membranes, or without either",
+                  {.fallback = "twoLevel"});
     return s;
 }
 

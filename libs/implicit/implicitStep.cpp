@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "implicit/coarseGrid.hpp"
+#include "implicit/membraneCorrection.hpp"
 
 namespace corpuscle::implicit {
 
@@ -33,7 +34,7 @@ class Step final : public ImplicitStep {
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
           operators_(scene.model(), *scene.system, options.form) {
-        if (options.settings.preconditioner == "twoLevel")
+        if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
         if (scene.cells.empty()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
@@ -57,6 +58,7 @@ class Step final : public ImplicitStep {
                           fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
                                       "'implicit' of system/numerics.yaml",
                                       statistics.steps + 1, c.iterations));
+        statistics.innerIterations = membraneCorrection_.iterations();
         ++statistics.steps, statistics.iterations += c.iterations;
         statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
         finish(dt, share);
@@ -150,7 +152,7 @@ class Step final : public ImplicitStep {
     void factorise() {
         const std::size_t n = store().size();
         inverse_.resize(n);
-        for (std::size_t i = 0; i < n; ++i) inverse_[i] = static_cast<Real>(1 / diagonal(i));
+        for (std::size_t i = 0; i < n; ++i) inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / diagonal(i));
         if (grid_) placeOnGrid();
     }
     void placeOnGrid() {
@@ -164,7 +166,11 @@ class Step final : public ImplicitStep {
     double diagonal(std::size_t i) const {
         return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
     }
-    void precondition(const Field& r, Field& z) const {
+    void precondition(const Field& r, Field& z) {
+        if (immersed_ && options_.settings.preconditioner == "withMembrane") {
+            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
+            return;
+        }
         for (std::size_t i = 0; i < inverse_.size(); ++i)
             for (std::size_t k = 0; k < width; ++k) z[at(i) + k] = inverse_[i] * r[at(i) + k];
         if (grid_) grid_->add(scene_.system->comm(), r.data(), z.data());
@@ -282,6 +288,7 @@ class Step final : public ImplicitStep {
     bool backward_;
     sph::Operators<Real> operators_;
     std::unique_ptr<CoarseGrid> grid_;
+    MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
     Field guess_, residual_, correction_, inverse_;

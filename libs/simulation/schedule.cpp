@@ -223,7 +223,9 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         const double perStep = static_cast<double>(statistics.iterations) / static_cast<double>(std::max(1L, steps));
         record_.set("performance", "iterationsPerStep", perStep);
         record_.set("extremes", "mostIterations", statistics.mostIterations);
-        app_.log().info("implicit step: {:.1f} iterations per step, {} at most", perStep, statistics.mostIterations);
+        const double inner = static_cast<double>(statistics.innerIterations) / static_cast<double>(std::max(1L, steps));
+        app_.log().info("implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes",
+                        perStep, statistics.mostIterations, inner);
     }
     if (scene.coupling) record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
     if (!scene.cells.empty()) {
