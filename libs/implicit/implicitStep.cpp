@@ -57,7 +57,7 @@ class Step final : public ImplicitStep {
             throw Failure(ExitCode::numerics,
                           fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
                                       "'implicit' of system/numerics.yaml",
-                                      statistics.steps + 1, c.iterations));
+                                      state.steps + 1, c.iterations));
         statistics.innerIterations = membraneCorrection_.iterations();
         ++statistics.steps, statistics.iterations += c.iterations;
         statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);

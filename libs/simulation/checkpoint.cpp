@@ -173,9 +173,11 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.readReplicated<double>("bodies/" + body.name + "/state"));
     if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
-    // The sum over ranks is what counts: rank 0 takes it up.
-    if (!scene.cells.empty() && scene.system->decomposition().rank() == 0)
-        scene.putBack = file.attribute<std::int64_t>("guardMoves");
+    if (!scene.cells.empty()) {
+        const auto moves = file.attribute<std::int64_t>("guardMoves");
+        // The sum over ranks is what counts: rank 0 takes it up.
+        if (scene.system->decomposition().rank() == 0) scene.putBack = moves;
+    }
     if (file.sameRanks())
         scene.system->resume(file.readReplicated<double>("bricks"), file.attribute<std::int64_t>("rebuilds"));
     else

@@ -184,6 +184,21 @@ def test_implicit(folder):
     assert iterations["withMembrane"] <= iterations["twoLevel"] + 1 < 0.7 * iterations["blockJacobi"], iterations
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/integrator=implicit")
+    # Membrane viscosity slows the cell down; bonds break at the same step on any number of ranks, and the open cell goes on.
+    sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n"
+    slow = prepared(folder / "viscous", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + "  viscosity: {shear: 1e-8 N s/m}\n"})
+    swift = prepared(folder / "elastic", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet})
+    for case in (slow, swift):
+        run(case, "dmpFlow", ranks=2)
+    assert 0.05 < float(series(slow, "deformation")[-1][3]) < 0.98 * float(series(swift, "deformation")[-1][3])
+    whole = prepared(folder / "tearing", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.1}\n"})
+    losses = []
+    for ranks in (1, 2):
+        case = folder / f"tearing{ranks}"
+        shutil.copytree(whole, case)
+        run(case, "dmpFlow", ranks=ranks)
+        losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
+    assert losses[0] == losses[1] > 0, losses
     # Of second order in the step.
     D = []
     for step in (0.1, 0.05, 0.025):
