@@ -86,7 +86,9 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
     std::size_t nodes = 0;
     for (const TriangleMesh& mesh : meshes) {
         nodes += mesh.nodes.size();
-        for (const double volume : simulation::nodeVolumes(mesh.vertexAreas(), input.spacing())) nodeVolume += volume;
+        if (!input.numerics.isImmersed())
+            for (const double volume : simulation::nodeVolumes(mesh.vertexAreas(), input.spacing()))
+                nodeVolume += volume;
     }
     for (int k = 0; k < 3; ++k) {
         lattice *= count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
@@ -149,7 +151,8 @@ void checkDistances(Application& app, const Case& input, const utilities::Member
     check("two fluid particles", shortest.fluidFluid, leastDistance, true);
     check("fluid and wall particle", shortest.fluidWall, leastDistance, !members.walls.empty());
     check("fluid and body particle", shortest.fluidBody, leastDistance, !members.bodies.empty());
-    check("fluid particle and node", shortest.fluidNode, leastNodeDistance, !members.cells.empty());
+    check("fluid particle and node", shortest.fluidNode, leastNodeDistance,
+          !members.cells.empty() && !input.numerics.isImmersed());
     check("nodes of two cells", shortest.cellCell, leastCellDistance, members.cells.size() > 1);
     app.log().table({"shortest distance", "dx", "at least"}, rows);
 }
