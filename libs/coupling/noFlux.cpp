@@ -12,6 +12,11 @@ using particles::ParticleSystem;
 
 namespace {
 constexpr double reachInSpacings = 1, leastDistanceInSpacings = 0.05;
+
+// Sign of the distance on the particle's side.
+double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
+    return s.side[static_cast<std::size_t>(particle)] == cell.membrane.cell ? -1 : 1;
+}
 }
 
 geometry::TriangleGrid& NoFlux::surface(std::size_t c) {
@@ -54,7 +59,7 @@ void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidat
             const geometry::SurfacePoint at = grid.nearest(x);
             if (!at) continue;
             const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
-            near_.push_back({i, c, at, chi * chi, normal(cells_[c], at, x)});
+            near_.push_back({i, c, at, sideOf(s, i, cells_[c]), chi * chi, normal(cells_[c], at, x)});
         }
     }
 }
@@ -69,9 +74,9 @@ void NoFlux::keepSides(ParticleSystem& system) {
         const Vec3 middle = middleOf(cell);
         for (; k < near_.size() && near_[k].cell == c; ++k) {
             const auto i = static_cast<std::size_t>(near_[k].particle);
+            const double own = near_[k].side;
             const Vec3 x = imageNear(system.box(), s.position(i), middle);
             const geometry::SurfacePoint at = grid.nearest(x);
-            const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's side
             if (!at || own * at.distance >= least) continue;
             if (own * at.distance < 0) ++crossings_, deepest_ = std::max(deepest_, std::abs(at.distance));
             s.setPosition(i, s.position(i) + (at.point + own * least * normal(cell, at, x) - x));

@@ -23,8 +23,8 @@ class NoFlux {
     void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
     // Those that were found, with the velocity that nodes have now.
     template <class F>
-    void forNear(F&& f) const {  // f(particle, chi, normal, velocity of the membrane)
-        for (const Near& near : near_) f(near.particle, near.chi, near.normal, velocity(near));
+    void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
+        for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
     }
     // After particles and nodes have moved.
     void keepSides(particles::ParticleSystem& system);
@@ -38,7 +38,7 @@ class NoFlux {
         int particle;
         std::size_t cell;
         geometry::SurfacePoint at;
-        double chi;
+        double side, chi;
         Vec3 normal;
     };
     geometry::TriangleGrid& surface(std::size_t cell);

@@ -1,5 +1,5 @@
 // Moments of the neighbours of a particle, from which corrected operators are made (operators.hpp):
-//     C = sum_j V_j F x_ij                   = - sum_j V_j grad W: vanishes where particles lie evenly
+//     C = sum_j V_j F x_ij                   = - sum_j V_j grad W, x_ij = x_i - x_j: vanishes where particles lie evenly
 //     M = sum_j V_j F x_ij x_ij^T            the unit matrix on an ideal set
 //     sum_j V_j F,  sum_j V_j V_i F^2 r^2    of the diagonal of viscosity and of bulk stiffness
 //     sigma = sum_j V_j W
@@ -15,6 +15,7 @@ namespace corpuscle::sph {
 struct MomentConstants {
     double support = 0, normalisation = 0, gradientNormalisation = 0;
     double volume = 0;  // unit of the records' volumes [m^3]
+    double atSpacing = 1;  // kernel at one spacing, not normalised
 };
 
 template <class Kernel>
@@ -26,10 +27,12 @@ struct MomentPair {
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[sums]) const {
         const V volumes = i[3] * V(j[3]), slope = Kernel::template slope<V>(q), F = slope * volumes;
+        const V number = Kernel::template value<V>(q), ratio = number * V(1 / c.atSpacing), ratio2 = ratio * ratio,
+                repulsion = V(1.0) + V(0.2) * ratio2 * ratio2;
         V Fd[3];
         for (int k = 0; k < 3; ++k) {
             Fd[k] = F * d[k];
-            p[shift + k] = Fd[k];
+            p[shift + k] = Fd[k] * repulsion;
             p[second + k] = Fd[k] * d[k];
         }
         p[second + 3] = Fd[0] * d[1];
@@ -37,7 +40,7 @@ struct MomentPair {
         p[second + 5] = Fd[1] * d[2];
         p[strength] = F;
         p[square] = F * slope * q * q;
-        p[number] = Kernel::template value<V>(q) * volumes;
+        p[MomentPair::number] = number * volumes;
     }
 
     template <class V>

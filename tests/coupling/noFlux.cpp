@@ -89,7 +89,7 @@ class Sides : public ::testing::TestWithParam<int> {};
 TEST(NoFlux, findsWhatIsNearWithDistanceNormalAndVelocity) {
     Watched scene;
     std::map<int, Near> near;
-    scene.noFlux.forNear([&](int particle, double chi, const Vec3& normal, const Vec3& velocity) {
+    scene.noFlux.forNear([&](int particle, double, double chi, const Vec3& normal, const Vec3& velocity) {
         EXPECT_TRUE(near.insert({particle, {chi, normal, velocity}}).second) << "once";
     });
     double found = 0;
@@ -161,7 +161,7 @@ TEST(NoFlux, leavesAnOpenedCellAlone) {
     scene.noFlux.keepSides(*scene.system);
     EXPECT_EQ(before.x, scene.system->store().x);
     EXPECT_EQ(scene.crossings(), 0);
-    scene.noFlux.forNear([](int, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
+    scene.noFlux.forNear([](int, double, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
 }
 
 TEST(NoFlux, leavesWallParticlesAlone) {
@@ -169,5 +169,5 @@ TEST(NoFlux, leavesWallParticlesAlone) {
     ParticleStore& s = scene.system->store();
     for (std::int64_t& kind : s.kind) kind = static_cast<std::int64_t>(Kind::wall);
     scene.find();
-    scene.noFlux.forNear([](int, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
+    scene.noFlux.forNear([](int, double, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
 }
