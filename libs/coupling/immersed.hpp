@@ -32,8 +32,8 @@ class Immersed {
     void setVelocities(const Vectors& velocities);
     void restoreVolume();
 
-    // Throws Failure(numerics), on all ranks, where a node has no fluid around it. Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
-    // particle [m^3]. Collective.
+    // Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
+    // particle [m^3]. Collective. Throws Failure(numerics), on all ranks, where a node has no fluid around it.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
 
     // P S u, u of four numbers a particle. Collective.

@@ -54,8 +54,6 @@ class CoarseGrid {
     void spread(Real* z, const std::vector<int>* particles = all) const;
     std::span<double> values();  // on the nodes, component after component
 
-    const std::array<int, 3>& nodes() const { return count_; }
-
   private:
     using Complex = std::complex<double>;
     using Block = Eigen::Matrix3cd;

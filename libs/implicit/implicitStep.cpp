@@ -33,6 +33,7 @@ class Step final : public ImplicitStep {
         : scene_(scene),
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
+          withMembrane_(!scene.cells.empty() && options.settings.preconditioner == "withMembrane"),
           operators_(scene.model(), *scene.system, options.form) {
         if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
@@ -95,14 +96,12 @@ class Step final : public ImplicitStep {
         const sph::FluidModel& model = scene_.model();
         model.equationOfState->specificPressure(s.density.data(), pressure_.data(), static_cast<int>(n), model.density,
                                                 model.soundSpeed);
-        volumes_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
             pressure_[i] *= s.density[i] * s.density[i];
             bulk_[i] = model.equationOfState->bulkModulus(s.density[i], model.density, model.soundSpeed);
-            volumes_[i] = operators_.volume(i);
         }
         if (!immersed_) return;
-        immersed_->build(*scene_.system, volumes_);
+        immersed_->build(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
     }
 
@@ -118,7 +117,7 @@ class Step final : public ImplicitStep {
         }
         operators_.apply(*scene_.system, guess_,
                          [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
-        RealArray& force = force_ = operators_.force();
+        RealArray& force = operators_.force();
         if (immersed_) {
             load_ = immersed_->force();
             immersed_->addStiffness(time_, immersed_->velocities(), load_);  // of f(x) at x* + time (v - u_m)
@@ -136,19 +135,19 @@ class Step final : public ImplicitStep {
 
     void apply(const Field& z, Field& w) {
         operators_.apply(*scene_.system, z, [&](std::size_t i, double rate) { return -time_ * bulk_[i] * rate; });
-        force_ = operators_.force();
         if (immersed_) {
             Immersed::Vectors f(load_.size(), Vec3::Zero());
             immersed_->addResistance(time_, immersed_->interpolate(z.data()), f);
-            immersed_->spread(std::move(f), force_);
+            immersed_->spread(std::move(f), operators_.force());
         }
         const std::size_t n = store().size();
         for (std::size_t i = 0; i < n; ++i)
-            put(w, i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i) - vector(force_, i)));
+            put(w, i,
+                isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i) - vector(operators_.force(), i)));
     }
 
     // Diagonal blocks of the fluid, multiples of the unit matrix. Those of the membrane make it worse: near it they hold back all that is
-    // not smooth along it (benchmarks/RESULTS.md).
+    // not smooth along it (docs/implicit.md, Figures).
     void factorise() {
         const std::size_t n = store().size();
         inverse_.resize(n);
@@ -167,7 +166,7 @@ class Step final : public ImplicitStep {
         return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
     }
     void precondition(const Field& r, Field& z) {
-        if (immersed_ && options_.settings.preconditioner == "withMembrane") {
+        if (withMembrane_) {
             membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
             return;
         }
@@ -207,7 +206,6 @@ class Step final : public ImplicitStep {
             const Vec3 shift = strength * operators_.disorder(i);
             const double length = shift.norm();
             move_[i] = length > bound ? Vec3(bound / length * shift) : shift;
-            statistics.largestShift = std::max(statistics.largestShift, std::min(length, bound));
         }
         if (immersed_) {
             const Immersed::Vectors nodes = immersed_->interpolate(guess_.data());
@@ -285,15 +283,15 @@ class Step final : public ImplicitStep {
 
     Scene& scene_;
     Options options_;
-    bool backward_;
+    bool backward_, withMembrane_;
     sph::Operators<Real> operators_;
     std::unique_ptr<CoarseGrid> grid_;
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
     Field guess_, residual_, correction_, inverse_;
-    RealArray force_, pressure_;
-    std::vector<double> bulk_, volumes_;
+    RealArray pressure_;
+    std::vector<double> bulk_;
     std::vector<Vec3> move_;
     Immersed::Vectors load_;  // f(x*) + time k u_m
 };

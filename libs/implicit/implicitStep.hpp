@@ -61,10 +61,8 @@ class ImplicitStep {
     struct Statistics {
         long steps = 0, iterations = 0, mostIterations = 0;
         long innerIterations = 0;  // on the nodes, by membraneCorrection.hpp
-        double largestShift = 0;   // [m], of this rank
     };
     Statistics statistics;
-    coupling::Immersed* immersed() { return immersed_.get(); }
     const coupling::NoFlux* noFlux() const { return noFlux_.get(); }
 
     // The scene must stay where it is.

@@ -8,7 +8,7 @@
 // with cells only:
 // membraneEnergy                  | of all laws of all membranes                                                        | J
 // changedSide                     | fluid particles that are not where their `side` says, by geometry (cells.hpp)       | -
-// guardMoves                      | particles that the leakage guard has put back since the start; leak: both together  | -
+// guardMoves                      | particles put back to their side of a membrane since the start; leak: both together  | -
 // <cell>_area, <cell>_areaChange  | of the whole triangles; A/A(t = 0) - 1                                              | m^2, -
 // <cell>_volume, _volumeChange    | enclosed, holes closed by fans; V/V(t = 0) - 1                                      | m^3, -
 //

@@ -1,5 +1,5 @@
 // Moments of the neighbours of a particle, from which corrected operators are made (operators.hpp):
-//     C = sum_j V_j F x_ij                   = - sum_j V_j grad W: vanishes where particles lie evenly
+//     C = sum_j V_j F x_ij                   = - sum_j V_j grad W, x_ij = x_i - x_j: vanishes where particles lie evenly
 //     M = sum_j V_j F x_ij x_ij^T            the unit matrix on an ideal set
 //     sum_j V_j F,  sum_j V_j V_i F^2 r^2    of the diagonal of viscosity and of bulk stiffness
 //     sigma = sum_j V_j W

@@ -44,12 +44,6 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
 }
 
 template <class Real>
-std::size_t Operators<Real>::bytes() const {
-    return (momentRecords_.capacity() + rateRecords_.capacity() + stressRecords_.capacity()) * sizeof(Real) +
-           (sums_.capacity() + force_.capacity()) * sizeof(double);
-}
-
-template <class Real>
 void Operators<Real>::build(ParticleSystem& system) {
     const ParticleStore& s = system.store();
     const std::size_t n = s.size();

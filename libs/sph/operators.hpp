@@ -1,6 +1,6 @@
 // The operators of the fluid as the implicit step needs them: viscosity, divergence, and the transpose of the divergence.
 //
-//     B_i = (sum_j V_j F x_ij x_ij^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
+//     B_i = (sum_j V_j F d d^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
 //     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields
 //     (D^T V p)_i = -V_i sum_j V_j F (p_i B_i + p_j B_j) d                        force of the pressure p
 //     (L u)_i     = sum_j V_i V_j mu_ij F (1/S2_i + 1/S2_j) beta (u_i - u_j)      Morris' viscosity, with unit second moment
@@ -38,17 +38,18 @@ class Operators {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
         addStress(system);
     }
+    particles::RealArray& force() { return force_; }  // what else acts may be added, until the next application
     const particles::RealArray& force() const { return force_; }
     double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]
 
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
+    const std::vector<double>& volumes() const { return volume_; }
     bool isWall(std::size_t i) const { return wall_[i] != 0; }
-    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // sum_j V_j F x_ij [1/m]
+    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // -sum_j V_j F d [1/m]
     double evenness(std::size_t i) const { return evenness_[i]; }       // sum_j V_j W
     // Diagonal of L [N s/m], and of D^T V D [m], both as multiples of the unit matrix.
     double viscousDiagonal(std::size_t i) const { return viscous_[i]; }
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
-    std::size_t bytes() const;
 
   private:
     void findMoments(particles::ParticleSystem& system);
