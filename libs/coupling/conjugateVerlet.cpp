@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace corpuscle::coupling {
 
@@ -60,7 +61,7 @@ class Verlet final : public ConjugateVerlet {
             found.membrane = largestEigenvalue(iterations, [&] {
                 Immersed::Vectors f(immersed_->force().size(), Vec3::Zero());
                 immersed_->addViscousForces(nodeVelocities(), f);
-                spreadAlone(std::move(f));
+                spreadAlone(f);
                 return -1.0;
             });
         found.spring2 = largestEigenvalue(iterations, [&] { return springForces(); });
@@ -180,9 +181,9 @@ class Verlet final : public ConjugateVerlet {
     }
 
     // The force of nodes alone on the particles, in place of that of the fluid.
-    void spreadAlone(Immersed::Vectors f) {
+    void spreadAlone(const Immersed::Vectors& f) {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
-        immersed_->spread(std::move(f), operators_.force());
+        immersed_->spread(f, operators_.force());
     }
     // S^T P of the change of elastic force with a displacement along P S field_; by what it is to be multiplied to be -K P S field_.
     double springForces() {
@@ -195,7 +196,7 @@ class Verlet final : public ConjugateVerlet {
         Immersed::Vectors f = immersed_->forceAt(displacement);
         const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(f.size(), Vec3::Zero()));
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
-        spreadAlone(std::move(f));
+        spreadAlone(f);
         return -1 / scale;
     }
 

@@ -283,6 +283,14 @@ def test_conjugate(folder):
     run(parts, "dmpFlow", "-set", "system/control.yaml:/stop/firstBreak=true", code=5)
     run(parts, "dmpFlow")
     same_checkpoint(last_checkpoint(folder / "tearing1"), last_checkpoint(parts))
+    # Plain operators, and a thick inside, which slows the cell down.
+    thick = prepared(folder / "thick", CONJUGATE_CASE, **{
+        "system/numerics.yaml": CONJUGATE_CASE["system/numerics.yaml"].replace("corrected", "plain"),
+        "constant/membranes.yaml": CONJUGATE_CASE["constant/membranes.yaml"] + "  interior: {viscosityRatio: 5}\n"})
+    run(thick, "dmpFlow", ranks=2)
+    last = table(thick, "balance")[-1]
+    assert last["changedSide"] == 0 and abs(last["rbc_volumeChange"]) < 1e-12, last
+    assert 0.02 < table(thick, "deformation")[-1]["D12_inertia"] < 0.95 * table(cases[1], "deformation")[-1]["D12_inertia"]
     # Fluid alone, on either form of operators.
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/operators=corrected", "-set", "system/numerics.yaml:/shifting={coefficient: 1}")
