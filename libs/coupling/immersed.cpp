@@ -1,6 +1,7 @@
 #include "coupling/immersed.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -89,7 +90,7 @@ void Immersed::restoreVolume() {
     }
 }
 
-void Immersed::build(const ParticleSystem& system, const std::vector<double>& volume) {
+void Immersed::place(const ParticleSystem& system, const std::vector<double>& volume) {
     comm_ = system.comm();
     findEntries(system, volume);
     findWeights();
@@ -99,24 +100,32 @@ void Immersed::build(const ParticleSystem& system, const std::vector<double>& vo
         membrane::Membrane& m = cells_[c].membrane;
         m.force.assign(m.force.size(), Vec3::Zero());
         m.addElasticForces(m.position, m.force);
-        stiffness_[c].clear();
-        m.addStiffness(membrane::Definiteness::partwise, stiffness_[c]);
-        damping_[c].clear();
-        m.addDamping(damping_[c]);
         if (m.network().isOpen()) return;
         const Vectors g = membrane::volumeGradient(m.position, m.network().triangles());
         std::copy(g.begin(), g.end(), gradient_.begin() + static_cast<std::ptrdiff_t>(first));
     });
 }
 
+void Immersed::build(const ParticleSystem& system, const std::vector<double>& volume) {
+    place(system, volume);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const membrane::Membrane& m = cells_[c].membrane;
+        stiffness_[c].clear();
+        m.addStiffness(membrane::Definiteness::partwise, stiffness_[c]);
+        damping_[c].clear();
+        m.addDamping(damping_[c]);
+    }
+}
+
 void Immersed::findEntries(const ParticleSystem& system, const std::vector<double>& volume) {
     const particles::ParticleStore& s = system.store();
+    const double reach = radius_ + 0.5 * system.skin();  // particles are found by their places when lists were built
     first_.assign(1, 0);
     entries_.clear();
     for (const Cell& cell : cells_)
         for (const Vec3& x : cell.membrane.position) {
-            forImages(system, x, radius_, [&](const Vec3& image) {
-                system.forOwnedNear(image, radius_, [&](int i) {
+            forImages(system, x, reach, [&](const Vec3& image) {
+                system.forOwnedNear(image, reach, [&](int i) {
                     const Vec3 d = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
                     const double r2 = d.squaredNorm();
                     if (r2 < 1)
@@ -219,6 +228,27 @@ void Immersed::addResistance(double time, const Vectors& u, Vectors& f) const {
         if (cells_[c].membrane.isViscous())
             damping_[c].addProduct(-1, {u.data() + first, last - first}, {f.data() + first, last - first});
     });
+}
+
+bool Immersed::isViscous() const {
+    return std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.membrane.isViscous(); });
+}
+
+void Immersed::addViscousForces(const Vectors& u, Vectors& f) const {
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        if (cells_[c].membrane.isViscous())
+            cells_[c].membrane.addViscousForces({u.data() + first, last - first}, {f.data() + first, last - first});
+    });
+}
+
+Immersed::Vectors Immersed::forceAt(const Vectors& displacement) const {
+    Vectors f(nodes_, Vec3::Zero());
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        Vectors x = cells_[c].membrane.position;
+        for (std::size_t n = first; n < last; ++n) x[n - first] += displacement[n];
+        cells_[c].membrane.addElasticForces(x, {f.data() + first, last - first});
+    });
+    return f;
 }
 
 void Immersed::spread(Vectors f, particles::RealArray& force) const {

@@ -32,8 +32,10 @@ class Immersed {
     void setVelocities(const Vectors& velocities);
     void restoreVolume();
 
-    // Weights of the particles where they are now, forces and stiffness of the membranes where their nodes are now. volume: of each
-    // particle [m^3]. Collective. Throws Failure(numerics), on all ranks, where a node has no fluid around it.
+    // Weights of the particles and forces of the membranes, where particles and nodes are now. volume: of each particle [m^3].
+    // Collective. Throws Failure(numerics), on all ranks, where a node has no fluid around it.
+    void place(const particles::ParticleSystem& system, const std::vector<double>& volume);
+    // The same with the stiffness of the membranes.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
 
     // P S u, u of four numbers a particle. Collective.
@@ -42,6 +44,9 @@ class Immersed {
     Vectors force() const;                                                 // of the membranes [N]
     void addStiffness(double factor, const Vectors& u, Vectors& f) const;  // f += factor K u
     void addResistance(double time, const Vectors& u, Vectors& f) const;   // f -= (time K + C) u
+    bool isViscous() const;
+    void addViscousForces(const Vectors& u, Vectors& f) const;  // f -= C u, without build
+    Vectors forceAt(const Vectors& displacement) const;         // of the membranes' elasticity, nodes displaced [N]
     // force_j += (S^T P f)_j, of four numbers a particle.
     void spread(Vectors f, particles::RealArray& force) const;
 

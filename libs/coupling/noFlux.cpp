@@ -1,8 +1,11 @@
 #include "coupling/noFlux.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::coupling {
@@ -46,11 +49,25 @@ Vec3 NoFlux::velocity(const Near& near) const {
     return v;
 }
 
+void NoFlux::checkLength(const particles::Box& box, const Cell& cell) const {
+    Vec3 low = cell.membrane.position.front(), high = low;
+    for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (int k = 0; k < 3; ++k)
+        if (box.periodic[static_cast<std::size_t>(k)] &&
+            high[k] - low[k] > box.size()[k] - 2 * reachInSpacings * spacing_)
+            throw Failure(ExitCode::numerics,
+                          fmt::format("the cell '{}' has become {:.4g} m long along {} and comes within {} spacings of "
+                                      "its image in the periodic box: particles at its ends could no longer be told "
+                                      "from those at its image's. Start again with a longer box",
+                                      cell.membrane.name, high[k] - low[k], "xyz"[k], 2 * reachInSpacings));
+}
+
 void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidates) {
     const particles::ParticleStore& s = system.store();
     near_.clear();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         if (cells_[c].membrane.network().isOpen()) continue;
+        checkLength(system.box(), cells_[c]);
         const geometry::TriangleGrid& grid = surface(c);
         const Vec3 middle = middleOf(cells_[c]);
         for (const int i : candidates) {

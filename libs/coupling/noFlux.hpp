@@ -19,7 +19,8 @@ class NoFlux {
   public:
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 
-    // Which of `candidates`, particles of this rank, are near a membrane now.
+    // Which of `candidates`, particles of this rank, are near a membrane now. Throws Failure(numerics), on all ranks, where a closed cell
+    // is so long that a particle near it has two nearest images.
     void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
     // Those that were found, with the velocity that nodes have now.
     template <class F>
@@ -42,6 +43,7 @@ class NoFlux {
         Vec3 normal;
     };
     geometry::TriangleGrid& surface(std::size_t cell);
+    void checkLength(const particles::Box& box, const Cell& cell) const;
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "coupling/transport.hpp"
 #include "implicit/coarseGrid.hpp"
 #include "implicit/membraneCorrection.hpp"
 
@@ -18,8 +19,6 @@ using particles::ParticleStore;
 using particles::RealArray;
 
 namespace {
-
-constexpr double largestShiftInSpacings = 0.05;
 
 double sumOfAll(double value, MPI_Comm comm) {
     MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
@@ -34,7 +33,8 @@ class Step final : public ImplicitStep {
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
           withMembrane_(!scene.cells.empty() && options.settings.preconditioner == "withMembrane"),
-          operators_(scene.model(), *scene.system, options.form) {
+          operators_(scene.model(), *scene.system, options.form),
+          transport_(scene, options.shifting) {
         if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
         if (scene.cells.empty()) return;
@@ -197,31 +197,18 @@ class Step final : public ImplicitStep {
     void moveParticles(double dt, double share) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
-        move_.resize(n);
-        const double H = scene_.system->support(), bound = largestShiftInSpacings * scene_.spacing;
-        const double strength = options_.shifting ? *options_.shifting * H * H * scene_.flow.rate * dt : 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            move_[i].setZero();
-            if (strength == 0 || s.kindOf(i) != Kind::fluid) continue;
-            const Vec3 shift = strength * operators_.disorder(i);
-            const double length = shift.norm();
-            move_[i] = length > bound ? Vec3(bound / length * shift) : shift;
-        }
+        transport_.shift(operators_, dt);
         if (immersed_) {
             const Immersed::Vectors nodes = immersed_->interpolate(guess_.data());
             immersed_->move(-share * dt);
             immersed_->setVelocities(nodes);
-            noFlux_->forNear([&](int particle, double chi, const Vec3& normal, const Vec3& membrane) {
-                const auto i = static_cast<std::size_t>(particle);
-                const Vec3 along = move_[i] + dt * (get(guess_, i) - membrane);
-                move_[i] -= chi * along.dot(normal) * normal;
-            });
+            transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) { return get(guess_, i); });
             immersed_->move(dt);
             immersed_->restoreVolume();
         }
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 v = isFixed(i) ? s.velocity(i) : get(guess_, i), u = s.velocity(i);
-            s.setPosition(i, s.position(i) + dt * v - share * dt * u + move_[i]);
+            s.setPosition(i, s.position(i) + dt * v - share * dt * u + transport_[i]);
             const Vec3 a = (v - u) / h_;
             s.fx[i] = a[0], s.fy[i] = a[1], s.fz[i] = a[2];
             s.setVelocity(i, v);
@@ -292,7 +279,7 @@ class Step final : public ImplicitStep {
     Field guess_, residual_, correction_, inverse_;
     RealArray pressure_;
     std::vector<double> bulk_;
-    std::vector<Vec3> move_;
+    coupling::Transport transport_;
     Immersed::Vectors load_;  // f(x*) + time k u_m
 };
 

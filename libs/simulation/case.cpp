@@ -32,7 +32,7 @@ const Mark& placeOf(const Node& node, const std::string& key) {
     return node.isNothing() ? node.place() : node.mark;
 }
 
-constexpr double implicitBulk = 500;  // bulk modulus of the implicit step in units of mu gammadot
+constexpr double conjugateBulk = 500;  // bulk modulus of conjugate operators in units of mu gammadot
 
 }  // namespace
 
@@ -129,9 +129,9 @@ Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.doma
 double Case::soundSpeed() const {
     if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;
     const double nu = fluid.viscosity / flow.density;
-    if (numerics.isImplicit())  // volumes are kept exactly: the membrane's stiffness does not count
-        return std::sqrt(std::max(
-            {100 * flow.speed * flow.speed, implicitBulk * nu * flow.rate, 100 * flow.bodyForce.norm() * flow.length}));
+    if (isConjugate())  // volumes are kept exactly: the membrane's stiffness does not count
+        return std::sqrt(std::max({100 * flow.speed * flow.speed, conjugateBulk * nu * flow.rate,
+                                   100 * flow.bodyForce.norm() * flow.length}));
     double length = flow.length, square = flow.speed * flow.speed;
     for (const CellSettings& cell : mesh.cells) {
         const double a = cell.shape->radius();
@@ -153,6 +153,10 @@ sph::FluidModel Case::fluidModel() const {
             flow.density,          fluid.viscosity,
             soundSpeed(),          particleMass(),
             flow.bodyForce,        flow.walls};
+}
+
+bool Case::isConjugate() const {
+    return numerics.isImplicit() || numerics.operators == "corrected" || (numerics.isImmersed() && !mesh.cells.empty());
 }
 
 particles::Precision Case::precision() const {

@@ -42,6 +42,9 @@ struct Case {
     const bodies::BodySettings& bodyOf(const BodyPlaceSettings& place) const { return bodies.types.at(place.type()); }
     double densityOf(const BodyPlaceSettings& place) const { return bodyOf(place).density.value_or(flow.density); }
     bool varyingViscosity() const;
+    // Whether fluid and membranes are discretised by the conjugate operators of sph/operators.hpp: the implicit step, corrected
+    // operators, immersed membranes.
+    bool isConjugate() const;
 
     // Throws CaseError when there are problems, each at the line of its file where its key stands.
     void throwIfAny(const Problems& problems) const;

@@ -18,6 +18,7 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
 namespace {
 
 constexpr double leastBodyInSpacings = 3;
+constexpr double largestEdgeInSpacings = 2, imageMarginInSpacings = 2;  // immersed
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
@@ -67,23 +68,80 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
 void checkScheme(const Case& c, Problems& problems) {
     const Mark numerics{"system/numerics.yaml", 0, 0};
     const NumericsSettings& n = c.numerics;
-    if (!n.isImplicit()) {
-        if (n.isImmersed())
-            problems.add(
-                numerics, "coupling",
-                "found immersed, which goes with 'integrator: implicit'; write that, or coupling: dualIdentity");
-        if (n.operators == "corrected")
-            problems.add(numerics, "operators",
-                         "found corrected, which go with 'integrator: implicit'; write that, or operators: plain");
-        return;
-    }
-    if (!c.mesh.cells.empty() && !n.isImmersed())
+    const bool cells = !c.mesh.cells.empty(), corrected = n.operators == "corrected";
+    if (cells && n.isImplicit() && !n.isImmersed())
         problems.add(numerics, "coupling",
                      "found dualIdentity, which goes with 'integrator: velocityVerlet'; write coupling: immersed");
-    if (!c.mesh.bodies.empty())
+    if (cells && !n.isImplicit() && corrected && !n.isImmersed())
+        problems.add(numerics, "operators",
+                     "found corrected, which go with 'coupling: immersed'; write that, or operators: plain");
+    if (corrected && !n.shifting)
+        problems.add(numerics, "operators",
+                     "found corrected, which let particles clump without shifting; write 'shifting: {coefficient: 1}' "
+                     "beside it, or operators: plain");
+    if (c.mesh.bodies.empty() || !c.isConjugate()) return;
+    if (n.isImplicit())
         problems.add(numerics, "integrator",
                      "found implicit, but system/mesh.yaml has bodies, which move with 'integrator: velocityVerlet' "
                      "only; write that, or remove the bodies");
+    else
+        problems.add(numerics, corrected ? "operators" : "coupling",
+                     std::string("found ") + (corrected ? "corrected" : "immersed") +
+                         ", but system/mesh.yaml has bodies, which go with " +
+                         (cells ? "'coupling: dualIdentity' and " : "") +
+                         "'operators: plain' only; write that, or remove the bodies");
+}
+
+// Keys that mean nothing in the chosen scheme.
+void checkUnused(const Case& c, Problems& problems) {
+    const auto file = c.files.find("system/numerics.yaml");
+    if (file == c.files.end()) return;
+    const NumericsSettings& n = c.numerics;
+    const auto refuse = [&](const Node* written, const std::string& why) {
+        if (written)
+            problems.add(written->mark, written->path,
+                         "found " + written->scalar + ", which means nothing " + why + "; remove this key");
+    };
+    const std::string implicitStep = "with 'integrator: implicit', ";
+    if (n.isImplicit()) {
+        refuse(file->second.find("safety"), implicitStep + "where 'implicit.step' sets the step");
+        refuse(file->second.find("skin"), implicitStep + "where lists are built at every step");
+    }
+    if (n.isImplicit() || n.isImmersed())
+        refuse(file->second.find("guard"),
+               "with 'coupling: immersed', where particles are held to their side at every step");
+    const Node* shifting = file->second.find("shifting");
+    if (shifting && c.isConjugate())
+        refuse(shifting->find("steps"), std::string("with ") +
+                                            (n.isImplicit()               ? "'integrator: implicit'"
+                                             : n.operators == "corrected" ? "'operators: corrected'"
+                                                                          : "'coupling: immersed'") +
+                                            ", where particles are shifted at every step");
+}
+
+// What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
+void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    const double longest = largestEdgeInSpacings * c.spacing(), margin = imageMarginInSpacings * c.spacing();
+    if (cell.edge > longest)
+        problems.add(
+            mesh, key + ".edge",
+            "found " + formatQuantity(cell.edge, unit::metre) +
+                ", too coarse for 'coupling: immersed', which does not hold particles near the middle of large "
+                "triangles to their side; at most " +
+                formatQuantity(largestEdgeInSpacings, unit::none) + " dx, " + formatQuantity(longest, unit::metre));
+    const Vec3 half = 0.5 * cell.shape->box().sizes();
+    const Mat3 rotation = geometry::rotationFromZ(cell.axis);
+    for (int k = 0; k < 3; ++k) {
+        const double length = 2 * Vec3(rotation.row(k).transpose()).cwiseProduct(half).norm();
+        if (!c.mesh.domain.periodic[static_cast<std::size_t>(k)] || length <= c.mesh.domain.size[k] - margin) continue;
+        problems.add(mesh, key + ".shape",
+                     "the cell is " + formatQuantity(length, unit::metre) + " long along " + axisName(k) +
+                         ", where the box is periodic with " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
+                         ": with 'coupling: immersed' it must be shorter than the box by " +
+                         formatQuantity(imageMarginInSpacings, unit::none) + " dx at least; make the box " +
+                         formatQuantity(length + margin, unit::metre) + " or longer, or the cell smaller");
+    }
 }
 
 }  // namespace
@@ -136,7 +194,11 @@ void checkTogether(const Case& c, Problems& problems) {
                          {"constant/bodies.yaml", 0, 0}, problems);
         checkSurface(c, surface, problems);
     }
+    if (c.numerics.isImmersed())
+        for (std::size_t i = 0; i < c.mesh.cells.size(); ++i)
+            if (c.mesh.cells[i].shape) checkImmersed(c, c.mesh.cells[i], "cells[" + std::to_string(i) + "]", problems);
     checkScheme(c, problems);
+    checkUnused(c, problems);
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
         const auto type = c.membranes.types.find(cell.type());
         return type != c.membranes.types.end() && type->second.rupture;

@@ -114,8 +114,9 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",
                      {.fallback = "10", .range = nonNegative})
             .integer("densityBalance", &NumericsSettings::densityBalance,
-                     "steps between two balances of density against the volume of closed cells, 0 for none",
-                     {.fallback = "10", .range = nonNegative})
+                     "steps between two balances of density against the volume of closed cells, 0 for none; auto: 10, and "
+                     "1 with the implicit step",
+                     {.fallback = "auto", .range = nonNegative})
             .quantity("safety", &NumericsSettings::safety, unit::none,
                       "fraction of the viscous and the spring limit that a time step may take",
                       {.fallback = "0.95", .range = between(0.01, 1)});

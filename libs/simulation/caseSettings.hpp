@@ -52,9 +52,11 @@ struct NumericsSettings {
     std::optional<sph::ShiftingSettings> shifting;
     implicit::ImplicitSettings implicit;
     Length skin;
-    long guard = 10;           // steps between two looks of the leakage guard; 0: none
-    long densityBalance = 10;  // steps between two balances of density against volume; 0: none
-    double safety = 0.95;      // fraction of each limit that the step takes
+    long guard = 10;                       // steps between two looks of the leakage guard; 0: none
+    std::optional<long> densityBalance{};  // as written
+    double safety = 0.95;                  // fraction of each limit that the step takes
+    // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the pressure.
+    long balanceInterval() const { return densityBalance.value_or(isImplicit() ? 1 : 10); }
     bool isImplicit() const { return integrator == "implicit"; }
     bool isImmersed() const { return coupling == "immersed"; }
     static const Schema<NumericsSettings>& schema();

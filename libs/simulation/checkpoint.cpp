@@ -83,6 +83,9 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
         file.writeReplicated("implicit",
                              std::vector<double>{s.lastStep, s.lastSpacing, s.reference, static_cast<double>(s.steps)});
     }
+    if (!input.numerics.isImplicit() && input.isConjugate())
+        file.writeReplicated("conjugate",
+                             std::vector<std::int64_t>{static_cast<std::int64_t>(state.integrator.conjugateSteps)});
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.coupling) {
@@ -145,6 +148,15 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         const std::vector<double> s = file.readReplicated<double>("implicit");
         state.integrator.implicit = {s.at(0), s.at(1), s.at(2), std::lround(s.at(3))};
     }
+    if (!isImplicit && file.has("conjugate") != input.isConjugate()) {
+        const char* const was = scene.cells.empty() ? input.isConjugate() ? "operators: plain" : "operators: corrected"
+                                : input.isConjugate() ? "coupling: dualIdentity"
+                                                      : "coupling: immersed";
+        throw Failure(ExitCode::io, path.string() + " was written with '" + was +
+                                        "'; start from firstTime, or write that in system/numerics.yaml");
+    }
+    if (!isImplicit && file.has("conjugate"))
+        state.integrator.conjugateSteps = file.readReplicated<std::int64_t>("conjugate").at(0);
     state.observers = file.readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;

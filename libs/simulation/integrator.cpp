@@ -27,15 +27,15 @@ coupling::DensityBalance densityBalance(const Scene& scene) {
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     if (!input.numerics.isImplicit()) {
-        makeExplicit();
+        input.isConjugate() ? makeConjugate() : makeExplicit();
         return;
     }
     implicit::ImplicitStep::Options options;
     options.settings = input.numerics.implicit;
     if (input.numerics.operators == "plain") options.form = sph::OperatorForm::plain;
     if (input.numerics.shifting) options.shifting = input.numerics.shifting->coefficient;
-    if (input.numerics.densityBalance > 0) options.densityBalance = densityBalance(scene);
-    options.balanceInterval = input.numerics.densityBalance;
+    if (input.numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene);
+    options.balanceInterval = input.numerics.balanceInterval();
     implicit_ = implicit::ImplicitStep::make(scene, options);
 }
 
@@ -46,28 +46,42 @@ void Integrator::makeExplicit() {
     if (!scene.cells.empty()) {
         scene.coupling = std::make_unique<coupling::DualIdentity>(
             scene.cells, scene.spacing, densityBalance(scene),
-            coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.densityBalance});
+            coupling::DualIdentity::Intervals{input.numerics.guard, input.numerics.balanceInterval()});
         loads.push_back(scene.coupling.get());
     }
     if (scene.bodies) loads.push_back(scene.bodies.get());
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
 }
 
+void Integrator::makeConjugate() {
+    const NumericsSettings& numerics = input_.numerics;
+    coupling::ConjugateVerlet::Options options;
+    if (numerics.operators == "plain") options.form = sph::OperatorForm::plain;
+    if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
+    if (numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene_);
+    options.balanceInterval = numerics.balanceInterval();
+    conjugate_ = coupling::ConjugateVerlet::make(scene_, options);
+}
+
 Integrator::State Integrator::state(const Time& time) const {
-    return {viscousRate_, membraneRate_, springRate2_, time.dt,
-            implicit_ ? implicit_->state : implicit::ImplicitStep::State{}};
+    return {viscousRate_,
+            membraneRate_,
+            springRate2_,
+            time.dt,
+            implicit_ ? implicit_->state : implicit::ImplicitStep::State{},
+            conjugate_ ? conjugate_->steps() : 0};
 }
 
 void Integrator::start(Time& time) {
-    if (scheme_) {
-        scheme_->start();
-        estimateRates();
-    }
+    if (scheme_) scheme_->start();
+    if (conjugate_) conjugate_->start();
+    if (!implicit_) estimateRates();
     updateLimits(time);
 }
 
 void Integrator::resume(const State& state, Time& time) {
     if (scheme_) scheme_->resume();
+    if (conjugate_) conjugate_->resume(state.conjugateSteps, scene_.putBack);
     if (implicit_) implicit_->resume(state.implicit, scene_.putBack);
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
@@ -85,7 +99,11 @@ void Integrator::advance(Scene& scene, Time& time) {
         updateLimits(time);
         return;
     }
-    scheme_->advance(time.dt);
+    if (conjugate_) {
+        scene.broken = conjugate_->advance(time.dt);
+        if (conjugate_->noFlux()) scene.putBack = conjugate_->noFlux()->crossings();
+    } else
+        scheme_->advance(time.dt);
     if (scene.coupling) {
         scene.broken = scene.coupling->endStep(*scene.system, time.dt);
         scene.putBack = scene.coupling->guard().moves();
@@ -99,6 +117,12 @@ void Integrator::advance(Scene& scene, Time& time) {
 }
 
 void Integrator::estimateRates() {
+    if (conjugate_) {
+        const coupling::ConjugateVerlet::Rates rates = conjugate_->rates(powerIterations);
+        viscousRate_ = powerReserve * rates.viscous, membraneRate_ = powerReserve * rates.membrane;
+        springRate2_ = powerReserve * rates.spring2;
+        return;
+    }
     viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
     if (!scene_.coupling) return;
     membraneRate_ = powerReserve * scene_.coupling->membraneRate(*scene_.system, powerIterations);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/time.hpp"
+#include "coupling/conjugateVerlet.hpp"
 #include "coupling/scene.hpp"
 #include "implicit/implicitStep.hpp"
 #include "simulation/case.hpp"
@@ -23,6 +24,7 @@ class Integrator {
     struct State {
         double viscousRate = 0, membraneRate = 0, springRate2 = 0, dt = 0;
         implicit::ImplicitStep::State implicit;
+        long conjugateSteps = 0;
     };
     State state(const Time& time) const;
     void resume(const State& state, Time& time);  // after a restart
@@ -36,12 +38,14 @@ class Integrator {
 
   private:
     void makeExplicit();
+    void makeConjugate();
     void estimateRates();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
-    std::unique_ptr<sph::VelocityVerlet> scheme_;  // one of the two
+    std::unique_ptr<sph::VelocityVerlet> scheme_;  // one of the three
+    std::unique_ptr<coupling::ConjugateVerlet> conjugate_;
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;

@@ -131,7 +131,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     if (hasBodies) addBodies(input, scene);
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
-    if (input.numerics.shifting && !input.numerics.isImplicit())
+    if (input.numerics.shifting && !input.isConjugate())  // conjugate steps have their own, at every step
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
     return scene;

@@ -1,12 +1,12 @@
 // Moments of the neighbours of a particle, from which corrected operators are made (operators.hpp):
-//     C = sum_j V_j F x_ij                   = - sum_j V_j grad W, x_ij = x_i - x_j: vanishes where particles lie evenly
+//     R = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij,  x_ij = x_i - x_j: vanishes where particles lie evenly; shifting follows it
 //     M = sum_j V_j F x_ij x_ij^T            the unit matrix on an ideal set
 //     sum_j V_j F,  sum_j V_j V_i F^2 r^2    of the diagonal of viscosity and of bulk stiffness
 //     sigma = sum_j V_j W
-// with F = -W'(r)/r. All in one pass; what walls see of each other is meaningless.
+// with F = -W'(r)/r, dx the spacing. The second term of R holds off what is nearer than that (coupling/transport.hpp). All in one pass; what walls see of each other is meaningless.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V in units of `volume`
-// sums   | C (3), M (xx yy zz xy xz yz), sum V F, sum V V F^2 r^2, sigma; each times V_i until finished
+// sums   | R (3), M (xx yy zz xy xz yz), sum V F, sum V V F^2 r^2, sigma; each times V_i until finished
 #pragma once
 #include "particles/simd.hpp"
 
@@ -14,25 +14,26 @@ namespace corpuscle::sph {
 
 struct MomentConstants {
     double support = 0, normalisation = 0, gradientNormalisation = 0;
-    double volume = 0;  // unit of the records' volumes [m^3]
-    double atSpacing = 1;  // kernel at one spacing, not normalised
+    double volume = 0;     // unit of the records' volumes [m^3]
+    double atSpacing = 0;  // the kernel, as Kernel::value, at one spacing
 };
 
 template <class Kernel>
 struct MomentPair {
     static constexpr int fields = 4, sums = 12;
     enum Sum { shift = 0, second = 3, strength = 9, square = 10, number = 11 };
+    static constexpr double repulsion = 0.2;
     MomentConstants c;
 
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[sums]) const {
         const V volumes = i[3] * V(j[3]), slope = Kernel::template slope<V>(q), F = slope * volumes;
-        const V number = Kernel::template value<V>(q), ratio = number * V(1 / c.atSpacing), ratio2 = ratio * ratio,
-                repulsion = V(1.0) + V(0.2) * ratio2 * ratio2;
+        const V W = Kernel::template value<V>(q), ratio = W * V(1 / c.atSpacing), ratio2 = ratio * ratio,
+                push = V(1.0) + V(repulsion) * ratio2 * ratio2;
         V Fd[3];
         for (int k = 0; k < 3; ++k) {
             Fd[k] = F * d[k];
-            p[shift + k] = Fd[k] * repulsion;
+            p[shift + k] = Fd[k] * push;
             p[second + k] = Fd[k] * d[k];
         }
         p[second + 3] = Fd[0] * d[1];
@@ -40,7 +41,7 @@ struct MomentPair {
         p[second + 5] = Fd[1] * d[2];
         p[strength] = F;
         p[square] = F * slope * q * q;
-        p[MomentPair::number] = number * volumes;
+        p[number] = W * volumes;
     }
 
     template <class V>

@@ -36,7 +36,8 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
       kernels_(kernelsOf<Real>(model.kernel->kind(), varyingViscosity_)) {
     const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
     unitVolume_ = model.mass / model.density;
-    moments_ = {H, model.kernel->normalisation(H), gradient, unitVolume_};
+    const double atSpacing = model.kernel->value(system.spacing() / H);
+    moments_ = {H, model.kernel->normalisation(H), gradient, unitVolume_, atSpacing};
     viscousUnit_ = model.viscosity * gradient * unitVolume_ * unitVolume_;
     rateUnit_ = gradient * H * unitVolume_ * unitVolume_;
     wallScale_ = form == OperatorForm::plain ? 1 : 1 / model.kernel->secondMoment(H / system.spacing());

@@ -1,4 +1,4 @@
-// The operators of the fluid as the implicit step needs them: viscosity, divergence, and the transpose of the divergence.
+// Conjugate operators of the fluid: viscosity, divergence, and the transpose of the divergence.
 //
 //     B_i = (sum_j V_j F d d^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
 //     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields
@@ -45,8 +45,9 @@ class Operators {
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
     const std::vector<double>& volumes() const { return volume_; }
     bool isWall(std::size_t i) const { return wall_[i] != 0; }
-    double crowding(std::size_t i) const { return moment_[9][i]; }  // sum_j V_j F [1/m^2]
-    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // -sum_j V_j F d [1/m]
+    // Of momentPair.hpp:
+    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // R [1/m]
+    double crowding(std::size_t i) const { return moment_[9][i]; }      // sum_j V_j F [1/m^2]
     double evenness(std::size_t i) const { return evenness_[i]; }       // sum_j V_j W
     // Diagonal of L [N s/m], and of D^T V D [m], both as multiples of the unit matrix.
     double viscousDiagonal(std::size_t i) const { return viscous_[i]; }

@@ -1,4 +1,4 @@
-// Viscous force and divergence of a velocity, for the implicit step (operators.hpp):
+// Viscous force and divergence of a velocity (operators.hpp):
 //     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j mu_ij F (s_i + s_j) beta
 //     V_i (D u)_i = sum_j V_i V_j F (B_i d).(u_j - u_i),   d = x_j - x_i,  F = -W'(r)/r
 // beta is that of plane walls (wallPlanes.hpp); across a jump mu_ij is the harmonic mean, 1 where mu is uniform. Two wall particles do

@@ -164,6 +164,23 @@ TEST(NoFlux, leavesAnOpenedCellAlone) {
     scene.noFlux.forNear([](int, double, double, const Vec3&, const Vec3&) { ADD_FAILURE(); });
 }
 
+// The box is 8 spacings wide along y.
+TEST(NoFlux, refusesACellThatNearlyMeetsItsImage) {
+    Watched scene;
+    const auto widen = [&](double width) {
+        for (std::size_t n = 0; n < scene.start[0].size(); ++n)
+            scene.cells[0].membrane.position[n][1] = scene.start[0][n][1] * width / (2 * radius);
+    };
+    widen(5.9);
+    EXPECT_NO_THROW(scene.find());
+    widen(6.1);
+    EXPECT_THROW(scene.find(), Failure);
+    std::vector<char> alive(scene.cells[0].membrane.network().allBonds().size(), 1);
+    alive[3] = 0;
+    scene.cells[0].membrane.restore(alive);
+    EXPECT_NO_THROW(scene.find()) << "an opened cell is left alone";
+}
+
 TEST(NoFlux, leavesWallParticlesAlone) {
     Watched scene;
     ParticleStore& s = scene.system->store();

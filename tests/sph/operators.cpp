@@ -45,7 +45,7 @@ TEST_P(OperatorTest, momentsEqualThePlainDoubleLoop) {
     for (const double V : volume) evenness.push_back(V * W(0));
     for (const Pair& p : pairs) {
         evenness[p.i] += volume[p.j] * W(p.d.norm());
-        disorder[p.i] -= volume[p.j] * p.F * p.d;
+        disorder[p.i] -= volume[p.j] * p.F * (1 + 0.2 * std::pow(W(p.d.norm()) / W(system->spacing()), 4)) * p.d;
         const double mu = GetParam().varying ? all[p.i].viscosity : fluid.viscosity;
         viscous[p.i] += 2 * mu * volume[p.i] * volume[p.j] * p.F * scale[p.i];
         bulk[p.i] += volume[p.i] * volume[p.i] * volume[p.j] * p.F * p.F * p.d.squaredNorm() / 3;

@@ -72,10 +72,11 @@ VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), repl
                        rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
                        replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
 
+IMMERSED = replace(NUMERICS, "dualIdentity", "immersed")
+IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), IMMERSED]
+
+
 # The base case with a rigid sphere beside its cell.
-IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), replace(NUMERICS, "dualIdentity", "immersed")]
-
-
 def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, centre: [7, 0, 0] um}"):
     return [append(MESH, f"bodies:\n  - {place}\n"), rewrite(BODIES, bodies)]
 
@@ -233,10 +234,29 @@ CASES = [
     case("observerLooksTooRarely", replace(OBSERVERS, "0.02 strain", "2 strain"), OBSERVERS, "deformation", "deformation", "1.5 strain"),
 
     # What goes with which integrator
-    case("immersedWithVelocityVerlet", replace(NUMERICS, "dualIdentity", "immersed"), NUMERICS, "coupling", "immersed", "found immersed",
-         "'integrator: implicit'", "coupling: dualIdentity"),
-    case("correctedWithVelocityVerlet", append(NUMERICS, "operators: corrected\n"), NUMERICS, "operators", "corrected", "found corrected",
-         "'integrator: implicit'", "operators: plain"),
+    case("correctedWithDualIdentity", append(NUMERICS, "operators: corrected\nshifting: {}\n"), NUMERICS, "operators", "corrected",
+         "found corrected", "'coupling: immersed'", "operators: plain"),
+    case("correctedWithoutShifting", [IMMERSED, append(NUMERICS, "operators: corrected\n")], NUMERICS, "operators", "corrected",
+         "found corrected", "clump", "'shifting: {coefficient: 1}'", "operators: plain"),
+    case("correctedWithoutShiftingImplicit", [*IMPLICIT, append(NUMERICS, "operators: corrected\nshifting: none\n")], NUMERICS,
+         "operators", "corrected", "found corrected", "'shifting: {coefficient: 1}'"),
+    case("bodiesWithImmersed", [IMMERSED, *with_body("bead: {density: 1200 kg/m^3, motion: free}\n")], NUMERICS, "coupling", "immersed",
+         "found immersed", "has bodies", "'coupling: dualIdentity'", "remove the bodies"),
+    case("guardWithImmersed", [IMMERSED, append(NUMERICS, "guard: 10\n")], NUMERICS, "guard", "10", "found 10", "means nothing", "coupling: immersed",
+         "remove this key"),
+    case("guardWithImplicit", [*IMPLICIT, append(NUMERICS, "guard: 0\n")], NUMERICS, "guard", "0", "means nothing"),
+    case("safetyWithImplicit", [*IMPLICIT, append(NUMERICS, "safety: 0.5\n")], NUMERICS, "safety", "0.5", "means nothing",
+         "'integrator: implicit'", "implicit.step"),
+    case("skinWithImplicit", [*IMPLICIT, append(NUMERICS, "skin: 0.3 dx\n")], NUMERICS, "skin", "0.3 dx", "means nothing",
+         "'integrator: implicit'", "at every step"),
+    case("shiftingStepsWithImplicit", [*IMPLICIT, append(NUMERICS, "shifting: {steps: 10}\n")], NUMERICS, "shifting.steps", "10}",
+         "means nothing", "'integrator: implicit'", "shifted at every step"),
+    case("shiftingStepsWithCorrected", [IMMERSED, append(NUMERICS, "operators: corrected\nshifting: {coefficient: 1, steps: 10}\n")], NUMERICS,
+         "shifting.steps", "10}", "means nothing", "'operators: corrected'", "shifted at every step"),
+    case("edgeTooCoarseForImmersed", [IMMERSED, replace(NUMERICS, "spacing: 1 um", "spacing: 0.5 um"), replace(MESH, "0.8 um", "1.2 um")],
+         MESH, "cells[0].edge", "1.2 um", "too coarse", "coupling: immersed", "2 dx", "1 um"),
+    case("cellTooLongForImmersed", [IMMERSED, replace(MESH, "[20, 16, 16] um", "[9, 16, 16] um")], MESH, "cells[0].shape", "{type:",
+         "8 um long along x", "periodic with 9 um", "2 dx", "10 um or longer"),
     case("dualIdentityWithImplicit", replace(NUMERICS, "velocityVerlet", "implicit"), NUMERICS, "coupling", "dualIdentity",
          "found dualIdentity", "'integrator: velocityVerlet'", "coupling: immersed"),
     case("bodiesWithImplicit", [*IMPLICIT, *with_body("bead: {density: 1200 kg/m^3, motion: free}\n")], NUMERICS, "integrator",

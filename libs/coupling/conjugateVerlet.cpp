@@ -1,0 +1,250 @@
+#include "coupling/conjugateVerlet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "coupling/transport.hpp"
+
+namespace corpuscle::coupling {
+
+using particles::Kind;
+using particles::ParticleStore;
+using particles::RealArray;
+
+namespace {
+
+constexpr double probeInBonds = 1e-4;  // largest displacement of a difference of membrane forces
+
+double sumOfAll(double value, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
+    return value;
+}
+
+template <class Real>
+class Verlet final : public ConjugateVerlet {
+  public:
+    Verlet(Scene& scene, const Options& options)
+        : scene_(scene),
+          options_(options),
+          operators_(scene.model(), *scene.system, options.form),
+          transport_(scene, options.shifting) {
+        if (scene.cells.empty()) return;
+        immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
+        noFlux_ = std::make_unique<NoFlux>(scene.cells, scene.spacing);
+    }
+
+    void start() override {
+        ParticleStore& s = scene_.store();
+        for (auto* a : {&s.fx, &s.fy, &s.fz, &s.densityRate}) std::fill(a->begin(), a->end(), 0.0);
+        evaluate(0);
+        accelerate(0, 0);
+        if (immersed_) immersed_->setVelocities(nodeVelocities());
+    }
+
+    std::vector<RuptureEvent> advance(double dt) override {
+        const double half = 0.5 * dt;
+        drift(half);
+        if (scene_.system->mustRebuild()) scene_.system->rebuild();
+        evaluate(half);
+        accelerate(dt, half);
+        findMoves(dt);
+        drift(half);
+        move();
+        return endStep(dt);
+    }
+
+    Rates rates(int iterations) override {
+        Rates found;
+        found.viscous = largestEigenvalue(iterations, [&] {
+            operators_.apply(*scene_.system, field_, [](std::size_t, double) { return 0.0; });
+            return -1.0;
+        });
+        if (!immersed_) return found;
+        if (immersed_->isViscous())
+            found.membrane = largestEigenvalue(iterations, [&] {
+                Immersed::Vectors f(immersed_->force().size(), Vec3::Zero());
+                immersed_->addViscousForces(nodeVelocities(), f);
+                spreadAlone(f);
+                return -1.0;
+            });
+        found.spring2 = largestEigenvalue(iterations, [&] { return springForces(); });
+        return found;
+    }
+
+  private:
+    using Field = particles::AlignedVector<Real>;
+    static constexpr std::size_t width = 4;
+    static std::size_t at(std::size_t i) { return width * i; }
+
+    const ParticleStore& store() const { return scene_.store(); }
+    bool isFixed(std::size_t i) const { return operators_.isWall(i); }
+    Immersed::Vectors nodeVelocities() const { return immersed_->interpolate(field_.data()); }  // P S field_
+
+    void drift(double seconds) {
+        ParticleStore& s = scene_.store();
+        for (std::size_t i = 0; i < s.size(); ++i)
+            s.x[i] += seconds * s.u[i], s.y[i] += seconds * s.v[i], s.z[i] += seconds * s.w[i];
+        if (immersed_) immersed_->move(seconds);
+    }
+
+    // Forces and rates for u + extrapolation a and rho + extrapolation rhodot; the latter stays in the store.
+    void evaluate(double extrapolation) {
+        ParticleStore& s = scene_.store();
+        const std::size_t n = s.size();
+        for (std::size_t i = 0; i < n; ++i) s.density[i] += extrapolation * s.densityRate[i];
+        operators_.build(*scene_.system);
+        pressure_.resize(n), field_.resize(width * n);
+        const sph::FluidModel& model = scene_.model();
+        model.equationOfState->specificPressure(s.density.data(), pressure_.data(), static_cast<int>(n), model.density,
+                                                model.soundSpeed);
+        for (std::size_t i = 0; i < n; ++i) {
+            pressure_[i] *= s.density[i] * s.density[i];
+            put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
+        }
+        operators_.apply(*scene_.system, field_, [&](std::size_t i, double) { return pressure_[i]; });
+        if (!immersed_) return;
+        immersed_->place(*scene_.system, operators_.volumes());
+        noFlux_->find(*scene_.system, immersed_->touched());
+        Immersed::Vectors f = immersed_->force();
+        if (immersed_->isViscous()) immersed_->addViscousForces(nodeVelocities(), f);
+        immersed_->spread(std::move(f), operators_.force());
+    }
+
+    // Velocity and density from the forces found; what the walls feel. The density was extrapolated by `extrapolation`.
+    void accelerate(double dt, double extrapolation) {
+        ParticleStore& s = scene_.store();
+        const Vec3& g = scene_.model().bodyForce;
+        Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const double rate = -s.density[i] * operators_.divergence(i);
+            s.density[i] += dt * rate - extrapolation * s.densityRate[i];
+            s.densityRate[i] = rate;
+            const double* f = operators_.force().data() + at(i);
+            if (isFixed(i)) {
+                walls[scene_.model().walls.isUpper(s.position(i))] += Vec3(f[0], f[1], f[2]);
+                continue;
+            }
+            const double inverse = 1 / scene_.mass(i);
+            s.fx[i] = inverse * f[0] + g[0], s.fy[i] = inverse * f[1] + g[1], s.fz[i] = inverse * f[2] + g[2];
+            s.u[i] += dt * s.fx[i], s.v[i] += dt * s.fy[i], s.w[i] += dt * s.fz[i];
+            put(i, s.velocity(i));
+        }
+        scene_.forces->setWallForces(walls[0], walls[1]);
+    }
+
+    // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at the end of the
+    // step.
+    void findMoves(double dt) {
+        transport_.shift(operators_, dt);
+        if (!immersed_) return;
+        const Immersed::Vectors before = immersed_->velocities(), after = nodeVelocities();
+        Immersed::Vectors mean = after;
+        for (std::size_t m = 0; m < mean.size(); ++m) mean[m] = 0.5 * (before[m] + after[m]);
+        immersed_->setVelocities(mean);
+        const ParticleStore& s = store();
+        transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) -> Vec3 {  // mean over the step
+            return s.velocity(i) - 0.5 * dt * Vec3(s.fx[i], s.fy[i], s.fz[i]);
+        });
+        immersed_->setVelocities(after);
+    }
+
+    void move() {
+        ParticleStore& s = scene_.store();
+        for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + transport_[i]);
+        if (!immersed_) return;
+        immersed_->restoreVolume();
+        noFlux_->keepSides(*scene_.system);
+    }
+
+    // Rupture, density balance.
+    std::vector<RuptureEvent> endStep(double dt) {
+        ++steps_;
+        if (options_.densityBalance && steps_ % options_.balanceInterval == 0)
+            options_.densityBalance->apply(*scene_.system, scene_.cells);
+        std::vector<RuptureEvent> events;
+        for (Cell& cell : scene_.cells) {
+            if (!cell.membrane.canRupture()) continue;
+            std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
+            if (broken.empty()) continue;
+            cell.membrane.breakBonds(broken);
+            events.push_back({cell.membrane.cell, std::move(broken)});
+        }
+        return events;
+    }
+
+    // The force of nodes alone on the particles, in place of that of the fluid.
+    void spreadAlone(const Immersed::Vectors& f) {
+        std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
+        immersed_->spread(f, operators_.force());
+    }
+    // S^T P of the change of elastic force with a displacement along P S field_; by what it is to be multiplied to be -K P S field_.
+    double springForces() {
+        Immersed::Vectors displacement = nodeVelocities();
+        double longest = 0, bond = 0;
+        for (const Vec3& d : displacement) longest = std::max(longest, d.norm());
+        for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
+        const double scale = longest > 0 ? probeInBonds * bond / longest : 1;
+        for (Vec3& d : displacement) d *= scale;
+        Immersed::Vectors f = immersed_->forceAt(displacement);
+        const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(f.size(), Vec3::Zero()));
+        for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
+        spreadAlone(f);
+        return -1 / scale;
+    }
+
+    // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the operators' force,
+    // but for the factor that it returns.
+    template <class Image>
+    double largestEigenvalue(int iterations, Image&& image) {
+        const ParticleStore& s = store();
+        for (std::size_t i = 0; i < s.size(); ++i) put(i, isFixed(i) ? Vec3(Vec3::Zero()) : signs(s.id[i]));
+        double rate = 0, length = norm();
+        for (int it = 0; it < iterations && length > 0; ++it) {
+            for (Real& v : field_) v = static_cast<Real>(static_cast<double>(v) / length);
+            const double factor = image();
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                const double* f = operators_.force().data() + at(i);
+                put(i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(factor / scene_.mass(i) * Vec3(f[0], f[1], f[2])));
+            }
+            rate = length = norm();
+        }
+        return rate;
+    }
+    static Vec3 signs(std::int64_t id) {
+        Vec3 v;
+        for (int k = 0; k < 3; ++k) {
+            auto h = (static_cast<std::uint64_t>(id) * 3 + static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ull;
+            h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9ull;
+            v[k] = (h >> 40) % 2 ? 1.0 : -1.0;
+        }
+        return v;
+    }
+    double norm() const {
+        double sum = 0;
+        for (const Real v : field_) sum += static_cast<double>(v) * static_cast<double>(v);
+        return std::sqrt(sumOfAll(sum, scene_.system->comm()));
+    }
+
+    void put(std::size_t i, const Vec3& v) {
+        for (int k = 0; k < 3; ++k) field_[at(i) + static_cast<std::size_t>(k)] = static_cast<Real>(v[k]);
+        field_[at(i) + 3] = 0;
+    }
+
+    Scene& scene_;
+    Options options_;
+    sph::Operators<Real> operators_;
+    Field field_;  // velocities
+    RealArray pressure_;
+    Transport transport_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConjugateVerlet> ConjugateVerlet::make(Scene& scene, const Options& options) {
+    if (scene.system->precision() == particles::Precision::mixed)
+        return std::make_unique<Verlet<float>>(scene, options);
+    return std::make_unique<Verlet<double>>(scene, options);
+}
+
+}  // namespace corpuscle::coupling

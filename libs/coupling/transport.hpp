@@ -1,0 +1,61 @@
+// How particles move beside their velocity in one step: shifting, which keeps them even, less what would cross a membrane.
+//
+//     s_i = min(C H^2 gammadot dt, 0.3/sum_j V_j F) R_i,  |s_i| <= gammadot dt dx,    R_i = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij
+//     near a membrane: s_i - chi [(dt (u_i - u_m) + s_i^-).n] n,    s_i^-: s_i if it goes towards the membrane, else 0
+//
+// symbol   | meaning
+// C        | coefficient of the case; the strength is C per unit of strain. A step's share ends where a shift would overshoot
+// R        | disorder (sph/momentPair.hpp); the second term holds off pairs that are nearer than a spacing, which the gradient of a
+//          | smooth kernel alone would let close up: Monaghan, J. Comput. Phys. 159 (2000) 290; Lind et al., ibid. 231 (2012) 1499
+// chi, u_m | noFlux.hpp. What goes away from the membrane stays: else particles that have come near it would never leave
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "coupling/noFlux.hpp"
+#include "coupling/scene.hpp"
+#include "sph/operators.hpp"
+
+namespace corpuscle::coupling {
+
+class Transport {
+  public:
+    Transport(const Scene& scene, std::optional<double> coefficient) : scene_(scene), coefficient_(coefficient) {}
+
+    template <class Real>
+    void shift(const sph::Operators<Real>& operators, double dt) {
+        const particles::ParticleStore& s = scene_.store();
+        moves_.assign(s.size(), Vec3::Zero());
+        if (!coefficient_) return;
+        const double H = scene_.system->support(), strain = scene_.flow.rate * dt;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (s.kindOf(i) != particles::Kind::fluid) continue;
+            const double strength = std::min(*coefficient_ * H * H * strain, largestShare / operators.crowding(i));
+            const Vec3 along = strength * operators.disorder(i);
+            const double length = along.norm(), bound = largestInSpacings * strain * scene_.spacing;
+            moves_[i] = length > bound ? Vec3(bound / length * along) : along;
+        }
+    }
+
+    // velocity(i): of the particle, constant over the step.
+    template <class Velocity>
+    void holdAtMembranes(const NoFlux& noFlux, double dt, Velocity&& velocity) {
+        noFlux.forNear([&](int particle, double side, double chi, const Vec3& normal, const Vec3& membrane) {
+            const auto i = static_cast<std::size_t>(particle);
+            const double through = dt * (velocity(i) - membrane).dot(normal), shift = moves_[i].dot(normal);
+            moves_[i] -= chi * (through + (side * shift < 0 ? shift : 0)) * normal;
+        });
+    }
+
+    const Vec3& operator[](std::size_t i) const { return moves_[i]; }
+
+  private:
+    static constexpr double largestShare = 0.3, largestInSpacings = 1;
+
+    const Scene& scene_;
+    std::optional<double> coefficient_;
+    std::vector<Vec3> moves_;
+};
+
+}  // namespace corpuscle::coupling

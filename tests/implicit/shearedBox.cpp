@@ -1,0 +1,92 @@
+// A sheared box of disordered fluid between walls: plane Couette flow that particles must not disturb as they pass each other.
+// Lengths in spacings, density and viscosity 1.
+#include "implicit/implicitStep.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sph/samples.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::implicit;
+using particles::ParticleStore;
+using sph::testing::Particle;
+
+namespace {
+
+constexpr double support = 2.4, jitter = 0.2, stepStrain = 0.05;
+constexpr int strains = 20, strainsOfWindow = 2, layers = 3;
+const Index3 size{12, 12, 20 + 2 * layers};
+
+struct ShearedBox {
+    static constexpr double gap = 20, rate = 1, low = layers;
+    sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
+    coupling::Scene scene;
+    std::unique_ptr<ImplicitStep> step;
+
+    static Vec3 velocity(const Vec3& x) { return {rate * (x[2] - low - 0.5 * gap), 0, 0}; }
+
+    ShearedBox() {
+        model.viscosity = 1, model.soundSpeed = std::sqrt(500.0);  // bulk modulus 500 mu gammadot
+        model.walls = {2, low, low + gap, {velocity({0, 0, low}), velocity({0, 0, low + gap})}};
+        const particles::Box box = sph::testing::cube(size, true);
+        scene.system = std::make_unique<particles::ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{},
+                                                                   support, 0, 1.0, particles::Precision::full);
+        sph::testing::deal(particles(), *scene.system);
+        scene.fluidBox = box;
+        scene.fluidBox.low[2] = low, scene.fluidBox.high[2] = low + gap;
+        scene.spacing = 1;
+        scene.flow.rate = scene.flow.shearRate = rate;
+        scene.flow.velocity = velocity;
+        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
+        step = ImplicitStep::make(scene, {.settings = {.step = stepStrain, .tolerance = 1e-3},
+                                          .form = sph::OperatorForm::corrected,
+                                          .shifting = 1});
+    }
+
+    // Fluid off its lattice, walls on theirs.
+    std::vector<Particle> particles() const {
+        std::vector<Particle> all = sph::testing::lattice(size, jitter), places = sph::testing::lattice(size, 0);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const double z = places[i].x[2];
+            all[i].wall = z < low || z > low + gap;
+            if (all[i].wall) all[i].x = places[i].x;
+            all[i].u = all[i].wall ? model.walls.velocity[model.walls.isUpper(all[i].x)] : velocity(all[i].x);
+            all[i].density = all[i].mass = all[i].viscosity = 1;
+        }
+        return all;
+    }
+
+    // Mean force per area that drags on the two walls, in units of mu gammadot.
+    double stress() const {
+        const double both = scene.forces->wallForce(0)[0] - scene.forces->wallForce(1)[0];
+        return sph::testing::sumOverRanks(both) / (2 * size[0] * size[1]);
+    }
+    // Root mean square of what the velocity, that of the middle of the step, is off the flow, in units of that between the walls.
+    double noise(double dt) const {
+        const ParticleStore& s = scene.store();
+        double square = 0, count = 0;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (s.kindOf(i) != particles::Kind::fluid) continue;
+            const Vec3 middle = s.position(i) - 0.5 * dt * s.velocity(i);
+            square += (s.velocity(i) - velocity(middle)).squaredNorm(), count += 1;
+        }
+        return std::sqrt(sph::testing::sumOverRanks(square) / sph::testing::sumOverRanks(count)) / (rate * gap);
+    }
+};
+
+TEST(ShearedBox, stressAndVelocityStayThoseOfCouetteFlow) {
+    ShearedBox box;
+    const double dt = stepStrain / ShearedBox::rate;
+    for (int window = 0; window < strains / strainsOfWindow; ++window) {
+        const int steps = static_cast<int>(std::lround(strainsOfWindow / stepStrain));
+        double stress = 0;
+        for (int k = 0; k < steps; ++k) {
+            box.step->advance(dt);
+            stress += box.stress() / steps;
+            EXPECT_LT(box.noise(dt), 0.003);
+        }
+        EXPECT_NEAR(stress, 1, 0.003) << "strain " << (window + 1) * strainsOfWindow;
+    }
+}
+
+}  // namespace
