@@ -63,10 +63,29 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          "; move it towards the middle or make the box larger");
 }
 
+void checkRkl2(const Case& c, Problems& problems) {
+    const Mark numerics{"system/numerics.yaml", 0, 0};
+    if (!c.mesh.cells.empty())
+        problems.add(numerics, "integrator",
+                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has cells; write velocityVerlet, or "
+                     "implicit with coupling: immersed");
+    if (!c.mesh.bodies.empty())
+        problems.add(numerics, "integrator",
+                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet");
+    if (c.numerics.operators == "corrected")
+        problems.add(numerics, "operators",
+                     "found corrected, which 'integrator: rkl2' does not have; write operators: plain, or another "
+                     "integrator");
+}
+
 // Which integrator goes with which coupling and operators.
 void checkScheme(const Case& c, Problems& problems) {
     const Mark numerics{"system/numerics.yaml", 0, 0};
     const NumericsSettings& n = c.numerics;
+    if (n.isRkl2()) {
+        checkRkl2(c, problems);
+        return;
+    }
     if (!n.isImplicit()) {
         if (n.isImmersed())
             problems.add(

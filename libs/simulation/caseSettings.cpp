@@ -96,8 +96,8 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
         Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
             .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
-            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet", "implicit"}, "time integration",
-                  {.fallback = "velocityVerlet"})
+            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet", "rkl2", "implicit"},
+                  "time integration", {.fallback = "velocityVerlet"})
             .word("coupling", &NumericsSettings::coupling, {"dualIdentity", "immersed"},
                   "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them",
                   {.fallback = "dualIdentity"})
@@ -109,6 +109,7 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                   {.fallback = "double"})
             .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
             .table("implicit", &NumericsSettings::implicit, "the implicit step", {.fallback = "{}"})
+            .table("rkl2", &NumericsSettings::rkl2, "super-time-stepping", {.fallback = "{}"})
             .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",
                     {.fallback = "0.3 dx", .range = positive})
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",

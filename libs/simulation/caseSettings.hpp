@@ -8,6 +8,7 @@
 #include "sph/equationOfState.hpp"
 #include "sph/flow.hpp"
 #include "sph/kernel.hpp"
+#include "sph/rkl2.hpp"
 #include "sph/shifting.hpp"
 
 namespace corpuscle::simulation {
@@ -51,10 +52,12 @@ struct NumericsSettings {
     std::string integrator, coupling, operators, precision;
     std::optional<sph::ShiftingSettings> shifting;
     implicit::ImplicitSettings implicit;
+    sph::Rkl2Settings rkl2;
     Length skin;
     long guard = 10;           // steps between two looks of the leakage guard; 0: none
     long densityBalance = 10;  // steps between two balances of density against volume; 0: none
     double safety = 0.95;      // fraction of each limit that the step takes
+    bool isRkl2() const { return integrator == "rkl2"; }
     bool isImplicit() const { return integrator == "implicit"; }
     bool isImmersed() const { return coupling == "immersed"; }
     static const Schema<NumericsSettings>& schema();

@@ -1,5 +1,7 @@
 #include "simulation/integrator.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +14,7 @@ using coupling::Scene;
 namespace {
 constexpr int powerIterations = 25;
 constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
-constexpr long stepsPerEstimate = 1000;
+constexpr long stepsPerEstimate = 1000, rkl2StepsPerEstimate = 100;
 constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25;
 constexpr double largestDensityChange = 0.5;
 
@@ -27,7 +29,10 @@ coupling::DensityBalance densityBalance(const Scene& scene) {
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     if (!input.numerics.isImplicit()) {
-        makeExplicit();
+        if (input.numerics.isRkl2())
+            makeRkl2();
+        else
+            makeExplicit();
         return;
     }
     implicit::ImplicitStep::Options options;
@@ -53,6 +58,12 @@ void Integrator::makeExplicit() {
     scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
 }
 
+void Integrator::makeRkl2() {
+    auto rkl2 = std::make_unique<sph::Rkl2>(*scene_.system, *scene_.forces, scene_.shifting.get());
+    rkl2_ = rkl2.get();
+    scheme_ = std::move(rkl2);
+}
+
 Integrator::State Integrator::state(const Time& time) const {
     return {viscousRate_, membraneRate_, springRate2_, time.dt,
             implicit_ ? implicit_->state : implicit::ImplicitStep::State{}};
@@ -72,6 +83,7 @@ void Integrator::resume(const State& state, Time& time) {
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
+    if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     updateLimits(time);
     time.dt = state.dt;
 }
@@ -91,7 +103,7 @@ void Integrator::advance(Scene& scene, Time& time) {
         scene.putBack = scene.coupling->guard().moves();
     }
     time.advance(time.dt);
-    if (time.step % stepsPerEstimate == 0) estimateRates();
+    if (time.step % (rkl2_ ? rkl2StepsPerEstimate : stepsPerEstimate) == 0) estimateRates();
     if (scene.system->rebuilds() != rebuilds_) {
         checkState(time);
         updateLimits(time);
@@ -100,6 +112,7 @@ void Integrator::advance(Scene& scene, Time& time) {
 
 void Integrator::estimateRates() {
     viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
+    if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     if (!scene_.coupling) return;
     membraneRate_ = powerReserve * scene_.coupling->membraneRate(*scene_.system, powerIterations);
     springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
@@ -121,7 +134,10 @@ void Integrator::updateLimits(Time& time) {
 
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
     limits_.all.clear();
-    if (viscousRate_ > 0) limits_.add("viscous", safety / viscousRate_);
+    if (rkl2_)
+        addRkl2Limits();
+    else if (viscousRate_ > 0)
+        limits_.add("viscous", safety / viscousRate_);
     const double drag = viscousRate_ + membraneRate_;
     if (membraneRate_ > 0) limits_.add("membrane viscosity", safety / drag);
     limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
@@ -129,7 +145,18 @@ void Integrator::updateLimits(Time& time) {
     if (springRate2_ > 0)
         limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(drag * drag + springRate2_) - drag));
     time.dt = limits_.binding().seconds;
+    if (rkl2_) limits_.stages = rkl2_->stages(time.dt);
     rebuilds_ = scene_.system->rebuilds();
+}
+
+void Integrator::addRkl2Limits() {
+    const sph::Rkl2Settings& settings = input_.numerics.rkl2;
+    const double rate = viscousRate_ / input_.numerics.safety;
+    if (rate > 0)
+        limits_.add(fmt::format("viscous, {} stages", settings.stages),
+                    sph::LegendreStages::reach(static_cast<int>(settings.stages)) / rate);
+    if (input_.flow.transient > 0)
+        limits_.add("start-up", input_.flow.transient / static_cast<double>(settings.startUp));
 }
 
 void Integrator::checkState(const Time& time) const {

@@ -9,6 +9,7 @@
 #include "coupling/scene.hpp"
 #include "implicit/implicitStep.hpp"
 #include "simulation/case.hpp"
+#include "sph/rkl2.hpp"
 #include "sph/stepLimits.hpp"
 #include "sph/velocityVerlet.hpp"
 
@@ -36,12 +37,15 @@ class Integrator {
 
   private:
     void makeExplicit();
+    void makeRkl2();
     void estimateRates();
+    void addRkl2Limits();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
-    std::unique_ptr<sph::VelocityVerlet> scheme_;  // one of the two
+    std::unique_ptr<sph::ExplicitScheme> scheme_;  // one of the two
+    sph::Rkl2* rkl2_ = nullptr;                    // that scheme, where it is one
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;

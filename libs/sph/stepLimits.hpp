@@ -27,6 +27,7 @@ struct StepLimit {
 
 struct StepLimits {
     std::vector<StepLimit> all;  // with safety factors; those that the scene lacks are absent
+    int stages = 0;              // that the step taken needs, of rkl2.hpp alone
     void add(std::string name, double seconds) { all.push_back({std::move(name), seconds}); }
     StepLimit binding() const {
         StepLimit least;

@@ -1,0 +1,46 @@
+// What each integrator would cost on a case, predicted from the case alone, and which one `integrator: automatic` takes: the cheapest
+// of those that can do the case.
+//
+//     cost per unit of strain = passes per step/(gammadot dt)              where the flow has no shear rate: per second, passes/dt
+//
+// A pass is one evaluation of the fluid's pair law for every particle. dt is the smallest limit of the step (sph/stepLimits.hpp), with the
+// viscous rate of a lattice in place of power iterations, the speed of the flow in place of that of its particles, and an estimate of
+// the membrane's spring rate.
+//
+//     integrator     | passes per step
+//     velocityVerlet | 1
+//     rkl2           | s + 1, s the stages that dt needs
+//     implicit       | implicitOverhead + implicitIterations x passesPerIteration
+// Measured constants (docs/theory/timeStep.md says how); a prediction is good to a factor of two.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "simulation/case.hpp"
+#include "sph/stepLimits.hpp"
+
+namespace corpuscle::simulation {
+
+struct PassCosts {
+    static constexpr double implicitOverhead = 1.5, implicitIterations = 10, passesPerIteration = 2;
+    static constexpr double implicitStepsPerTransient = 8;  // fewer do not follow a flow that changes by itself
+};
+
+struct IntegratorCost {
+    std::string name;
+    std::string obstacle;  // why the case cannot use it; empty: it can
+    sph::StepLimit step;   // the binding limit
+    double passes = 0;     // a step
+    double cost = 0;       // passes per unit of strain, or per second
+};
+
+// One entry for each integrator, in the order of the table above.
+std::vector<IntegratorCost> predictCosts(const Case& input);
+// The name of the cheapest that the case can use; empty where there is none.
+std::string cheapest(const std::vector<IntegratorCost>& costs);
+
+// For checkCase and the log.
+std::vector<std::string> costHeader(const Case& input);
+std::vector<std::vector<std::string>> costRows(const Case& input);
+
+}  // namespace corpuscle::simulation
