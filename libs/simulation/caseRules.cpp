@@ -78,10 +78,28 @@ void checkRkl2(const Case& c, Problems& problems) {
                      "integrator");
 }
 
-// Which integrator goes with which coupling and operators.
+// Some integrator has to be left.
+void checkAutomatic(const Case& c, Problems& problems) {
+    std::string all;
+    for (const char* name : {"velocityVerlet", "rkl2", "implicit"}) {
+        const std::string why = obstacle(c, name);
+        if (why.empty()) return;
+        all += (all.empty() ? "" : "; ") + std::string(name) + ": " + why;
+    }
+    problems.add({"system/numerics.yaml", 0, 0}, "integrator",
+                 "found automatic, but no integrator can do this case (" + all +
+                     "); name the one that is to do it, and follow what that message says");
+}
+
+}  // namespace
+
 void checkScheme(const Case& c, Problems& problems) {
     const Mark numerics{"system/numerics.yaml", 0, 0};
     const NumericsSettings& n = c.numerics;
+    if (n.isAutomatic()) {
+        checkAutomatic(c, problems);
+        return;
+    }
     if (n.isRkl2()) {
         checkRkl2(c, problems);
         return;
@@ -105,7 +123,20 @@ void checkScheme(const Case& c, Problems& problems) {
                      "only; write that, or remove the bodies");
 }
 
-}  // namespace
+std::string obstacle(const Case& c, const std::string& integrator) {
+    Case named = c;
+    named.numerics.integrator = integrator;
+    Problems problems;
+    checkScheme(named, problems);
+    try {
+        problems.throwIfAny();
+    } catch (const CaseError& error) {
+        const Problem& first = error.problems().front();
+        const std::string reason = first.message.substr(0, first.message.find(';'));
+        return first.key == "integrator" ? reason : first.key + ": " + reason;
+    }
+    return "";
+}
 
 void checkTogether(const Case& c, Problems& problems) {
     const int wall = c.flowModel->wallAxis();

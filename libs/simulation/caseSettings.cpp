@@ -96,8 +96,9 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
         Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
             .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
-            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet", "rkl2", "implicit"},
-                  "time integration", {.fallback = "velocityVerlet"})
+            .word("integrator", &NumericsSettings::integrator, {"automatic", "velocityVerlet", "rkl2", "implicit"},
+                  "time integration; automatic: the cheapest by the prediction that checkCase prints",
+                  {.fallback = "velocityVerlet"})
             .word("coupling", &NumericsSettings::coupling, {"dualIdentity", "immersed"},
                   "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them",
                   {.fallback = "dualIdentity"})

@@ -57,6 +57,7 @@ struct NumericsSettings {
     long guard = 10;           // steps between two looks of the leakage guard; 0: none
     long densityBalance = 10;  // steps between two balances of density against volume; 0: none
     double safety = 0.95;      // fraction of each limit that the step takes
+    bool isAutomatic() const { return integrator == "automatic"; }
     bool isRkl2() const { return integrator == "rkl2"; }
     bool isImplicit() const { return integrator == "implicit"; }
     bool isImmersed() const { return coupling == "immersed"; }

@@ -12,21 +12,13 @@ namespace corpuscle::simulation {
 
 namespace {
 
-// In words, from the rules between files; empty where the case may name it. Only what the integrator is to blame for.
-std::string ruledOut(const Case& input, const std::string& integrator) {
-    Case named = input;
-    named.numerics.integrator = integrator;
-    Problems problems;
-    checkScheme(named, problems);
-    return problems.empty() ? "" : problems.first().reason();
-}
-
-// Largest eigenvalue of the viscous operator per mass on a lattice [1/s].
+// Largest eigenvalue of the viscous operator per mass [1/s].
 double viscousRate(const Case& c) {
     double viscosity = c.fluid.viscosity;
     for (const CellSettings& cell : c.mesh.cells)
         viscosity = std::max(viscosity, c.fluid.viscosity * c.membraneOf(cell).interior.viscosityRatio);
     const double dx = c.spacing();
+    if (c.flow.walls.exist()) viscosity *= PassCosts::wallRate;
     return c.numerics.kernel->viscousRate(c.support() / dx) * viscosity / (c.flow.density * dx * dx);
 }
 
@@ -43,7 +35,7 @@ double springRate2(const Case& c) {
     return most;
 }
 
-sph::StepLimits limitsOf(const Case& c) {
+sph::StepLimits limitsOf(const Case& c, double t) {
     sph::StepLimits limits;
     if (c.numerics.isImplicit()) {
         limits.add("accuracy", c.numerics.implicit.step / c.flow.rate);
@@ -51,10 +43,11 @@ sph::StepLimits limitsOf(const Case& c) {
     }
     const double rate = viscousRate(c) / c.numerics.safety, h = 0.5 * c.support();
     if (c.numerics.isRkl2())
-        sph::addLimits(c.numerics.rkl2, rate, c.flow.transient, limits);
+        c.numerics.rkl2.addLimits(c.flow, t, rate, limits);
     else
         limits.add("viscous", 1 / rate);
-    limits.add("acoustic", sph::acousticStep(h, c.soundSpeed() + c.flow.speed));
+    limits.add("acoustic", (c.numerics.isRkl2() ? sph::Rkl2::acousticReach : 1) *
+                               sph::acousticStep(h, c.soundSpeed() + c.flow.speed));
     if (!c.flow.bodyForce.isZero()) limits.add("body force", sph::bodyForceStep(h, c.flow.bodyForce.norm()));
     if (!c.mesh.cells.empty())
         limits.add("spring", c.numerics.safety * sph::springStep(viscousRate(c), springRate2(c)));
@@ -63,32 +56,50 @@ sph::StepLimits limitsOf(const Case& c) {
 
 double passes(const Case& c, double dt) {
     if (c.numerics.isImplicit())
-        return PassCosts::implicitOverhead + PassCosts::implicitIterations * PassCosts::passesPerIteration;
+        return PassCosts::implicitOverhead +
+               PassCosts::passesPerIteration *
+                   (c.mesh.cells.empty() ? PassCosts::iterations : PassCosts::iterationsWithCells);
     return c.numerics.isRkl2() ? sph::LegendreStages::needed(viscousRate(c) / c.numerics.safety * dt) + 1 : 1;
 }
 
-// The step of the case is an order too long for what it does between rest and its end.
+// A step that does not follow what the flow does by itself.
 std::string tooLong(const Case& c, double dt) {
     const double longest = c.flow.transient / PassCosts::implicitStepsPerTransient;
     if (!c.numerics.isImplicit() || c.flow.transient == 0 || dt <= longest) return "";
-    return fmt::format("steps of {} pass over what the flow does from its start, in {}; implicit.step up to {:.2g} would not",
-                       formatQuantity(dt, unit::second), formatQuantity(c.flow.transient, unit::second),
-                       longest * c.flow.rate);
+    return fmt::format("its steps do not follow the flow, which changes within {}; implicit.step at most {:.2g} would",
+                       formatQuantity(c.flow.transient, unit::second), longest * c.flow.rate);
+}
+
+// Steps and passes of the whole run. Steps grow at first where the flow settles, and are then as long as at its end.
+void countPasses(const Case& c, IntegratorCost& cost) {
+    const double end = duration(c), last = limitsOf(c, end).binding().seconds;
+    double t = 0, dt = limitsOf(c, 0).binding().seconds;
+    while (t < end && dt < last) {
+        cost.steps += 1, cost.passes += passes(c, dt);
+        t += dt;
+        dt = limitsOf(c, t).binding().seconds;
+    }
+    const double rest = std::max(0.0, end - t) / last;
+    cost.steps += rest, cost.passes += rest * passes(c, last);
 }
 
 }  // namespace
+
+double duration(const Case& c) {
+    return c.control.endTime ? *c.control.endTime : *c.control.endStrain / c.flow.shearRate;
+}
 
 std::vector<IntegratorCost> predictCosts(const Case& input) {
     std::vector<IntegratorCost> costs;
     for (const char* name : {"velocityVerlet", "rkl2", "implicit"}) {
         IntegratorCost& cost = costs.emplace_back();
         cost.name = name;
-        cost.obstacle = ruledOut(input, name);
+        cost.obstacle = obstacle(input, name);
         Case named = input;
         named.numerics.integrator = name;
-        cost.step = limitsOf(named).binding();
-        cost.passes = passes(named, cost.step.seconds);
-        cost.cost = cost.passes / cost.step.seconds / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);
+        cost.step = limitsOf(named, 0.5 * duration(input)).binding();
+        countPasses(named, cost);
+        cost.cost = cost.passes / duration(input) / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);
         if (cost.obstacle.empty()) cost.obstacle = tooLong(named, cost.step.seconds);
     }
     return costs;
@@ -102,8 +113,12 @@ std::string cheapest(const std::vector<IntegratorCost>& costs) {
 }
 
 std::vector<std::string> costHeader(const Case& input) {
-    return {"integrator", "step", "limited by", "passes a step",
-            input.flow.shearRate > 0 ? "passes per unit of strain" : "passes per second", ""};
+    return {"integrator",
+            "step",
+            "limited by",
+            "passes a step",
+            input.flow.shearRate > 0 ? "passes per unit of strain" : "passes per second",
+            ""};
 }
 
 std::vector<std::vector<std::string>> costRows(const Case& input) {
@@ -113,7 +128,7 @@ std::vector<std::vector<std::string>> costRows(const Case& input) {
         if (cost.name == input.numerics.integrator)
             note = (input.integratorChosen ? "taken" : "named by the case") + (note.empty() ? "" : ": " + note);
         rows.push_back({cost.name, formatQuantity(cost.step.seconds, unit::second), cost.step.name,
-                        fmt::format("{:.3g}", cost.passes), fmt::format("{:.3g}", cost.cost), note});
+                        fmt::format("{:.3g}", cost.passes / cost.steps), fmt::format("{:.3g}", cost.cost), note});
     }
     return rows;
 }

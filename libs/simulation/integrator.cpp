@@ -1,7 +1,5 @@
 #include "simulation/integrator.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +13,6 @@ namespace {
 constexpr int powerIterations = 25;
 constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
 constexpr long stepsPerEstimate = 1000, rkl2StepsPerEstimate = 100;
-constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25;
 constexpr double largestDensityChange = 0.5;
 
 coupling::DensityBalance densityBalance(const Scene& scene) {
@@ -26,6 +23,16 @@ coupling::DensityBalance densityBalance(const Scene& scene) {
     return {volume, scene.model().density, scene.model().mass};
 }
 }  // namespace
+
+std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits) {
+    const std::string stages = limits.stages > 0 ? ": " + std::to_string(limits.stages) + " stages" : "";
+    const std::string binding = limits.binding().name;
+    std::vector<std::vector<std::string>> rows;
+    for (const sph::StepLimit& limit : limits.all)
+        rows.push_back(
+            {limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" + stages : ""});
+    return rows;
+}
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     if (!input.numerics.isImplicit()) {
@@ -107,7 +114,8 @@ void Integrator::advance(Scene& scene, Time& time) {
     if (scene.system->rebuilds() != rebuilds_) {
         checkState(time);
         updateLimits(time);
-    }
+    } else if (rkl2_)
+        updateLimits(time);
 }
 
 void Integrator::estimateRates() {
@@ -135,28 +143,18 @@ void Integrator::updateLimits(Time& time) {
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
     limits_.all.clear();
     if (rkl2_)
-        addRkl2Limits();
+        input_.numerics.rkl2.addLimits(input_.flow, time.t, viscousRate_ / safety, limits_);
     else if (viscousRate_ > 0)
         limits_.add("viscous", safety / viscousRate_);
     const double drag = viscousRate_ + membraneRate_;
     if (membraneRate_ > 0) limits_.add("membrane viscosity", safety / drag);
-    limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
-    if (!model.bodyForce.isZero()) limits_.add("body force", bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
-    if (springRate2_ > 0)
-        limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(drag * drag + springRate2_) - drag));
+    limits_.add("acoustic",
+                (rkl2_ ? sph::Rkl2::acousticReach : 1) * sph::acousticStep(h, model.soundSpeed + std::sqrt(most)));
+    if (!model.bodyForce.isZero()) limits_.add("body force", sph::bodyForceStep(h, model.bodyForce.norm()));
+    if (springRate2_ > 0) limits_.add("spring", safety * sph::springStep(drag, springRate2_));
     time.dt = limits_.binding().seconds;
     if (rkl2_) limits_.stages = rkl2_->stages(time.dt);
     rebuilds_ = scene_.system->rebuilds();
-}
-
-void Integrator::addRkl2Limits() {
-    const sph::Rkl2Settings& settings = input_.numerics.rkl2;
-    const double rate = viscousRate_ / input_.numerics.safety;
-    if (rate > 0)
-        limits_.add(fmt::format("viscous, {} stages", settings.stages),
-                    sph::LegendreStages::reach(static_cast<int>(settings.stages)) / rate);
-    if (input_.flow.transient > 0)
-        limits_.add("start-up", input_.flow.transient / static_cast<double>(settings.startUp));
 }
 
 void Integrator::checkState(const Time& time) const {

@@ -15,6 +15,9 @@
 
 namespace corpuscle::simulation {
 
+// Name, length, and which one binds; for the log.
+std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits);
+
 class Integrator {
   public:
     // The scene must stay where it is: its coupling and loads refer to it.
@@ -39,7 +42,6 @@ class Integrator {
     void makeExplicit();
     void makeRkl2();
     void estimateRates();
-    void addRkl2Limits();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;

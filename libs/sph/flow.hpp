@@ -30,7 +30,8 @@ struct FlowState {
     double speed = 0;      // largest speed that walls or body force give [m/s]
     double length = 0;     // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
     double rate = 0;       // shearRate, or speed/length [1/s]
-    double transient = 0;  // time in which the flow at t = 0 changes by a factor e [s]; 0: developed from the start
+    double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: it is developed at t = 0
+    bool settles = false;  // towards a steady flow; else it decays
     Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
     Walls walls;
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0

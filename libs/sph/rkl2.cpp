@@ -1,6 +1,7 @@
 #include "sph/rkl2.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace corpuscle::sph {
 
@@ -12,10 +13,10 @@ const Schema<Rkl2Settings>& Rkl2Settings::schema() {
     static const Schema<Rkl2Settings> s =
         Schema<Rkl2Settings>("rkl2", "super-time-stepping of viscosity; its step is set by sound and by accuracy")
             .integer("stages", &Rkl2Settings::stages, "evaluations of viscosity in a step, at most; an odd number",
-                     {.fallback = "15", .range = between(3, 99)})
-            .integer("startUp", &Rkl2Settings::startUp,
-                     "steps, at least, in the time that a flow from rest or a decaying one takes to change",
-                     {.fallback = "40", .range = atLeast(1)})
+                     {.fallback = "31", .range = between(3, 99)})
+            .quantity("resolution", &Rkl2Settings::resolution, unit::none,
+                      "steps, at least, in the time that a flow from rest has taken, or a decaying one takes to change",
+                      {.fallback = "40", .range = between(1, 1e4)})
             .check([](const Rkl2Settings& r, const Node& node, Problems& problems) {
                 if (r.stages % 2 == 1) return;
                 if (const Node* given = node.find("stages"))
@@ -25,6 +26,19 @@ const Schema<Rkl2Settings>& Rkl2Settings::schema() {
                                      std::to_string(r.stages - 1) + ", " + std::to_string(r.stages + 1));
             });
     return s;
+}
+
+double Rkl2Settings::accurateStep(const FlowState& flow, double t, double lambda) const {
+    if (flow.transient == 0) return std::numeric_limits<double>::infinity();
+    if (flow.settles) return std::max(2 / lambda, t / resolution);
+    return flow.transient / resolution;
+}
+
+void Rkl2Settings::addLimits(const FlowState& flow, double t, double lambda, StepLimits& limits) const {
+    if (lambda <= 0) return;
+    limits.add("viscous, " + std::to_string(stages) + " stages",
+               LegendreStages::reach(static_cast<int>(stages)) / lambda);
+    if (flow.transient > 0) limits.add("unsteady flow", accurateStep(flow, t, lambda));
 }
 
 Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting)

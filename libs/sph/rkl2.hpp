@@ -13,20 +13,31 @@
 // s stages take s + 1 passes over pairs; lists are looked after once a step.
 #pragma once
 #include "sph/explicitScheme.hpp"
+#include "sph/flow.hpp"
 #include "sph/fluidForces.hpp"
 #include "sph/legendreStages.hpp"
 #include "sph/shifting.hpp"
+#include "sph/stepLimits.hpp"
 
 namespace corpuscle::sph {
 
 struct Rkl2Settings {
-    long stages = 15;   // of a step, at most; odd
-    long startUp = 40;  // steps in the time in which the flow changes by itself (flow.hpp), at least
+    long stages = 31;        // of a step, at most; odd
+    double resolution = 40;  // steps, at least, in the time in which the flow changes by itself
     static const Schema<Rkl2Settings>& schema();
+    // Largest dt that follows what the flow does by itself, at t after its start: t/resolution where it settles, but not less than
+    // 2/lambda, as at a start from rest; its time over the resolution where it decays; infinity where it is developed.
+    double accurateStep(const FlowState& flow, double t, double lambda) const;
+    // That, and what so many stages bear. lambda: largest rate of the viscous operator, reserve included [1/s].
+    void addLimits(const FlowState& flow, double t, double lambda, StepLimits& limits) const;
 };
 
 class Rkl2 final : public ExplicitScheme {
   public:
+    // Acoustic limit over velocity Verlet's, which has a reserve of 7 on a lattice: omega dt below 0.9 for all waves, of the 2 that are
+    // stable. Velocity Verlet's steps are seldom bound by it, those of RKL2 often.
+    static constexpr double acousticReach = 3;
+
     Rkl2(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting);
 
     void start() override;
