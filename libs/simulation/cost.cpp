@@ -124,9 +124,11 @@ std::vector<std::string> costHeader(const Case& input) {
 std::vector<std::vector<std::string>> costRows(const Case& input) {
     std::vector<std::vector<std::string>> rows;
     for (const IntegratorCost& cost : predictCosts(input)) {
-        std::string note = cost.obstacle;
-        if (cost.name == input.numerics.integrator)
-            note = (input.integratorChosen ? "taken" : "named by the case") + (note.empty() ? "" : ": " + note);
+        std::string note = cost.name != input.numerics.integrator ? ""
+                           : input.integratorChosen               ? "taken"
+                                                                  : "named by the case";
+        if (!note.empty() && !cost.obstacle.empty()) note += ": ";
+        note += cost.obstacle;
         rows.push_back({cost.name, formatQuantity(cost.step.seconds, unit::second), cost.step.name,
                         fmt::format("{:.3g}", cost.passes / cost.steps), fmt::format("{:.3g}", cost.cost), note});
     }

@@ -1,5 +1,5 @@
-// Coefficients of the Runge-Kutta-Legendre scheme of second order, RKL2 (Meyer, Balsara, Aslam, J. Comput. Phys. 257 (2014) 594,
-// Eqs 16 to 18), for du/dt = M u with real negative eigenvalues, in increments d_j = Y_j - u:
+// Coefficients of the Runge-Kutta-Legendre scheme of second order, RKL2 (Meyer, Balsara, Aslam, J. Comput. Phys. 257 (2014) 594), for
+// du/dt = M u with real negative eigenvalues, in increments d_j = Y_j - u:
 //
 //     d_0 = 0,   d_1 = mu~_1 dt M u
 //     d_j = mu_j d_(j-1) + nu_j d_(j-2) + dt [mu~_j M Y_(j-1) + gamma~_j M u],   j = 2 .. s,     u <- u + d_s

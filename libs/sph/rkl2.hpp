@@ -1,4 +1,4 @@
-// A fluid alone, its viscosity by super-time-stepping (legendreStages.hpp), so that the viscous limit of the step falls as the square
+// A fluid alone, its viscosity by super-time-stepping (legendreStages.hpp), so that the viscous limit of the step grows as the square
 // of the number of evaluations:
 //
 //     x*   = x + dt/2 u,   rho* = rho + dt/2 rhodot                          then all operators are taken at x*

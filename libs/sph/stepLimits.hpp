@@ -12,7 +12,8 @@
 // The last one is exact for a node with spring and viscous drag: with u* and x as above the scheme's characteristic equation is
 //     (z - 1)^2 + omega^2 dt^2 z + lambda dt (z - 1)(1 + (z - 1)/(2z)) = 0,
 // which leaves the unit circle at z = -1. Without springs it gives the viscous limit, without drag the well-known 2/omega.
-// rkl2.hpp has the acoustic and the body-force limit and, in place of the viscous one, that of its stages and of an unsteady flow.
+// rkl2.hpp has three times the acoustic limit, the body-force limit and, in place of the viscous one, those of its stages and of an
+// unsteady flow.
 // Viscous and spring limits are multiplied by `safety`; taking both largest eigenvalues for one mode errs on the safe side.
 #pragma once
 #include <cmath>

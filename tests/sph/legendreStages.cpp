@@ -85,7 +85,7 @@ TEST(LegendreStages, multiplyByLegendresPolynomial) {
         }
 }
 
-TEST(LegendreStages, coefficientsOfThreeStagesAsPublished) {  // w = 2/5; Eqs 16 to 18 written out
+TEST(LegendreStages, coefficientsOfThreeStagesAsPublished) {  // w = 2/5
     const LegendreStages three(3);
     ASSERT_EQ(three.count(), 3);
     EXPECT_NEAR(three.first(), 2.0 / 15, 1e-15);

@@ -12,7 +12,7 @@ using namespace corpuscle::sph::testing;
 namespace {
 
 constexpr Index3 size{8, 8, 6};
-constexpr std::size_t particles3 = 8 * 8 * 6;
+constexpr std::size_t particleCount = 8 * 8 * 6;
 
 // Swirling flow on a slightly disordered lattice.
 std::vector<Particle> swirl() {
@@ -37,7 +37,7 @@ struct Box3 {
     }
     // Position, velocity and density by particle number, on every rank.
     std::vector<double> state() const {
-        std::vector<double> all(7 * particles3, 0.0);
+        std::vector<double> all(7 * particleCount, 0.0);
         const ParticleStore& s = system.store();
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec3 x = system.box().wrap(s.position(i));
