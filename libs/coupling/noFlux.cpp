@@ -20,7 +20,7 @@ constexpr double reachInSpacings = 1, leastDistanceInSpacings = 0.05;
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
     return s.side[static_cast<std::size_t>(particle)] == cell.membrane.cell ? -1 : 1;
 }
-}
+}  // namespace
 
 geometry::TriangleGrid& NoFlux::surface(std::size_t c) {
     const membrane::Membrane& m = cells_[c].membrane;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/caseRules.hpp"
+#include "simulation/cost.hpp"
 
 namespace corpuscle::simulation {
 
@@ -100,6 +101,10 @@ Case Case::read(const Application& app) {
     if (c.control.write.strain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "write.strain",
                      "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
+    if (c.numerics.isAutomatic()) {
+        c.numerics.integrator = cheapest(predictCosts(c));
+        c.integratorChosen = true;
+    }
     c.observers.check(c.files["system/observers.yaml"],
                       {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
                       problems);

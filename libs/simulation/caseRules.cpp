@@ -64,10 +64,47 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          "; move it towards the middle or make the box larger");
 }
 
-// Which integrator goes with which coupling and operators.
+void checkRkl2(const Case& c, Problems& problems) {
+    const Mark numerics{"system/numerics.yaml", 0, 0};
+    if (!c.mesh.cells.empty())
+        problems.add(numerics, "integrator",
+                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has cells; write velocityVerlet, or "
+                     "implicit with coupling: immersed");
+    if (!c.mesh.bodies.empty())
+        problems.add(numerics, "integrator",
+                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet");
+    if (c.numerics.operators == "corrected")
+        problems.add(numerics, "operators",
+                     "found corrected, which 'integrator: rkl2' does not have; write operators: plain, or another "
+                     "integrator");
+}
+
+// Some integrator has to be left.
+void checkAutomatic(const Case& c, Problems& problems) {
+    std::string all;
+    for (const char* name : {"velocityVerlet", "rkl2", "implicit"}) {
+        const std::string why = obstacle(c, name);
+        if (why.empty()) return;
+        all += (all.empty() ? "" : "; ") + std::string(name) + ": " + why;
+    }
+    problems.add({"system/numerics.yaml", 0, 0}, "integrator",
+                 "found automatic, but no integrator can do this case (" + all +
+                     "); name the one that is to do it, and follow what that message says");
+}
+
+}  // namespace
+
 void checkScheme(const Case& c, Problems& problems) {
     const Mark numerics{"system/numerics.yaml", 0, 0};
     const NumericsSettings& n = c.numerics;
+    if (n.isAutomatic()) {
+        checkAutomatic(c, problems);
+        return;
+    }
+    if (n.isRkl2()) {
+        checkRkl2(c, problems);
+        return;
+    }
     const bool cells = !c.mesh.cells.empty(), corrected = n.operators == "corrected";
     if (cells && n.isImplicit() && !n.isImmersed())
         problems.add(numerics, "coupling",
@@ -91,6 +128,8 @@ void checkScheme(const Case& c, Problems& problems) {
                          (cells ? "'coupling: dualIdentity' and " : "") +
                          "'operators: plain' only; write that, or remove the bodies");
 }
+
+namespace {
 
 // Keys that mean nothing in the chosen scheme.
 void checkUnused(const Case& c, Problems& problems) {
@@ -145,6 +184,21 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
 }
 
 }  // namespace
+
+std::string obstacle(const Case& c, const std::string& integrator) {
+    Case named = c;
+    named.numerics.integrator = integrator;
+    Problems problems;
+    checkScheme(named, problems);
+    try {
+        problems.throwIfAny();
+    } catch (const CaseError& error) {
+        const Problem& first = error.problems().front();
+        const std::string reason = first.message.substr(0, first.message.find(';'));
+        return first.key == "integrator" ? reason : first.key + ": " + reason;
+    }
+    return "";
+}
 
 void checkTogether(const Case& c, Problems& problems) {
     const int wall = c.flowModel->wallAxis();

@@ -96,7 +96,8 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
         Schema<NumericsSettings>("numerics", "system/numerics.yaml: discretisation")
             .quantity("spacing", &NumericsSettings::spacing, unit::metre, "particle spacing dx", {.range = positive})
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
-            .word("integrator", &NumericsSettings::integrator, {"velocityVerlet", "implicit"}, "time integration",
+            .word("integrator", &NumericsSettings::integrator, {"automatic", "velocityVerlet", "rkl2", "implicit"},
+                  "time integration; automatic: the cheapest by the prediction that checkCase prints",
                   {.fallback = "velocityVerlet"})
             .word("coupling", &NumericsSettings::coupling, {"dualIdentity", "immersed"},
                   "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them",
@@ -109,14 +110,16 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                   {.fallback = "double"})
             .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
             .table("implicit", &NumericsSettings::implicit, "the implicit step", {.fallback = "{}"})
+            .table("rkl2", &NumericsSettings::rkl2, "super-time-stepping", {.fallback = "{}"})
             .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",
                     {.fallback = "0.3 dx", .range = positive})
             .integer("guard", &NumericsSettings::guard, "steps between two looks of the leakage guard, 0 for none",
                      {.fallback = "10", .range = nonNegative})
-            .integer("densityBalance", &NumericsSettings::densityBalance,
-                     "steps between two balances of density against the volume of closed cells, 0 for none; auto: 10, and "
-                     "1 with the implicit step",
-                     {.fallback = "auto", .range = nonNegative})
+            .integerOr(
+                "auto", "densityBalance", &NumericsSettings::densityBalance,
+                "steps between two balances of density against the volume of closed cells, 0 for none; auto: 10, and "
+                "1 with the implicit step",
+                {.fallback = "auto", .range = nonNegative})
             .quantity("safety", &NumericsSettings::safety, unit::none,
                       "fraction of the viscous and the spring limit that a time step may take",
                       {.fallback = "0.95", .range = between(0.01, 1)});

@@ -8,6 +8,7 @@
 #include "sph/equationOfState.hpp"
 #include "sph/flow.hpp"
 #include "sph/kernel.hpp"
+#include "sph/rkl2.hpp"
 #include "sph/shifting.hpp"
 
 namespace corpuscle::simulation {
@@ -51,12 +52,15 @@ struct NumericsSettings {
     std::string integrator, coupling, operators, precision;
     std::optional<sph::ShiftingSettings> shifting;
     implicit::ImplicitSettings implicit;
+    sph::Rkl2Settings rkl2;
     Length skin;
     long guard = 10;                       // steps between two looks of the leakage guard; 0: none
     std::optional<long> densityBalance{};  // as written
     double safety = 0.95;                  // fraction of each limit that the step takes
     // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the pressure.
     long balanceInterval() const { return densityBalance.value_or(isImplicit() ? 1 : 10); }
+    bool isAutomatic() const { return integrator == "automatic"; }
+    bool isRkl2() const { return integrator == "rkl2"; }
     bool isImplicit() const { return integrator == "implicit"; }
     bool isImmersed() const { return coupling == "immersed"; }
     static const Schema<NumericsSettings>& schema();

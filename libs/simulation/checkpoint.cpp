@@ -141,8 +141,8 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
     if (file.has("implicit") != isImplicit)
         throw Failure(
             ExitCode::io,
-            path.string() + " was written by 'integrator: " + (isImplicit ? "velocityVerlet" : "implicit") +
-                "', whose velocities belong to another moment of the step; start from firstTime, or write that "
+            path.string() + " was written by 'integrator: " + (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
+                ", whose velocities belong to another moment of the step; start from firstTime, or write that "
                 "in system/numerics.yaml");
     if (isImplicit) {
         const std::vector<double> s = file.readReplicated<double>("implicit");

@@ -12,8 +12,7 @@ using coupling::Scene;
 namespace {
 constexpr int powerIterations = 25;
 constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
-constexpr long stepsPerEstimate = 1000;
-constexpr double acousticFactor = 0.25, bodyForceFactor = 0.25;
+constexpr long stepsPerEstimate = 1000, rkl2StepsPerEstimate = 100;
 constexpr double largestDensityChange = 0.5;
 
 coupling::DensityBalance densityBalance(const Scene& scene) {
@@ -25,9 +24,24 @@ coupling::DensityBalance densityBalance(const Scene& scene) {
 }
 }  // namespace
 
+std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits) {
+    const std::string stages = limits.stages > 0 ? ": " + std::to_string(limits.stages) + " stages" : "";
+    const std::string binding = limits.binding().name;
+    std::vector<std::vector<std::string>> rows;
+    for (const sph::StepLimit& limit : limits.all)
+        rows.push_back(
+            {limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" + stages : ""});
+    return rows;
+}
+
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
     if (!input.numerics.isImplicit()) {
-        input.isConjugate() ? makeConjugate() : makeExplicit();
+        if (input.numerics.isRkl2())
+            makeRkl2();
+        else if (input.isConjugate())
+            makeConjugate();
+        else
+            makeExplicit();
         return;
     }
     implicit::ImplicitStep::Options options;
@@ -63,6 +77,12 @@ void Integrator::makeConjugate() {
     conjugate_ = coupling::ConjugateVerlet::make(scene_, options);
 }
 
+void Integrator::makeRkl2() {
+    auto rkl2 = std::make_unique<sph::Rkl2>(*scene_.system, *scene_.forces, scene_.shifting.get());
+    rkl2_ = rkl2.get();
+    scheme_ = std::move(rkl2);
+}
+
 Integrator::State Integrator::state(const Time& time) const {
     return {viscousRate_,
             membraneRate_,
@@ -86,6 +106,7 @@ void Integrator::resume(const State& state, Time& time) {
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
+    if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     updateLimits(time);
     time.dt = state.dt;
 }
@@ -109,11 +130,12 @@ void Integrator::advance(Scene& scene, Time& time) {
         scene.putBack = scene.coupling->guard().moves();
     }
     time.advance(time.dt);
-    if (time.step % stepsPerEstimate == 0) estimateRates();
+    if (time.step % (rkl2_ ? rkl2StepsPerEstimate : stepsPerEstimate) == 0) estimateRates();
     if (scene.system->rebuilds() != rebuilds_) {
         checkState(time);
         updateLimits(time);
-    }
+    } else if (rkl2_)
+        updateLimits(time);
 }
 
 void Integrator::estimateRates() {
@@ -124,6 +146,7 @@ void Integrator::estimateRates() {
         return;
     }
     viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
+    if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     if (!scene_.coupling) return;
     membraneRate_ = powerReserve * scene_.coupling->membraneRate(*scene_.system, powerIterations);
     springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
@@ -145,14 +168,18 @@ void Integrator::updateLimits(Time& time) {
 
     const double h = 0.5 * scene_.system->support(), safety = input_.numerics.safety;
     limits_.all.clear();
-    if (viscousRate_ > 0) limits_.add("viscous", safety / viscousRate_);
+    if (rkl2_)
+        input_.numerics.rkl2.addLimits(input_.flow, time.t, viscousRate_ / safety, limits_);
+    else if (viscousRate_ > 0)
+        limits_.add("viscous", safety / viscousRate_);
     const double drag = viscousRate_ + membraneRate_;
     if (membraneRate_ > 0) limits_.add("membrane viscosity", safety / drag);
-    limits_.add("acoustic", acousticFactor * h / (model.soundSpeed + std::sqrt(most)));
-    if (!model.bodyForce.isZero()) limits_.add("body force", bodyForceFactor * std::sqrt(h / model.bodyForce.norm()));
-    if (springRate2_ > 0)
-        limits_.add("spring", safety * 2 / springRate2_ * (std::sqrt(drag * drag + springRate2_) - drag));
+    limits_.add("acoustic",
+                (rkl2_ ? sph::Rkl2::acousticReach : 1) * sph::acousticStep(h, model.soundSpeed + std::sqrt(most)));
+    if (!model.bodyForce.isZero()) limits_.add("body force", sph::bodyForceStep(h, model.bodyForce.norm()));
+    if (springRate2_ > 0) limits_.add("spring", safety * sph::springStep(drag, springRate2_));
     time.dt = limits_.binding().seconds;
+    if (rkl2_) limits_.stages = rkl2_->stages(time.dt);
     rebuilds_ = scene_.system->rebuilds();
 }
 

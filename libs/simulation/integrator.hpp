@@ -10,10 +10,14 @@
 #include "coupling/scene.hpp"
 #include "implicit/implicitStep.hpp"
 #include "simulation/case.hpp"
+#include "sph/rkl2.hpp"
 #include "sph/stepLimits.hpp"
 #include "sph/velocityVerlet.hpp"
 
 namespace corpuscle::simulation {
+
+// Name, length, and which one binds; for the log.
+std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits);
 
 class Integrator {
   public:
@@ -39,12 +43,14 @@ class Integrator {
   private:
     void makeExplicit();
     void makeConjugate();
+    void makeRkl2();
     void estimateRates();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
-    std::unique_ptr<sph::VelocityVerlet> scheme_;  // one of the three
+    std::unique_ptr<sph::ExplicitScheme> scheme_;  // one of the three
+    sph::Rkl2* rkl2_ = nullptr;                    // that scheme, where it is one
     std::unique_ptr<coupling::ConjugateVerlet> conjugate_;
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;

@@ -5,6 +5,7 @@
 
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
+#include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -102,11 +103,9 @@ void Schedule::describe() {
         log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})",
                  formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
                  formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
-    rows.clear();
-    for (const sph::StepLimit& limit : integrator_.limits().all)
-        rows.push_back({limit.name, formatQuantity(limit.seconds, unit::second),
-                        limit.name == integrator_.limits().binding().name ? "binding" : ""});
-    log.table({"limit of the step", "dt", ""}, rows);
+    log.table(costHeader(input_), costRows(input_));
+    record_.set("parameters", "integrator", input_.numerics.integrator);
+    log.table({"limit of the step", "dt", ""}, limitRows(integrator_.limits()));
     log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(),
              app_.communicator().size() > 1 ? "s" : "", particles::instructionSetName());
 }

@@ -26,10 +26,12 @@ struct FlowContext {
 struct FlowState {
     double density = 0;  // [kg/m^3]
     bool densityFromRe = false;
-    double shearRate = 0;           // gammadot; 0: none [1/s]
-    double speed = 0;               // largest speed that walls or body force give [m/s]
-    double length = 0;              // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
-    double rate = 0;                // shearRate, or speed/length [1/s]
+    double shearRate = 0;  // gammadot; 0: none [1/s]
+    double speed = 0;      // largest speed that walls or body force give [m/s]
+    double length = 0;     // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
+    double rate = 0;       // shearRate, or speed/length [1/s]
+    double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: it is developed at t = 0
+    bool settles = false;  // towards a steady flow; else it decays
     Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
     Walls walls;
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0

@@ -139,10 +139,28 @@ void FluidForces::findWalls(const ParticleSystem& system) {
         if (system.store().kindOf(i) == Kind::wall) wallParticles_.push_back(i);
 }
 
+void FluidForces::runViscosity(ParticleSystem& system, const RealArray (&velocity)[3],
+                               const std::vector<RigidMotion>& motion, RealArray (&acceleration)[3]) {
+    unused_.resize(static_cast<std::size_t>(system.owned()));
+    double* const results[4] = {acceleration[0].data(), acceleration[1].data(), acceleration[2].data(), unused_.data()};
+    run(
+        system, system.store().density, motion,
+        [&]<class Real>(std::size_t i, Real* v) {
+            for (int k = 0; k < 3; ++k) v[k] = static_cast<Real>(velocity[k][i]);
+        },
+        [](std::size_t) { return 0.0; }, results);
+}
+
+void FluidForces::findViscosity(ParticleSystem& system, const RealArray (&velocity)[3], RealArray (&acceleration)[3]) {
+    runViscosity(system, velocity, still_, acceleration);
+    for (const int i : wallParticles_)
+        for (auto& component : acceleration) component[static_cast<std::size_t>(i)] = 0;
+}
+
 double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
     const ParticleStore& s = system.store();
     const auto n = static_cast<std::size_t>(system.owned());
-    RealArray vector[3], image[3], unused(n);
+    RealArray vector[3], image[3];
     for (int k = 0; k < 3; ++k) vector[k].resize(n), image[k].resize(n);
     const auto clearWalls = [&] {
         for (const int i : wallParticles_)
@@ -174,13 +192,7 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
         for (auto& component : vector)
             for (double& a : component) a /= length;
         for (RigidMotion& m : motion) m.linear /= length, m.angular /= length;
-        double* const results[4] = {image[0].data(), image[1].data(), image[2].data(), unused.data()};
-        run(
-            system, s.density, motion,
-            [&]<class Real>(std::size_t i, Real* v) {
-                for (int k = 0; k < 3; ++k) v[k] = static_cast<Real>(vector[k][i]);
-            },
-            [](std::size_t) { return 0.0; }, results);
+        runViscosity(system, vector, motion, image);
         std::swap(vector, image);
         clearWalls();
         if (groups_) {

@@ -44,6 +44,10 @@ class FluidForces {
     // For integrators that work forces out by other operators.
     void setWallForces(const Vec3& lower, const Vec3& upper) { wallForce_[0] = lower, wallForce_[1] = upper; }
 
+    // Accelerations of the owned particles by viscosity alone at a velocity; those of walls are 0. No rigid groups. Collective.
+    void findViscosity(particles::ParticleSystem& system, const particles::RealArray (&velocity)[3],
+                       particles::RealArray (&acceleration)[3]);
+
     // Largest eigenvalue of the viscous operator per mass, 1/m_i (L u)_i, by power iterations with a start that depends on
     // particle numbers only [1/s]. Collective. Leaves the state as it was.
     double viscousRate(particles::ParticleSystem& system, int iterations);
@@ -67,6 +71,8 @@ class FluidForces {
     void run(Pairs<Real>& pairs, particles::ParticleSystem& system, const particles::RealArray& density,
              const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,
              double* const results[4]);
+    void runViscosity(particles::ParticleSystem& system, const particles::RealArray (&velocity)[3],
+                      const std::vector<RigidMotion>& motion, particles::RealArray (&acceleration)[3]);
     template <class Real>
     void packGroups(Real* records, int owned, const std::vector<RigidMotion>& motion) const;
 
@@ -77,7 +83,7 @@ class FluidForces {
     FluidConstants constants_;
     Pairs<double> double_;
     Pairs<float> float_;
-    particles::RealArray sums_, density_, pressure_;
+    particles::RealArray sums_, density_, pressure_, unused_;
     std::vector<int> wallParticles_;
     Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sph/lucy.hpp"
 #include "sph/quintic.hpp"
@@ -38,27 +39,43 @@ struct KernelOf : Kernel {
     double slope(double q) const override { return Formula::template slope<Scalar>(q).v; }
 };
 
+// f(distance along each axis, distance) of all neighbours on a lattice of spacing 1, the particle itself too.
 template <class F>
 void forLattice(double support, F&& f) {
     const int n = static_cast<int>(std::ceil(support));
     for (int i = -n; i <= n; ++i)
         for (int j = -n; j <= n; ++j)
             for (int k = -n; k <= n; ++k)
-                if (const double r2 = i * i + j * j + k * k; r2 < support * support) f(i, std::sqrt(r2));
+                if (const double r2 = i * i + j * j + k * k; r2 < support * support) f(Index3{i, j, k}, std::sqrt(r2));
 }
 
 }  // namespace
 
 double Kernel::secondMoment(double supportOverSpacing) const {
     double sum = 0;
-    forLattice(supportOverSpacing, [&](int i, double r) { sum += i * i * slope(r / supportOverSpacing); });
+    forLattice(supportOverSpacing,
+               [&](const Index3& d, double r) { sum += d[0] * d[0] * slope(r / supportOverSpacing); });
     return sum * gradientNormalisation(supportOverSpacing);
 }
 
 int Kernel::latticeNeighbours(double supportOverSpacing) const {
     int count = 0;
-    forLattice(supportOverSpacing, [&](int, double) { ++count; });
+    forLattice(supportOverSpacing, [&](const Index3&, double) { ++count; });
     return count;
+}
+
+double Kernel::viscousRate(double supportOverSpacing) const {
+    constexpr int parts = 8;
+    double most = 0;
+    for (int part = 0; part <= parts; ++part) {  // waves (pi, pi, k): the stiffest is among them
+        double sum = 0;
+        forLattice(supportOverSpacing, [&](const Index3& d, double r) {
+            const double sign = (d[0] + d[1]) % 2 ? -1 : 1;
+            sum += 2 * slope(r / supportOverSpacing) * (1 - sign * std::cos(std::numbers::pi * part / parts * d[2]));
+        });
+        most = std::max(most, sum);
+    }
+    return most * gradientNormalisation(supportOverSpacing);
 }
 
 using LucyKernel = KernelOf<Lucy, KernelKind::lucy>;

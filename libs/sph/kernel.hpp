@@ -21,6 +21,8 @@ class Kernel {
     // S2 = sum_j dx^3 (x_ij^2/r)(-dW/dr) on a cubic lattice. S2 - 1 is the relative error of the viscosity that a flow on
     // lattice particles feels.
     double secondMoment(double supportOverSpacing) const;
+    // Largest eigenvalue of Morris' viscosity per mass on a cubic lattice, in nu/dx^2.
+    double viscousRate(double supportOverSpacing) const;
     // Neighbours within the support on a cubic lattice, the particle itself included.
     int latticeNeighbours(double supportOverSpacing) const;
 };

@@ -1,5 +1,8 @@
 #include "sph/poiseuilleFlow.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace corpuscle::sph {
 
 const Schema<PoiseuilleFlow>& PoiseuilleFlow::schema() {
@@ -25,6 +28,8 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
     flow.speed = 0.25 * curvature * gap * gap;
     flow.length = gap;
     flow.rate = flow.speed / gap;
+    flow.settles = true;
+    if (start == "rest") flow.transient = std::pow(gap / std::numbers::pi, 2) * context.density / context.viscosity;
     flow.bodyForce = Vec3(bodyForce, 0, 0);
     flow.walls.axis = axis;
     flow.walls.low = low;

@@ -1,5 +1,8 @@
 #include "sph/shearFlow.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace corpuscle::sph {
 
 const Schema<ShearFlow>& ShearFlow::schema() {
@@ -40,6 +43,8 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
     flow.speed = 0.5 * flow.shearRate * gap;
     flow.length = gap;
     flow.rate = flow.shearRate;
+    flow.settles = true;
+    if (start == "rest") flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.viscosity;
     flow.walls.axis = axis;
     flow.walls.low = context.box.low[axis];
     flow.walls.high = context.box.high[axis];

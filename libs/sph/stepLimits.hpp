@@ -1,4 +1,4 @@
-// Limits of the time step of velocity Verlet (docs/theory/timeStep.md), the smallest of which is taken:
+// Limits of the time step (docs/theory/timeStep.md), the smallest of which is taken. Those of velocity Verlet:
 //
 //     viscous      1/lambda, lambda the largest eigenvalue of the viscous operator per mass (power iterations): half of
 //                  forward Euler's limit, because the scheme uses the extrapolated velocity
@@ -12,8 +12,11 @@
 // The last one is exact for a node with spring and viscous drag: with u* and x as above the scheme's characteristic equation is
 //     (z - 1)^2 + omega^2 dt^2 z + lambda dt (z - 1)(1 + (z - 1)/(2z)) = 0,
 // which leaves the unit circle at z = -1. Without springs it gives the viscous limit, without drag the well-known 2/omega.
+// rkl2.hpp has three times the acoustic limit, the body-force limit and, in place of the viscous one, those of its stages and of an
+// unsteady flow.
 // Viscous and spring limits are multiplied by `safety`; taking both largest eigenvalues for one mode errs on the safe side.
 #pragma once
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -27,6 +30,7 @@ struct StepLimit {
 
 struct StepLimits {
     std::vector<StepLimit> all;  // with safety factors; those that the scene lacks are absent
+    int stages = 0;              // that the step taken needs, of rkl2.hpp alone
     void add(std::string name, double seconds) { all.push_back({std::move(name), seconds}); }
     StepLimit binding() const {
         StepLimit least;
@@ -35,5 +39,11 @@ struct StepLimits {
         return least;
     }
 };
+
+inline double acousticStep(double h, double speed) { return 0.25 * h / speed; }  // speed: c0 + |u|
+inline double bodyForceStep(double h, double force) { return 0.25 * std::sqrt(h / force); }
+inline double springStep(double lambda, double omega2) {
+    return 2 / omega2 * (std::sqrt(lambda * lambda + omega2) - lambda);
+}
 
 }  // namespace corpuscle::sph

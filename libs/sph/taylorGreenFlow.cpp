@@ -28,6 +28,7 @@ FlowState TaylorGreenFlow::resolve(const FlowContext& context, const Mark& mark,
     flow.speed = U;
     flow.length = 1 / k;
     flow.rate = U * k;
+    flow.transient = rho / (2 * context.viscosity * k * k);
     flow.velocity = [=](const Vec3& p) {
         const double x = k * (p[0] - low[0]), z = k * (p[2] - low[2]);
         return Vec3(U * std::sin(x) * std::cos(z), 0, -U * std::cos(x) * std::sin(z));

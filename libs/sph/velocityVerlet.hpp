@@ -12,6 +12,7 @@
 #pragma once
 #include <vector>
 
+#include "sph/explicitScheme.hpp"
 #include "sph/fluidForces.hpp"
 #include "sph/shifting.hpp"
 
@@ -31,16 +32,14 @@ class Load {
     virtual void addAccelerations(particles::ParticleSystem& system) = 0;
 };
 
-class VelocityVerlet {
+class VelocityVerlet final : public ExplicitScheme {
   public:
     VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting,
                    std::vector<Load*> loads);
 
-    // Forces at the initial state (ubar = u). Not after a restart: forces are part of the state.
-    void start();
-    // After a restart: everything that follows from lists, nothing that changes the state.
-    void resume();
-    void advance(double dt);
+    void start() override;  // with ubar = u
+    void resume() override;
+    void advance(double dt) override;
 
     long rebuilds() const { return system_.rebuilds(); }
 

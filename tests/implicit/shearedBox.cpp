@@ -38,9 +38,9 @@ struct ShearedBox {
         scene.flow.rate = scene.flow.shearRate = rate;
         scene.flow.velocity = velocity;
         scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
-        step = ImplicitStep::make(scene, {.settings = {.step = stepStrain, .tolerance = 1e-3},
-                                          .form = sph::OperatorForm::corrected,
-                                          .shifting = 1});
+        step = ImplicitStep::make(
+            scene,
+            {.settings = {.step = stepStrain, .tolerance = 1e-3}, .form = sph::OperatorForm::corrected, .shifting = 1});
     }
 
     // Fluid off its lattice, walls on theirs.

@@ -331,6 +331,132 @@ def table(case, observer):
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
+# Fluid alone that changes by itself: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
+PLATES = {
+    "system/control.yaml": "application: sphFlow\nendTime: 0.1 s\ncheckpoint: {wallClock: never}\n",
+    "system/numerics.yaml": "spacing: 31.25 um\nkernel: {type: wendlandC2, support: 3.0 dx}\nshifting: {coefficient: 1, steps: 10}\n",
+    "system/mesh.yaml": "domain: {size: [0.25, 0.25, 1] mm, periodic: [true, true, false]}\n",
+    "system/observers.yaml": "profile: {type: profile, every: 0.02 s, axis: z, bins: 32}\nwall: {type: wallStress, every: 0.02 s}\n"
+                             "balance: {type: conservation, every: 0.02 s}\n",
+    "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n",
+}
+COUETTE = {**PLATES, "constant/flow.yaml": "type: shear\nshearRate: 0.0125 1/s\nstart: rest\n"}
+POISEUILLE = {**PLATES, "constant/flow.yaml": "type: poiseuille\nbodyForce: 1e-4 m/s^2\n"}
+VORTICES = {
+    **PLATES,
+    "system/control.yaml": "application: sphFlow\nendTime: 0.02 s\ncheckpoint: {wallClock: never}\n",
+    "system/numerics.yaml": PLATES["system/numerics.yaml"].replace("31.25", "62.5"),
+    "system/mesh.yaml": "domain: {size: [1, 0.5, 1] mm, periodic: [true, true, true]}\n",
+    "system/observers.yaml": "balance: {type: conservation, every: 0.002 s}\n",
+    "constant/flow.yaml": "type: taylorGreen\nspeed: 1 mm/s\n",
+}
+
+
+def couette(z, t):  # over the relative speed of the walls; z over the gap
+    n = range(1, 60)
+    return z + math.fsum((-1) ** k / (k * math.pi) * math.sin(2 * k * math.pi * z) * math.exp(-((2 * k * math.pi) ** 2) * t) for k in n)
+
+
+def poiseuille(z, t):  # over F L^2/nu
+    y, n = z + 0.5, range(1, 60, 2)
+    return 0.5 * y * (1 - y) - math.fsum(4 / (k * math.pi) ** 3 * math.sin(k * math.pi * y) * math.exp(-((k * math.pi) ** 2) * t) for k in n)
+
+
+def rows_of(case, observer):
+    (name,) = (case / "postProcessing" / observer).glob("*/*.csv")
+    with open(name) as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def profile_error(case, exact, scale):
+    """Largest, over the times, of the mean square error of u over that of the exact one; L = 1 mm, nu = 1e-6 m^2/s."""
+    errors = []
+    rows = rows_of(case, "profile")
+    for t in sorted({row["time_s"] for row in rows} - {0.0}):
+        pairs = [(row["u_m_s"], scale * exact(row["position_m"] / 1e-3, t)) for row in rows if row["time_s"] == t]
+        errors.append(math.sqrt(sum((u - e) ** 2 for u, e in pairs) / sum(e * e for _, e in pairs)))
+    assert len(errors) == 5, errors
+    return max(errors)
+
+
+def decay_error(case):
+    rows, rate = rows_of(case, "balance"), 4e-6 * (2 * math.pi / 1e-3) ** 2
+    energy = [row["kineticEnergy_J"] for row in rows]
+    return max(abs(e / energy[0] - math.exp(-rate * row["time_s"])) for e, row in zip(energy, rows))
+
+
+def test_rkl2(folder):
+    """Super-time-stepping: as accurate as velocity Verlet in fewer steps, the same on 1, 2 and 4 ranks, restarts to the same bits in
+    either precision; a checkpoint of velocity Verlet is taken up, one of the implicit step is refused."""
+    rkl2 = ("-set", "system/numerics.yaml:/integrator=rkl2")
+    errors = {"couette": lambda case: profile_error(case, couette, 1.25e-5), "poiseuille": lambda case: profile_error(case, poiseuille, 1e-4),
+              "vortices": decay_error}
+    for name, files, fewer in (("couette", COUETTE, 3), ("poiseuille", POISEUILLE, 3), ("vortices", VORTICES, 0.2)):
+        verlet = prepared(folder / f"{name}Verlet", files)
+        case = folder / name
+        shutil.copytree(verlet, case)
+        run(verlet, "sphFlow")
+        run(case, "sphFlow", *rkl2)
+        found, reference = errors[name](case), errors[name](verlet)
+        steps = [json.loads((c / "run.json").read_text())["performance"]["steps"] for c in (case, verlet)]
+        print(name, found, reference, steps)
+        assert found < 1.1 * reference + 2e-4, (name, found, reference)
+        assert fewer * steps[0] < steps[1], (name, steps)
+    start = prepared(folder / "start", COUETTE)
+    cases = {}
+    for ranks, precision in ((1, "double"), (2, "double"), (4, "double"), (2, "mixed")):
+        terms = (*rkl2, "-set", f"system/numerics.yaml:/precision={precision}")
+        whole, parts = folder / f"whole{ranks}{precision}", folder / f"parts{ranks}{precision}"
+        shutil.copytree(start, whole)
+        run(whole, "sphFlow", *terms, ranks=ranks)
+        for observer, columns in (("balance", 6), ("wall", 4), ("profile", 4)):  # the others are noise
+            one, other = ([row[:columns] for row in series(c, observer)] for c in (folder / "whole1double", whole))
+            close(one, other, 1e-12 if precision == "double" else 1e-5)
+        if ranks < 4:
+            shutil.copytree(start, parts)
+            run(parts, "sphFlow", "-steps", "23", *terms, ranks=ranks)
+            run(parts, "sphFlow", *terms, ranks=ranks)
+            same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+    other = folder / "other"
+    shutil.copytree(start, other)
+    run(other, "sphFlow", "-steps", "9")
+    run(other, "sphFlow", "-steps", "9", *rkl2)
+    implicit = ("-set", "system/numerics.yaml:/integrator=implicit")
+    assert "'integrator: velocityVerlet' or rkl2" in run(other, "sphFlow", *implicit, code=4).stderr
+
+
+def test_automatic(folder):
+    """`integrator: automatic` takes what the printed prediction says is cheapest; obstacles are said in words; a named one wins."""
+    automatic = ("-set", "system/numerics.yaml:/integrator=automatic")
+    def predicted(case, *options):
+        return json.loads(run(case, "checkCase", "-json", *options).stdout)
+    case = prepared(folder / "couette", {**COUETTE, "system/control.yaml": COUETTE["system/control.yaml"].replace("0.1 s", "1 s")})
+    said = predicted(case, *automatic)
+    table = said["integrators"]
+    assert said["integrator"] == "rkl2" == min((name for name in table if not table[name]["obstacle"]), key=lambda name: table[name]["cost"])
+    assert "do not follow the flow" in table["implicit"]["obstacle"], table
+    brief = predicted(case, *automatic, "-set", "system/control.yaml:/endTime=0.05 s")
+    assert brief["integrator"] == "velocityVerlet", "the first steps are as short as those of velocity Verlet"
+    assert 0.7 < table["velocityVerlet"]["step_s"] / predicted(case, "-set", "system/numerics.yaml:/integrator=velocityVerlet")["limits_s"]["viscous"] < 1.1
+    run(case, "sphFlow", "-steps", "2", *automatic)
+    assert json.loads((case / "run.json").read_text())["parameters"]["integrator"] == "rkl2"
+    log = (case / "log.sphFlow").read_text()
+    assert "passes a step" in log and "taken" in log and "do not follow the flow" in log, log
+    run(case, "sphFlow", "-steps", "2", "-set", "system/control.yaml:/startFrom=firstTime")
+    assert json.loads((case / "run.json").read_text())["parameters"]["integrator"] == "velocityVerlet"
+    assert "named by the case" in (case / "log.sphFlow").read_text()
+    # Sound binds: nothing to gain by stages.
+    swift = prepared(folder / "vortices", {**VORTICES, "constant/flow.yaml": "type: taylorGreen\nspeed: 50 mm/s\n"})
+    assert predicted(swift, *automatic)["integrator"] == "velocityVerlet"
+    # Cells as particles move with velocity Verlet only; immersed ones with the implicit step.
+    cell = make(folder / "cell", CELL_CASE)
+    said = predicted(cell, *automatic)
+    assert said["integrator"] == "velocityVerlet", said
+    assert "fluid alone" in said["integrators"]["rkl2"]["obstacle"] and "dualIdentity" in said["integrators"]["implicit"]["obstacle"], said
+    said = predicted(make(folder / "immersed", IMPLICIT_CASE), *automatic)
+    assert said["integrator"] == "implicit", said
+
+
 def close(a, b, tolerance):
     assert len(a) == len(b), (len(a), len(b))
     scale = [max(abs(float(row[k])) for row in a) or 1.0 for k in range(len(a[0]))]

@@ -16,6 +16,17 @@ namespace {
 const char* const names[] = {"lucy", "wendlandC2", "quintic"};
 }
 
+// Lattice limits of docs/theory/timeStep.md, in dx^2/nu.
+TEST(Kernels, viscousRateOnALattice) {
+    const std::tuple<const char*, double, double> known[] = {{"lucy", 2.6, 0.3261},
+                                                             {"wendlandC2", 2.8, 0.2881},
+                                                             {"wendlandC2", 2.4, 0.2171},
+                                                             {"quintic", 2.5, 0.18},
+                                                             {"quintic", 2.8, 0.22}};
+    for (const auto& [name, support, limit] : known)
+        EXPECT_NEAR(1 / choose<Kernel>(name)->viscousRate(support), limit, name[0] == 'q' ? 0.005 : 1e-4) << name;
+}
+
 TEST(Kernels, integrateToOneOverTheirSupport) {
     for (const char* name : names) {
         const auto kernel = choose<Kernel>(name);

@@ -1,6 +1,6 @@
 // checkCase: everything about a case that can be known before it runs.
 //
-// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, the particles, memory and
+// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, what each integrator would cost, the particles, memory and
 // disk it will take, and, if 0/ has been filled, every limit of the time step and the run time predicted from a short burst.
 // Nothing is written.
 //
@@ -13,6 +13,7 @@
 #include <iostream>
 
 #include "membrane/moduli.hpp"
+#include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
@@ -35,6 +36,15 @@ void reportGroups(Application& app, const simulation::Case& input, ordered_json&
         json["groups"][g.name] = g.number;
     }
     app.log().table({"group", "value", "meaning"}, rows);
+}
+
+void reportCosts(Application& app, const simulation::Case& input, ordered_json& json) {
+    app.log().table(simulation::costHeader(input), simulation::costRows(input));
+    for (const simulation::IntegratorCost& cost : simulation::predictCosts(input))
+        json["integrators"][cost.name] = {{"step_s", cost.step.seconds}, {"limit", cost.step.name},
+                                          {"steps", cost.steps},         {"passes", cost.passes},
+                                          {"cost", cost.cost},           {"obstacle", cost.obstacle}};
+    json["integrator"] = input.numerics.integrator;
 }
 
 void reportSize(Application& app, const simulation::Case& input, ordered_json& json) {
@@ -81,6 +91,17 @@ void reportBodies(Application& app, const simulation::Case& input, const couplin
     }
 }
 
+// Steps and seconds of the whole run after a burst of steps as long as at the start; those of rkl2 grow, with their stages.
+std::pair<double, double> predictRun(const simulation::Case& input, double dt, int stages, double perStep) {
+    if (stages == 0) {
+        const double steps = simulation::duration(input) / dt;
+        return {steps, steps * perStep};
+    }
+    for (const simulation::IntegratorCost& cost : simulation::predictCosts(input))
+        if (cost.name == "rkl2") return {cost.steps, cost.passes * perStep / (stages + 1)};
+    return {};
+}
+
 void reportRun(Application& app, const simulation::Case& input, ordered_json& json) {
     coupling::Scene scene = simulation::buildScene(input, app.communicator().handle());
     Time time = simulation::startTime(app, input);
@@ -88,15 +109,9 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
     integrator.start(time);
     reportMembranes(app, scene);
     reportBodies(app, input, scene, json);
-    std::vector<std::vector<std::string>> rows;
-    const std::string binding = integrator.limits().binding().name;
-    for (const sph::StepLimit& limit : integrator.limits().all) {
-        rows.push_back(
-            {limit.name, formatQuantity(limit.seconds, unit::second), limit.name == binding ? "binding" : ""});
-        json["limits_s"][limit.name] = limit.seconds;
-    }
-    app.log().table({"limit of the step", "dt", ""}, rows);
-    json["binding"] = binding;
+    for (const sph::StepLimit& limit : integrator.limits().all) json["limits_s"][limit.name] = limit.seconds;
+    app.log().table({"limit of the step", "dt", ""}, simulation::limitRows(integrator.limits()));
+    json["binding"] = integrator.limits().binding().name;
 
     const double dt = time.dt;
     const auto begin = std::chrono::steady_clock::now();
@@ -104,14 +119,14 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
         burstSteps;
-    const double steps = (time.endTime ? *time.endTime : *time.endStrain / time.shearRate) / dt;
+    const auto [steps, seconds] = predictRun(input, dt, integrator.limits().stages, perStep);
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
     app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)",
-                   steps, perStep, formatDuration(steps * perStep), app.communicator().size(),
+                   steps, seconds / steps, formatDuration(seconds), app.communicator().size(),
                    app.communicator().size() > 1 ? "s" : "", 1e-6 * particles / perStep);
     json["steps"] = steps;
-    json["secondsPerStep"] = perStep;
-    json["predicted_s"] = steps * perStep;
+    json["secondsPerStep"] = seconds / steps;
+    json["predicted_s"] = seconds;
 }
 
 }  // namespace
@@ -124,6 +139,7 @@ int main(int argc, char* argv[]) {
         const simulation::Case input = simulation::Case::read(app);
         reportGroups(app, input, json);
         reportLaws(app, input);
+        reportCosts(app, input, json);
         reportSize(app, input, json);
         if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
             reportRun(app, input, json);
