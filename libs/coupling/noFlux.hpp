@@ -1,9 +1,9 @@
 // Fluid does not cross a closed membrane: what the discrete velocity of a particle near one has too much along the normal is left out
 // when it is moved.
 //
-//     x_i += dt [u_i - chi ((u_i - u_m).n) n] + s_i - chi (s_i.n) n,    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
-// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point; s: shifting. After the move a
-// particle that is nearer than 0.05 dx to its own side of the membrane, or beyond it, goes to that distance; those that were beyond it
+//     x_i += dt [u_i - chi ((u_i - u_m).n) n],    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
+// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point (transport.hpp has it with shifting).
+// After the move a particle that is nearer than 0.05 dx to its own side of the membrane, or beyond it, goes to that distance; those that were beyond it
 // are counted. In the interior of the fluid nothing is done, and an opened cell is left alone.
 #pragma once
 #include <memory>

@@ -233,23 +233,27 @@ class Step final : public ImplicitStep {
         return events;
     }
 
-    // Energy of the disturbance w of the affine flow by the same form, w.A w = w.(b - A affine), where A of an affine flow is c1 M.
+    // Energy of the disturbance w of the affine flow by the same form, w.A w = w.(b - A affine), where A of an affine flow is c1 M and what
+    // resists it in the membranes.
     void findReference() {
         const ParticleStore& s = store();
         double sum = 0;
         const Vec3& g = scene_.model().bodyForce;
-        Field& disturbance = correction_;
+        Field &disturbance = correction_, &undisturbed = residual_;
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec3 flow = affine(s.position(i)), w = isFixed(i) ? Vec3::Zero() : Vec3(get(guess_, i) - flow);
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
             sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
             sum += operators_.volume(i) * pressure_[i] * operators_.divergence(i);
             put(disturbance, i, w);
+            put(undisturbed, i, flow);
         }
         sum = sumOfAll(sum, scene_.system->comm());
         if (immersed_) {
             const Immersed::Vectors w = immersed_->interpolate(disturbance.data());
-            for (std::size_t m = 0; m < w.size(); ++m) sum += w[m].dot(load_[m]);
+            Immersed::Vectors f = load_;
+            immersed_->addResistance(time_, immersed_->interpolate(undisturbed.data()), f);
+            for (std::size_t m = 0; m < w.size(); ++m) sum += w[m].dot(f[m]);
         }
         state.reference = std::abs(sum);
     }

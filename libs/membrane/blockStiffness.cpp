@@ -17,9 +17,9 @@ void BlockStiffness::add(std::span<const int> nodes, const Eigen::Ref<const Eige
     for (std::size_t m = 0; m < nodes.size(); ++m) {
         auto& row = rows_[static_cast<std::size_t>(nodes[m])];
         for (std::size_t n = 0; n < nodes.size(); ++n) {
-            auto block = std::find_if(row.begin(), row.end(), [&](const Block& b) { return b.column == nodes[n]; });
-            if (block == row.end()) {
-                block = row.insert(row.end(), {nodes[n], Mat3::Zero()});
+            auto block = std::find_if(row.begin(), row.end(), [&](const Block& b) { return b.column >= nodes[n]; });
+            if (block == row.end() || block->column != nodes[n]) {
+                block = row.insert(block, {nodes[n], Mat3::Zero()});
             }
             block->value += matrix.block<3, 3>(static_cast<Eigen::Index>(3 * m), static_cast<Eigen::Index>(3 * n));
         }

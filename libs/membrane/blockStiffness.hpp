@@ -24,7 +24,7 @@ class BlockStiffness : public Stiffness {
         double factor;
         std::vector<Vec3> gradient;
     };
-    std::vector<std::vector<Block>> rows_;
+    std::vector<std::vector<Block>> rows_;  // by columns: sums do not depend on which element came first
     std::vector<RankOne> rankOne_;
 };
 

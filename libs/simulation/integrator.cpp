@@ -194,8 +194,9 @@ void Integrator::checkState(const Time& time) const {
         fault = fmt::format(
             "step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
             "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
-            "last checkpoint with a smaller 'safety' in system/numerics.yaml",
-            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i]);
+            "last checkpoint with a smaller '{}' in system/numerics.yaml",
+            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i],
+            implicit_ ? "implicit.step" : "safety");
         break;
     }
     io::throwTogether(scene_.system->comm(), !fault.empty(), fault, ExitCode::numerics);

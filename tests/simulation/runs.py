@@ -421,7 +421,7 @@ def test_rkl2(folder):
     shutil.copytree(start, other)
     run(other, "sphFlow", "-steps", "9")
     run(other, "sphFlow", "-steps", "9", *rkl2)
-    implicit = ("-set", "system/numerics.yaml:/integrator=implicit")
+    implicit = ("-set", "system/numerics.yaml:/integrator=implicit", "-set", "system/numerics.yaml:/shifting=none")
     assert "'integrator: velocityVerlet' or rkl2" in run(other, "sphFlow", *implicit, code=4).stderr
 
 
