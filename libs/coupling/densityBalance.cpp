@@ -29,7 +29,9 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
 
     // Region 0 is the outside and all open cells. A node counts half to either side of its membrane.
     const auto regionOfCell = [&](std::size_t number) { return number > 0 && closed[number - 1] ? number : 0; };
-    const auto regionOf = [&](std::size_t i) { return regionOfCell(s.optional().side ? static_cast<std::size_t>(s.side[i]) : 0); };
+    const auto regionOf = [&](std::size_t i) {
+        return regionOfCell(s.optional().side ? static_cast<std::size_t>(s.side[i]) : 0);
+    };
     const auto cellOfNode = [&](std::int64_t node) {
         const auto next = std::upper_bound(cells.begin(), cells.end(), node,
                                            [](std::int64_t n, const Cell& c) { return n < c.firstNode; });

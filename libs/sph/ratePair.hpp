@@ -27,7 +27,8 @@ struct RatePair {
         if constexpr (atWall) {
             const V gapI = walls.gap(i);
             const J gapJ = walls.gap(j);
-            if (particles::anyNegative(min(gapI, i[volume])) || particles::anyNegative(gapJ) || particles::anyNegative(J(j[volume]))) {
+            if (particles::anyNegative(min(gapI, i[volume])) || particles::anyNegative(gapJ) ||
+                particles::anyNegative(J(j[volume]))) {
                 const V both = max(i[volume], V(j[volume]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), max(F, V(0.0) - F));
                 w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * walls.beta(gapI, gapJ);
