@@ -5,21 +5,16 @@
 #include <utility>
 
 #include "coupling/transport.hpp"
+#include "sph/randomSigns.hpp"
 
 namespace corpuscle::coupling {
 
-using particles::Kind;
 using particles::ParticleStore;
 using particles::RealArray;
 
 namespace {
 
 constexpr double probeInBonds = 1e-4;  // largest displacement of a difference of membrane forces
-
-double sumOfAll(double value, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
-    return value;
-}
 
 template <class Real>
 class Verlet final : public ConjugateVerlet {
@@ -51,7 +46,7 @@ class Verlet final : public ConjugateVerlet {
         findMoves(dt);
         drift(half);
         move();
-        return endStep(dt);
+        return endStep(scene_, options_, ++steps_, dt);
     }
 
     Rates rates(int iterations) override {
@@ -68,7 +63,8 @@ class Verlet final : public ConjugateVerlet {
                 spreadAlone(f);
                 return -1.0;
             });
-        found.spring2 = largestEigenvalue(iterations, [&] { return springForces(); });
+        const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(immersed_->force().size(), Vec3::Zero()));
+        found.spring2 = largestEigenvalue(iterations, [&] { return springForces(rest); });
         return found;
     }
 
@@ -94,14 +90,9 @@ class Verlet final : public ConjugateVerlet {
         const std::size_t n = s.size();
         for (std::size_t i = 0; i < n; ++i) s.density[i] += extrapolation * s.densityRate[i];
         operators_.build(*scene_.system);
-        pressure_.resize(n), field_.resize(width * n);
-        const sph::FluidModel& model = scene_.model();
-        model.equationOfState->specificPressure(s.density.data(), pressure_.data(), static_cast<int>(n), model.density,
-                                                model.soundSpeed);
-        for (std::size_t i = 0; i < n; ++i) {
-            pressure_[i] *= s.density[i] * s.density[i];
-            put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
-        }
+        findPressures(scene_, pressure_);
+        field_.resize(width * n);
+        for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
         operators_.apply(*scene_.system, field_, [&](std::size_t i, double) { return pressure_[i]; });
         if (!immersed_) return;
         immersed_->place(*scene_.system, operators_.volumes());
@@ -157,29 +148,13 @@ class Verlet final : public ConjugateVerlet {
         noFlux_->keepSides(*scene_.system);
     }
 
-    // Rupture, density balance.
-    std::vector<RuptureEvent> endStep(double dt) {
-        ++steps_;
-        if (options_.densityBalance && steps_ % options_.balanceInterval == 0)
-            options_.densityBalance->apply(*scene_.system, scene_.cells);
-        std::vector<RuptureEvent> events;
-        for (Cell& cell : scene_.cells) {
-            if (!cell.membrane.canRupture()) continue;
-            std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
-            if (broken.empty()) continue;
-            cell.membrane.breakBonds(broken);
-            events.push_back({cell.membrane.cell, std::move(broken)});
-        }
-        return events;
-    }
-
     // The force of nodes alone on the particles, in place of that of the fluid.
     void spreadAlone(const Immersed::Vectors& f) {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
         immersed_->spread(f, operators_.force());
     }
-    // S^T P of the change of elastic force with a displacement along P S field_; by what it is to be multiplied to be -K P S field_.
-    double springForces() {
+    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be multiplied to be -K P S field_.
+    double springForces(const Immersed::Vectors& rest) {
         Immersed::Vectors displacement = nodeVelocities();
         double longest = 0, bond = 0;
         for (const Vec3& d : displacement) longest = std::max(longest, d.norm());
@@ -187,7 +162,6 @@ class Verlet final : public ConjugateVerlet {
         const double scale = longest > 0 ? probeInBonds * bond / longest : 1;
         for (Vec3& d : displacement) d *= scale;
         Immersed::Vectors f = immersed_->forceAt(displacement);
-        const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(f.size(), Vec3::Zero()));
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
         spreadAlone(f);
         return -1 / scale;
@@ -198,7 +172,10 @@ class Verlet final : public ConjugateVerlet {
     template <class Image>
     double largestEigenvalue(int iterations, Image&& image) {
         const ParticleStore& s = store();
-        for (std::size_t i = 0; i < s.size(); ++i) put(i, isFixed(i) ? Vec3(Vec3::Zero()) : signs(s.id[i]));
+        for (std::size_t i = 0; i < s.size(); ++i)
+            put(i, isFixed(i)
+                       ? Vec3(Vec3::Zero())
+                       : Vec3(sph::randomSign(s.id[i], 0), sph::randomSign(s.id[i], 1), sph::randomSign(s.id[i], 2)));
         double rate = 0, length = norm();
         for (int it = 0; it < iterations && length > 0; ++it) {
             for (Real& v : field_) v = static_cast<Real>(static_cast<double>(v) / length);
@@ -211,19 +188,10 @@ class Verlet final : public ConjugateVerlet {
         }
         return rate;
     }
-    static Vec3 signs(std::int64_t id) {
-        Vec3 v;
-        for (int k = 0; k < 3; ++k) {
-            auto h = (static_cast<std::uint64_t>(id) * 3 + static_cast<std::uint64_t>(k)) * 0x9E3779B97F4A7C15ull;
-            h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9ull;
-            v[k] = (h >> 40) % 2 ? 1.0 : -1.0;
-        }
-        return v;
-    }
     double norm() const {
         double sum = 0;
         for (const Real v : field_) sum += static_cast<double>(v) * static_cast<double>(v);
-        return std::sqrt(sumOfAll(sum, scene_.system->comm()));
+        return std::sqrt(sumOverRanks(sum, scene_.system->comm()));
     }
 
     void put(std::size_t i, const Vec3& v) {

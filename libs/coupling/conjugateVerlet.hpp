@@ -19,23 +19,16 @@
 // densities and their rates alone. Particles are shifted and kept on their side of each membrane as in the implicit step (noFlux.hpp).
 #pragma once
 #include <memory>
-#include <optional>
 
+#include "coupling/conjugate.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/noFlux.hpp"
-#include "coupling/scene.hpp"
-#include "sph/operators.hpp"
 
 namespace corpuscle::coupling {
 
 class ConjugateVerlet {
   public:
-    struct Options {
-        sph::OperatorForm form = sph::OperatorForm::corrected;
-        std::optional<double> shifting{};  // C, strength per unit of strain
-        std::optional<DensityBalance> densityBalance{};
-        long balanceInterval = 0;  // steps between two balances
-    };
+    using Options = ConjugateOptions;
     virtual ~ConjugateVerlet() = default;
 
     // Rates at the initial state. Not after a restart: they are part of the state. Collective.

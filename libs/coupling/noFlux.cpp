@@ -14,7 +14,7 @@ using particles::Kind;
 using particles::ParticleSystem;
 
 namespace {
-constexpr double reachInSpacings = 1, leastDistanceInSpacings = 0.05;
+constexpr double reachInSpacings = 0.5 * NoFlux::imageMarginInSpacings, leastDistanceInSpacings = 0.05;
 
 // Sign of the distance on the particle's side.
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
@@ -54,12 +54,12 @@ void NoFlux::checkLength(const particles::Box& box, const Cell& cell) const {
     for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
     for (int k = 0; k < 3; ++k)
         if (box.periodic[static_cast<std::size_t>(k)] &&
-            high[k] - low[k] > box.size()[k] - 2 * reachInSpacings * spacing_)
+            high[k] - low[k] > box.size()[k] - imageMarginInSpacings * spacing_)
             throw Failure(ExitCode::numerics,
                           fmt::format("the cell '{}' has become {:.4g} m long along {} and comes within {} spacings of "
                                       "its image in the periodic box: particles at its ends could no longer be told "
                                       "from those at its image's. Start again with a longer box",
-                                      cell.membrane.name, high[k] - low[k], "xyz"[k], 2 * reachInSpacings));
+                                      cell.membrane.name, high[k] - low[k], "xyz"[k], imageMarginInSpacings));
 }
 
 void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidates) {

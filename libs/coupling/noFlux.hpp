@@ -17,6 +17,8 @@ namespace corpuscle::coupling {
 
 class NoFlux {
   public:
+    static constexpr double imageMarginInSpacings = 2;  // between a cell and its image: twice the reach
+
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 
     // Which of `candidates`, particles of this rank, are near a membrane now. Throws Failure(numerics), on all ranks, where a closed cell

@@ -9,6 +9,8 @@ namespace corpuscle::implicit {
 struct ImplicitSettings {
     double step = 0.05;       // strain a step
     double tolerance = 1e-3;  // of the velocity, in the norm of energy
+    double error = 1e-3;      // of the nodes' places, in radii per unit of strain
+    double bondStrain = 0.1;  // of one step
     std::string method = "midpoint", preconditioner = "twoLevel";
     static const Schema<ImplicitSettings>& schema();
 };

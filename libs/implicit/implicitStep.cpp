@@ -4,26 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "coupling/transport.hpp"
 #include "implicit/coarseGrid.hpp"
 #include "implicit/membraneCorrection.hpp"
+#include "implicit/stepControl.hpp"
 
 namespace corpuscle::implicit {
 
 using coupling::Immersed;
 using coupling::Scene;
-using particles::Kind;
+using Events = std::vector<coupling::RuptureEvent>;
 using particles::ParticleStore;
 using particles::RealArray;
 
 namespace {
-
-double sumOfAll(double value, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
-    return value;
-}
 
 template <class Real>
 class Step final : public ImplicitStep {
@@ -42,32 +39,11 @@ class Step final : public ImplicitStep {
         noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
     }
 
-    std::vector<coupling::RuptureEvent> advance(double dt) override {
-        const double share = backward_ ? 1 : 0.5;  // of dt, at which forces are taken
-        setTimes(dt, share);
-        moveBy(share * dt);
-        scene_.system->rebuild();
-        prepare();
-        const double reference = std::max(state.reference, leastReference());
-        findResidual();
-        factorise();
-        const Convergence c = solver_.solve(
-            scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
-            [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); });
-        if (!c.reached)
-            throw Failure(ExitCode::numerics,
-                          fmt::format("step {}: the solver did not converge in {} iterations; take a smaller step in "
-                                      "'implicit' of system/numerics.yaml",
-                                      state.steps + 1, c.iterations));
-        statistics.innerIterations = membraneCorrection_.iterations();
-        ++statistics.steps, statistics.iterations += c.iterations;
-        statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
-        finish(dt, share);
-        return endStep(dt);
-    }
+    Events advance(double dt) override { return advance(dt, backward_, 0); }
 
   private:
     using Field = particles::AlignedVector<Real>;
+    using Vectors = Immersed::Vectors;
     static constexpr std::size_t width = 4;
     static std::size_t at(std::size_t i) { return width * i; }
 
@@ -75,10 +51,48 @@ class Step final : public ImplicitStep {
     double mass(std::size_t i) const { return scene_.mass(i); }
     bool isFixed(std::size_t i) const { return operators_.isWall(i); }
 
+    Events advance(double dt, bool backward, int halvings) {
+        if (attempt(dt, backward)) {
+            ++statistics.steps;
+            return coupling::endStep(scene_, options_, ++state.steps, dt);
+        }
+        if (halvings == mostHalvings)
+            throw Failure(ExitCode::numerics,
+                          fmt::format("step {}: {}, even in {} parts; take a smaller step in 'implicit' of "
+                                      "system/numerics.yaml",
+                                      state.steps + 1, fault_, 1 << halvings));
+        ++statistics.halvings;
+        Events events = advance(0.5 * dt, true, halvings + 1), later = advance(0.5 * dt, true, halvings + 1);
+        std::move(later.begin(), later.end(), std::back_inserter(events));
+        return events;
+    }
+
+    // False, and everything where it was, where it fails for the reason in fault_.
+    bool attempt(double dt, bool backward) {
+        const double share = backward ? 1 : 0.5;  // of dt, at which forces are taken
+        setTimes(dt, share);
+        moveBy(share * dt);
+        scene_.system->rebuild();
+        prepare();
+        findResidual();
+        factorise();
+        if (!solve(dt)) {
+            moveBy(-share * dt);
+            return false;
+        }
+        if (immersed_) {
+            const bool extrapolated = state.steps > 1;  // with an acceleration
+            allowed_ = allowedSteps(options_.settings, scene_, dt, ends_, nodes_, extrapolated ? guessed_ : nodes_);
+        }
+        finish(dt, share);
+        return true;
+    }
+
     void setTimes(double dt, double share) {
         time_ = share * dt;
-        h_ = backward_ ? dt : 0.5 * (dt + state.lastStep);
-        const double w = backward_ || state.lastSpacing == 0 ? 0 : h_ / state.lastSpacing;
+        ends_ = share == 1;
+        h_ = time_ + state.behind;
+        const double w = ends_ || state.lastSpacing == 0 ? 0 : h_ / state.lastSpacing;
         c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
     }
 
@@ -92,14 +106,11 @@ class Step final : public ImplicitStep {
         const ParticleStore& s = store();
         const std::size_t n = s.size();
         operators_.build(*scene_.system);
-        pressure_.resize(n), bulk_.resize(n);
+        findPressures(scene_, pressure_);
+        bulk_.resize(n);
         const sph::FluidModel& model = scene_.model();
-        model.equationOfState->specificPressure(s.density.data(), pressure_.data(), static_cast<int>(n), model.density,
-                                                model.soundSpeed);
-        for (std::size_t i = 0; i < n; ++i) {
-            pressure_[i] *= s.density[i] * s.density[i];
+        for (std::size_t i = 0; i < n; ++i)
             bulk_[i] = model.equationOfState->bulkModulus(s.density[i], model.density, model.soundSpeed);
-        }
         if (!immersed_) return;
         immersed_->build(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
@@ -121,8 +132,9 @@ class Step final : public ImplicitStep {
         if (immersed_) {
             load_ = immersed_->force();
             immersed_->addStiffness(time_, immersed_->velocities(), load_);  // of f(x) at x* + time (v - u_m)
-            Immersed::Vectors f = load_;
-            immersed_->addResistance(time_, immersed_->interpolate(guess_.data()), f);
+            Vectors f = load_;
+            guessed_ = immersed_->interpolate(guess_.data());
+            immersed_->addResistance(time_, guessed_, f);
             immersed_->spread(std::move(f), force);
         }
         const Vec3& g = scene_.model().bodyForce;
@@ -133,10 +145,61 @@ class Step final : public ImplicitStep {
         }
     }
 
+    // The velocity of this step in guess_, that of the nodes in nodes_.
+    bool solve(double dt) {
+        const double reference = std::max(state.reference, leastReference());
+        for (int refinement = 0;; ++refinement) {
+            const Convergence c = solver_.solve(
+                scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
+                [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); });
+            statistics.innerIterations = membraneCorrection_.iterations();
+            statistics.iterations += c.iterations;
+            statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
+            if (!c.reached) {
+                fault_ = fmt::format("the solver did not converge in {} iterations", c.iterations);
+                return false;
+            }
+            for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += correction_[k];
+            if (!immersed_) return true;
+            nodes_ = immersed_->interpolate(guess_.data());
+            if (const double change = largestBondRate(scene_.cells, nodes_) * dt;
+                change > options_.settings.bondStrain) {
+                fault_ =
+                    fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);
+                return false;
+            }
+            const double enough = linearisation * linearisation * std::max(reference, c.energy);
+            if (refinement == mostRefinements || findDefect() <= enough) return true;
+            ++statistics.refinements;
+        }
+    }
+
+    // What the membranes' forces at the places found differ from the linear ones, as residual_ and in load_; the energy of the velocity that it
+    // makes, by the preconditioner.
+    double findDefect() {
+        Vectors displacement = nodes_, defect;
+        const Vectors before = immersed_->velocities();
+        for (std::size_t m = 0; m < nodes_.size(); ++m) displacement[m] = time_ * (nodes_[m] - before[m]);
+        defect = immersed_->forceAt(displacement);
+        Vectors linear = load_;
+        immersed_->addStiffness(-time_, nodes_, linear);
+        for (std::size_t m = 0; m < defect.size(); ++m) defect[m] -= linear[m], load_[m] += defect[m];
+        RealArray& force = operators_.force();
+        std::fill(force.begin(), force.end(), 0.0);
+        immersed_->spread(std::move(defect), force);
+        for (std::size_t i = 0; i < store().size(); ++i)
+            put(residual_, i, isFixed(i) ? Vec3(Vec3::Zero()) : vector(force, i));
+        precondition(residual_, correction_);
+        double energy = 0;
+        for (std::size_t k = 0; k < residual_.size(); ++k)
+            energy += static_cast<double>(residual_[k]) * static_cast<double>(correction_[k]);
+        return coupling::sumOverRanks(energy, scene_.system->comm());
+    }
+
     void apply(const Field& z, Field& w) {
         operators_.apply(*scene_.system, z, [&](std::size_t i, double rate) { return -time_ * bulk_[i] * rate; });
         if (immersed_) {
-            Immersed::Vectors f(load_.size(), Vec3::Zero());
+            Vectors f(load_.size(), Vec3::Zero());
             immersed_->addResistance(time_, immersed_->interpolate(z.data()), f);
             immersed_->spread(std::move(f), operators_.force());
         }
@@ -179,7 +242,6 @@ class Step final : public ImplicitStep {
     void finish(double dt, double share) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
-        for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += correction_[k];
         operators_.apply(*scene_.system, guess_,
                          [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
         findReference();
@@ -187,7 +249,7 @@ class Step final : public ImplicitStep {
         for (std::size_t i = 0; i < n; ++i) {
             const double rate = operators_.divergence(i);
             s.densityRate[i] = -s.density[i] * rate;
-            s.density[i] *= backward_ ? 1 / (1 + dt * rate) : (1 - 0.5 * dt * rate) / (1 + 0.5 * dt * rate);
+            s.density[i] *= ends_ ? 1 / (1 + dt * rate) : (1 - 0.5 * dt * rate) / (1 + 0.5 * dt * rate);
             if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += vector(operators_.force(), i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
@@ -199,9 +261,8 @@ class Step final : public ImplicitStep {
         const std::size_t n = s.size();
         transport_.shift(operators_, dt);
         if (immersed_) {
-            const Immersed::Vectors nodes = immersed_->interpolate(guess_.data());
             immersed_->move(-share * dt);
-            immersed_->setVelocities(nodes);
+            immersed_->setVelocities(nodes_);
             transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) { return get(guess_, i); });
             immersed_->move(dt);
             immersed_->restoreVolume();
@@ -214,23 +275,7 @@ class Step final : public ImplicitStep {
             s.setVelocity(i, v);
         }
         if (noFlux_) noFlux_->keepSides(*scene_.system);
-        state.lastStep = dt, state.lastSpacing = h_;
-    }
-
-    // Rupture, density balance.
-    std::vector<coupling::RuptureEvent> endStep(double dt) {
-        ++state.steps;
-        if (options_.densityBalance && state.steps % options_.balanceInterval == 0)
-            options_.densityBalance->apply(*scene_.system, scene_.cells);
-        std::vector<coupling::RuptureEvent> events;
-        for (coupling::Cell& cell : scene_.cells) {
-            if (!cell.membrane.canRupture()) continue;
-            std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
-            if (broken.empty()) continue;
-            cell.membrane.breakBonds(broken);
-            events.push_back({cell.membrane.cell, std::move(broken)});
-        }
-        return events;
+        state.behind = dt - share * dt, state.lastSpacing = h_;
     }
 
     // Energy of the disturbance w of the affine flow by the same form, w.A w = w.(b - A affine), where A of an affine flow is c1 M and what
@@ -248,10 +293,10 @@ class Step final : public ImplicitStep {
             put(disturbance, i, w);
             put(undisturbed, i, flow);
         }
-        sum = sumOfAll(sum, scene_.system->comm());
+        sum = coupling::sumOverRanks(sum, scene_.system->comm());
         if (immersed_) {
-            const Immersed::Vectors w = immersed_->interpolate(disturbance.data());
-            Immersed::Vectors f = load_;
+            const Vectors w = immersed_->interpolate(disturbance.data());
+            Vectors f = load_;
             immersed_->addResistance(time_, immersed_->interpolate(undisturbed.data()), f);
             for (std::size_t m = 0; m < w.size(); ++m) sum += w[m].dot(f[m]);
         }
@@ -274,7 +319,8 @@ class Step final : public ImplicitStep {
 
     Scene& scene_;
     Options options_;
-    bool backward_, withMembrane_;
+    bool backward_, withMembrane_, ends_ = false;  // ends_: everything at the end of this step
+    std::string fault_;
     sph::Operators<Real> operators_;
     std::unique_ptr<CoarseGrid> grid_;
     MembraneCorrection<Real> membraneCorrection_;
@@ -284,7 +330,8 @@ class Step final : public ImplicitStep {
     RealArray pressure_;
     std::vector<double> bulk_;
     coupling::Transport transport_;
-    Immersed::Vectors load_;  // f(x*) + time k u_m
+    Vectors load_;             // f(x*) + time k u_m
+    Vectors guessed_, nodes_;  // velocities of the nodes: extrapolated, and found
 };
 
 }  // namespace

@@ -19,37 +19,40 @@
 // keeps the system symmetric. Pressure needs no saddle point: density carries it from step to step.
 // Backward Euler: everything at the end of the step, dt in place of dt/2, c1 = 1/dt and c2 = 0.
 //
+// Membranes are not linear: what their forces at the places found differ from the linear ones is solved for again, with the same matrix,
+// while it is above `linearisation` of the disturbance in the norm of energy, and at most `mostRefinements` times. Where the solver does not
+// converge, or a bond would change by more than the case allows, the step is taken back and made in two halves by backward Euler.
+//
 // The state between steps: places at t^n; u and a of the middle of the last step in the store's velocity and acceleration; nodes have
 // the velocity of the middle too.
 #pragma once
 #include <memory>
-#include <optional>
 
+#include "coupling/conjugate.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/noFlux.hpp"
-#include "coupling/scene.hpp"
 #include "implicit/conjugateGradients.hpp"
 #include "implicit/implicitSettings.hpp"
-#include "sph/operators.hpp"
+#include "implicit/stepControl.hpp"
 
 namespace corpuscle::implicit {
 
 class ImplicitStep {
   public:
-    struct Options {
+    struct Options : coupling::ConjugateOptions {
         ImplicitSettings settings;
-        sph::OperatorForm form = sph::OperatorForm::corrected;
-        std::optional<double> shifting{};  // C, strength per unit of strain
-        std::optional<coupling::DensityBalance> densityBalance{};
-        long balanceInterval = 0;  // steps between two balances
     };
     virtual ~ImplicitStep() = default;
-    // One step; what broke in it. Collective. Throws Failure(numerics) when the solver does not converge.
+    static constexpr double linearisation = 0.01;
+    static constexpr int mostRefinements = 3, mostHalvings = 5;
+
+    // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help.
     virtual std::vector<coupling::RuptureEvent> advance(double dt) = 0;
 
     // What a restart needs beside the scene.
     struct State {
-        double lastStep = 0, lastSpacing = 0, reference = 0;
+        double behind = 0;  // how far the velocity is behind the places [s]
+        double lastSpacing = 0, reference = 0;
         long steps = 0;
     };
     State state;
@@ -60,9 +63,11 @@ class ImplicitStep {
 
     struct Statistics {
         long steps = 0, iterations = 0, mostIterations = 0;
+        long refinements = 0, halvings = 0;
         long innerIterations = 0;  // on the nodes, by membraneCorrection.hpp
     };
     Statistics statistics;
+    const AllowedSteps& allowed() const { return allowed_; }  // by the last one; stepControl.hpp
     const coupling::NoFlux* noFlux() const { return noFlux_.get(); }
 
     // The scene must stay where it is.
@@ -71,6 +76,7 @@ class ImplicitStep {
   protected:
     std::unique_ptr<coupling::Immersed> immersed_;  // none without cells
     std::unique_ptr<coupling::NoFlux> noFlux_;
+    AllowedSteps allowed_;
 };
 
 }  // namespace corpuscle::implicit

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "coupling/noFlux.hpp"
+
 namespace corpuscle::simulation {
 
 std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
@@ -18,7 +20,7 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
 namespace {
 
 constexpr double leastBodyInSpacings = 3;
-constexpr double largestEdgeInSpacings = 2, imageMarginInSpacings = 2;  // immersed
+constexpr double largestEdgeInSpacings = 2;  // immersed
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
@@ -161,7 +163,8 @@ void checkUnused(const Case& c, Problems& problems) {
 // What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
 void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
-    const double longest = largestEdgeInSpacings * c.spacing(), margin = imageMarginInSpacings * c.spacing();
+    const double longest = largestEdgeInSpacings * c.spacing(),
+                 margin = coupling::NoFlux::imageMarginInSpacings * c.spacing();
     if (cell.edge > longest)
         problems.add(
             mesh, key + ".edge",
@@ -178,8 +181,9 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
                      "the cell is " + formatQuantity(length, unit::metre) + " long along " + axisName(k) +
                          ", where the box is periodic with " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
                          ": with 'coupling: immersed' it must be shorter than the box by " +
-                         formatQuantity(imageMarginInSpacings, unit::none) + " dx at least; make the box " +
-                         formatQuantity(length + margin, unit::metre) + " or longer, or the cell smaller");
+                         formatQuantity(coupling::NoFlux::imageMarginInSpacings, unit::none) +
+                         " dx at least; make the box " + formatQuantity(length + margin, unit::metre) +
+                         " or longer, or the cell smaller");
     }
 }
 

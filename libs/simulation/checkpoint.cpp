@@ -81,7 +81,7 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     if (input.numerics.isImplicit()) {
         const implicit::ImplicitStep::State& s = state.integrator.implicit;
         file.writeReplicated("implicit",
-                             std::vector<double>{s.lastStep, s.lastSpacing, s.reference, static_cast<double>(s.steps)});
+                             std::vector<double>{s.behind, s.lastSpacing, s.reference, static_cast<double>(s.steps)});
     }
     if (!input.numerics.isImplicit() && input.isConjugate())
         file.writeReplicated("conjugate",

@@ -38,7 +38,7 @@ double springRate2(const Case& c) {
 sph::StepLimits limitsOf(const Case& c, double t) {
     sph::StepLimits limits;
     if (c.numerics.isImplicit()) {
-        limits.add("accuracy", c.numerics.implicit.step / c.flow.rate);
+        limits.add("strain", c.numerics.implicit.step / c.flow.rate);
         return limits;
     }
     const double rate = viscousRate(c) / c.numerics.safety, h = 0.5 * c.support();
@@ -122,9 +122,9 @@ std::vector<std::string> costHeader(const Case& input) {
             ""};
 }
 
-std::vector<std::vector<std::string>> costRows(const Case& input) {
+std::vector<std::vector<std::string>> costRows(const Case& input, const std::vector<IntegratorCost>& costs) {
     std::vector<std::vector<std::string>> rows;
-    for (const IntegratorCost& cost : predictCosts(input)) {
+    for (const IntegratorCost& cost : costs) {
         std::string note = cost.name != input.numerics.integrator ? ""
                            : input.integratorChosen               ? "taken"
                                                                   : "named by the case";

@@ -47,6 +47,6 @@ std::string cheapest(const std::vector<IntegratorCost>& costs);
 
 // For checkCase and the log.
 std::vector<std::string> costHeader(const Case& input);
-std::vector<std::vector<std::string>> costRows(const Case& input);
+std::vector<std::vector<std::string>> costRows(const Case& input, const std::vector<IntegratorCost>& costs);
 
 }  // namespace corpuscle::simulation

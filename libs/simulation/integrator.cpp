@@ -35,22 +35,12 @@ std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits) {
 }
 
 Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
-    if (!input.numerics.isImplicit()) {
-        if (input.numerics.isRkl2())
-            makeRkl2();
-        else if (input.isConjugate())
-            makeConjugate();
-        else
-            makeExplicit();
-        return;
-    }
-    implicit::ImplicitStep::Options options;
-    options.settings = input.numerics.implicit;
-    if (input.numerics.operators == "plain") options.form = sph::OperatorForm::plain;
-    if (input.numerics.shifting) options.shifting = input.numerics.shifting->coefficient;
-    if (input.numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene);
-    options.balanceInterval = input.numerics.balanceInterval();
-    implicit_ = implicit::ImplicitStep::make(scene, options);
+    if (input.numerics.isRkl2())
+        makeRkl2();
+    else if (input.isConjugate())
+        makeConjugate();
+    else
+        makeExplicit();
 }
 
 void Integrator::makeExplicit() {
@@ -69,12 +59,15 @@ void Integrator::makeExplicit() {
 
 void Integrator::makeConjugate() {
     const NumericsSettings& numerics = input_.numerics;
-    coupling::ConjugateVerlet::Options options;
+    coupling::ConjugateOptions options;
     if (numerics.operators == "plain") options.form = sph::OperatorForm::plain;
     if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
     if (numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene_);
     options.balanceInterval = numerics.balanceInterval();
-    conjugate_ = coupling::ConjugateVerlet::make(scene_, options);
+    if (numerics.isImplicit())
+        implicit_ = implicit::ImplicitStep::make(scene_, {options, numerics.implicit});
+    else
+        conjugate_ = coupling::ConjugateVerlet::make(scene_, options);
 }
 
 void Integrator::makeRkl2() {
@@ -155,7 +148,9 @@ void Integrator::estimateRates() {
 void Integrator::updateLimits(Time& time) {
     if (implicit_) {
         limits_.all.clear();
-        limits_.add("accuracy", input_.numerics.implicit.step / input_.flow.rate);
+        limits_.add("strain", input_.numerics.implicit.step / input_.flow.rate);
+        if (implicit_->allowed().error > 0) limits_.add("error", implicit_->allowed().error);
+        if (implicit_->allowed().bond > 0) limits_.add("bond strain", implicit_->allowed().bond);
         time.dt = limits_.binding().seconds;
         return;
     }

@@ -103,7 +103,7 @@ void Schedule::describe() {
         log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})",
                  formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
                  formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
-    log.table(costHeader(input_), costRows(input_));
+    log.table(costHeader(input_), costRows(input_, predictCosts(input_)));
     record_.set("parameters", "integrator", input_.numerics.integrator);
     log.table({"limit of the step", "dt", ""}, limitRows(integrator_.limits()));
     log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(),
@@ -222,9 +222,13 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         const double perStep = static_cast<double>(statistics.iterations) / static_cast<double>(std::max(1L, steps));
         record_.set("performance", "iterationsPerStep", perStep);
         record_.set("extremes", "mostIterations", statistics.mostIterations);
+        record_.set("performance", "refinements", statistics.refinements);
+        record_.set("performance", "halvings", statistics.halvings);
         const double inner = static_cast<double>(statistics.innerIterations) / static_cast<double>(std::max(1L, steps));
-        app_.log().info("implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes",
-                        perStep, statistics.mostIterations, inner);
+        app_.log().info(
+            "implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes; refined "
+            "{} times, halved {} times",
+            perStep, statistics.mostIterations, inner, statistics.refinements, statistics.halvings);
     }
     if (scene.coupling) record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
     if (!scene.cells.empty()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "particles/sumOverPairs.hpp"
+#include "sph/randomSigns.hpp"
 
 namespace corpuscle::sph {
 
@@ -166,13 +167,8 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
         for (const int i : wallParticles_)
             for (auto& component : vector) component[i] = 0;
     };
-    // Random signs from a hash of the particle's number: the same on any number of ranks.
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            auto h = (static_cast<std::uint64_t>(s.id[i]) * 3 + k) * 0x9E3779B97F4A7C15ull;
-            h = (h ^ (h >> 29)) * 0xBF58476D1CE4E5B9ull;
-            vector[k][i] = (h >> 40) % 2 ? 1.0 : -1.0;
-        }
+        for (int k = 0; k < 3; ++k) vector[k][i] = randomSign(s.id[i], k);
     clearWalls();
     if (groups_)
         groups_->spread(std::vector<RigidMotion>(groups_->motion.size()), vector[0].data(), vector[1].data(),

@@ -18,10 +18,13 @@ struct MomentConstants {
     double atSpacing = 0;  // the kernel, as Kernel::value, at one spacing
 };
 
+struct Moments {
+    enum Sum { shift = 0, second = 3, strength = 9, square = 10, number = 11, count = 12 };
+};
+
 template <class Kernel>
-struct MomentPair {
-    static constexpr int fields = 4, sums = 12;
-    enum Sum { shift = 0, second = 3, strength = 9, square = 10, number = 11 };
+struct MomentPair : Moments {
+    static constexpr int fields = 4, sums = count;
     static constexpr double repulsion = 0.2;
     MomentConstants c;
 

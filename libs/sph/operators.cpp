@@ -62,7 +62,7 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
     const std::size_t n = volume_.size();
     momentRecords_.resize((n + static_cast<std::size_t>(system.ghosts())) * momentFields);
     const particles::RecordFrame frame(system);
-    double* results[12];
+    double* results[Moments::count];
     for (std::size_t k = 0; k < moment_.size(); ++k) moment_[k].resize(n), results[k] = moment_[k].data();
     for (std::size_t i = 0; i < n; ++i) {
         Real* r = momentRecords_.data() + momentFields * i;
@@ -72,16 +72,16 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
     particles::sumOverPairs(system, kernels_.moments, kernels_.moments, moments_, momentRecords_, momentFields, sums_,
                             results, static_cast<int>(moment_.size()));
 
-    disorder_.resize(n), evenness_.resize(n), viscous_.resize(n), bulk_.resize(n), correction_.resize(n);
+    disorder_.resize(n), viscous_.resize(n), bulk_.resize(n), correction_.resize(n);
     scale_.assign(n, wallScale_);
     for (std::size_t i = 0; i < n; ++i) {
-        const auto m = [&](int k) { return moment_[static_cast<std::size_t>(k)][i]; };
-        disorder_[i] = Vec3(m(0), m(1), m(2));
-        evenness_[i] = m(11);
+        const auto m = [&](std::size_t k) { return moment_[k][i]; };
+        const auto second = [&](std::size_t k) { return m(Moments::second + k); };
+        disorder_[i] = Vec3(m(Moments::shift), m(Moments::shift + 1), m(Moments::shift + 2));
         correction_[i] = {1, 1, 1, 0, 0, 0};
         if (!wall_[i] && form_ == OperatorForm::corrected) {
             Mat3 M;
-            M << m(3), m(6), m(7), m(6), m(4), m(8), m(7), m(8), m(5);
+            M << second(0), second(3), second(4), second(3), second(1), second(5), second(4), second(5), second(2);
             const double scale = M.trace() / 3, determinant = M.determinant();
             if (!(scale > leastMoment && determinant > leastMoment * leastMoment * scale)) {
                 const Vec3 x = system.store().position(i);
@@ -96,8 +96,8 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
             scale_[i] = 1 / scale;
         }
         const double mu = varyingViscosity_ ? system.store().viscosity[i] : model_.viscosity;
-        viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(9);
-        bulk_[i] = m(10) * volume_[i] / 3;
+        viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(Moments::strength);
+        bulk_[i] = m(Moments::square) * volume_[i] / 3;
     }
 }
 

@@ -46,9 +46,9 @@ class Operators {
     const std::vector<double>& volumes() const { return volume_; }
     bool isWall(std::size_t i) const { return wall_[i] != 0; }
     // Of momentPair.hpp:
-    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }  // R [1/m]
-    double crowding(std::size_t i) const { return moment_[9][i]; }      // sum_j V_j F [1/m^2]
-    double evenness(std::size_t i) const { return evenness_[i]; }       // sum_j V_j W
+    const Vec3& disorder(std::size_t i) const { return disorder_[i]; }              // R [1/m]
+    double crowding(std::size_t i) const { return moment_[Moments::strength][i]; }  // sum_j V_j F [1/m^2]
+    double evenness(std::size_t i) const { return moment_[Moments::number][i]; }    // sum_j V_j W
     // Diagonal of L [N s/m], and of D^T V D [m], both as multiples of the unit matrix.
     double viscousDiagonal(std::size_t i) const { return viscous_[i]; }
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
@@ -72,8 +72,8 @@ class Operators {
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
     Field momentRecords_, rateRecords_, stressRecords_;
     particles::RealArray sums_, force_, divergence_;
-    std::array<particles::RealArray, 12> moment_;
-    std::vector<double> volume_, evenness_, viscous_, bulk_;
+    std::array<particles::RealArray, Moments::count> moment_;
+    std::vector<double> volume_, viscous_, bulk_;
     std::vector<std::array<double, 6>> correction_;  // B: xx yy zz xy xz yz
     std::vector<double> scale_;                      // 1/S2
     std::vector<Vec3> disorder_;

@@ -8,53 +8,37 @@
 #include <map>
 #include <numbers>
 
+#include "coupling/fluidScene.hpp"
 #include "coupling/sphereScene.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::coupling;
+using coupling::testing::FluidScene;
+using coupling::testing::fluidSupport;
 using coupling::testing::SphereScene;
+using coupling::testing::still;
 using sph::testing::Particle;
 
 namespace {
 
-constexpr double support = 2.4, skin = 0.3, pi = std::numbers::pi;
+constexpr double skin = 0.3, pi = std::numbers::pi;
 
-struct FluidScene {
-    Scene scene;
+struct ExplicitFluid : FluidScene {
     std::unique_ptr<ConjugateVerlet> step;
 
-    FluidScene(const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model, double rate,
-               MPI_Comm comm = MPI_COMM_WORLD, particles::Precision precision = particles::Precision::full) {
-        scene.system = std::make_unique<particles::ParticleSystem>(comm, sph::testing::cube(size, model.walls.exist()),
-                                                                   particles::ParticleStore::Optional{}, support, skin,
-                                                                   1.0, precision);
-        sph::testing::deal(all, *scene.system);
-        scene.fluidBox = scene.system->box();
-        scene.spacing = 1;
-        scene.flow.rate = rate;
-        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
+    ExplicitFluid(const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model, double rate,
+                  MPI_Comm comm = MPI_COMM_WORLD, particles::Precision precision = particles::Precision::full)
+        : FluidScene(all, size, model, rate, skin, comm, precision) {
         step = ConjugateVerlet::make(scene, {});
         step->start();
     }
     void run(double time, int steps) {
         for (int k = 0; k < steps; ++k) step->advance(time / steps);
     }
-    template <class F>
-    double sum(F&& f) const {
-        double total = 0;
-        for (std::size_t i = 0; i < scene.store().size(); ++i) total += f(i);
-        return sph::testing::sumOverRanks(total);
-    }
     double energy() const {
         return sum([&](std::size_t i) { return scene.store().velocity(i).squaredNorm(); });
     }
 };
-
-std::vector<Particle> still(const Index3& size, double disorder = 0) {
-    std::vector<Particle> all = sph::testing::lattice(size, disorder);
-    for (Particle& p : all) p.u *= disorder, p.density = p.mass = p.viscosity = 1;
-    return all;
-}
 
 // Of M^-1 L on a lattice: sum_j 2 nu F (1 - cos k.d)/S2 for waves k that fit the box, by the printed kernel.
 double latticeRate(double viscosity, const Index3& size, const Index3& wave) {
@@ -65,7 +49,7 @@ double latticeRate(double viscosity, const Index3& size, const Index3& wave) {
                 for (int c = -3; c <= 3; ++c) {
                     const Vec3 d(a, b, c);
                     if (const double r = d.norm(); r > 0)
-                        total += -sph::testing::kernelDerivative("wendlandC2", r, support) / r * term(d);
+                        total += -sph::testing::kernelDerivative("wendlandC2", r, fluidSupport) / r * term(d);
                 }
         return total;
     };
@@ -90,7 +74,7 @@ struct ShearWave {
         for (Particle& p : all) p.u[0] = amplitude * shape(p.x[2]);
     }
     double amplitudeAfter(double time, int steps) const {
-        FluidScene wave(all, size, model, 1e-4);
+        ExplicitFluid wave(all, size, model, 1e-4);
         wave.run(time, steps);
         const auto& s = wave.scene.store();
         return wave.sum([&](std::size_t i) { return s.u[i] * shape(s.z[i]); }) /
@@ -178,7 +162,7 @@ TEST(ConjugateVerlet, viscousRateIsThatOfTheLattice) {
         for (int b = 0; b < size[1]; ++b)
             for (int c = 0; c < size[2]; ++c) exact = std::max(exact, latticeRate(model.viscosity, size, {a, b, c}));
     for (const auto precision : {particles::Precision::full, particles::Precision::mixed}) {
-        FluidScene box(still(size), size, model, 0.02, MPI_COMM_WORLD, precision);
+        ExplicitFluid box(still(size), size, model, 0.02, MPI_COMM_WORLD, precision);
         const double rate = box.step->rates(100).viscous;
         EXPECT_LT(rate, exact * (1 + 1e-5));
         EXPECT_GT(rate, exact * 0.97);
@@ -193,7 +177,7 @@ TEST(ConjugateVerlet, isStableUpToItsViscousLimitAndNotBeyond) {
     std::vector<Particle> all = still(size, 0.1);
     for (Particle& p : all) p.u *= 1e-3;
     for (const double share : {0.97, 1.1}) {
-        FluidScene box(all, size, model, 0.02);
+        ExplicitFluid box(all, size, model, 0.02);
         const double dt = share / box.step->rates(200).viscous;
         box.run(60 * dt, 60);
         const double before = box.energy();
@@ -237,7 +221,7 @@ TEST(ConjugateVerlet, keepsMomentumAndTakesEnergyAway) {
     const Index3 size{6, 6, 8};
     const std::vector<Particle> all = still(size, 0.15);
     for (const auto precision : {particles::Precision::full, particles::Precision::mixed}) {
-        FluidScene box(all, size, sph::testing::model("wendlandC2"), 0.02, MPI_COMM_WORLD, precision);
+        ExplicitFluid box(all, size, sph::testing::model("wendlandC2"), 0.02, MPI_COMM_WORLD, precision);
         const auto& s = box.scene.store();
         const auto momentum = [&] {
             return Vec3(box.sum([&](std::size_t i) { return s.u[i]; }), box.sum([&](std::size_t i) { return s.v[i]; }),
@@ -256,7 +240,7 @@ TEST(ConjugateVerlet, isTheSameOnOneRankAndOnAll) {
     const Index3 size{7, 6, 8};
     const std::vector<Particle> all = still(size, 0.15);
     const sph::FluidModel model = sph::testing::model("wendlandC2");
-    FluidScene alone(all, size, model, 0.02, MPI_COMM_SELF), shared(all, size, model, 0.02);
+    ExplicitFluid alone(all, size, model, 0.02, MPI_COMM_SELF), shared(all, size, model, 0.02);
     alone.run(4, 100), shared.run(4, 100);
     std::map<std::int64_t, std::size_t> place;
     const auto &a = alone.scene.store(), &b = shared.scene.store();

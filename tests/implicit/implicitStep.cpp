@@ -6,51 +6,34 @@
 #include <map>
 #include <numbers>
 
-#include "sph/samples.hpp"
+#include "coupling/fluidScene.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::implicit;
+using coupling::testing::FluidScene;
+using coupling::testing::still;
 using sph::testing::Particle;
 
 namespace {
 
-constexpr double support = 2.4, pi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
-struct FluidScene {
-    coupling::Scene scene;
+struct ImplicitFluid : FluidScene {
     std::unique_ptr<ImplicitStep> step;
 
-    FluidScene(const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model, double rate,
-               ImplicitSettings settings, MPI_Comm comm = MPI_COMM_WORLD,
-               particles::Precision precision = particles::Precision::full) {
-        const bool walls = model.walls.exist();
-        scene.system = std::make_unique<particles::ParticleSystem>(
-            comm, sph::testing::cube(size, walls), particles::ParticleStore::Optional{}, support, 0, 1.0, precision);
-        sph::testing::deal(all, *scene.system);
-        scene.fluidBox = scene.system->box();
-        scene.spacing = 1;
-        scene.flow.rate = rate;
-        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
-        settings.step = 0.1;  // of a case; here a step is given to advance()
-        step = ImplicitStep::make(scene, {.settings = settings, .form = sph::OperatorForm::corrected, .shifting = {}});
+    ImplicitFluid(const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model, double rate,
+                  const ImplicitSettings& settings, MPI_Comm comm = MPI_COMM_WORLD,
+                  particles::Precision precision = particles::Precision::full)
+        : FluidScene(all, size, model, rate, 0, comm, precision) {
+        ImplicitStep::Options options;
+        options.settings = settings;
+        options.settings.step = 0.1;  // of a case; here a step is given to advance()
+        step = ImplicitStep::make(scene, options);
     }
     void run(double time, int steps) {
         for (int k = 0; k < steps; ++k) step->advance(time / steps);
     }
-    // sum of f(place in the store) over all ranks of the world
-    template <class F>
-    double sum(F&& f) const {
-        double total = 0;
-        for (std::size_t i = 0; i < scene.store().size(); ++i) total += f(i);
-        return sph::testing::sumOverRanks(total);
-    }
 };
-
-std::vector<Particle> still(const Index3& size) {
-    std::vector<Particle> all = sph::testing::lattice(size, 0);
-    for (Particle& p : all) p.u.setZero(), p.density = p.mass = p.viscosity = 1;
-    return all;
-}
 
 ImplicitSettings exactly(const std::string& method) { return {.step = 0, .tolerance = 1e-9, .method = method}; }
 
@@ -65,7 +48,7 @@ struct ShearWave {
 
     ShearWave() {
         for (Particle& p : all) p.u[0] = amplitude * shape(p.x[2]);
-        FluidScene lattice(all, size, model, 1e-4, exactly("midpoint"));
+        ImplicitFluid lattice(all, size, model, 1e-4, exactly("midpoint"));
         const auto& s = lattice.scene.store();
         sph::Operators<double> operators(model, *lattice.scene.system, sph::OperatorForm::corrected);
         operators.build(*lattice.scene.system);
@@ -77,7 +60,7 @@ struct ShearWave {
     }
     // Of the amplitude where the velocity stands: in the middle of the last step, or at its end.
     double error(const std::string& method, double time, int steps) const {
-        FluidScene wave(all, size, model, 1e-4, exactly(method));
+        ImplicitFluid wave(all, size, model, 1e-4, exactly(method));
         wave.run(time, steps);
         const auto& s = wave.scene.store();
         const double found = wave.sum([&](std::size_t i) { return s.u[i] * shape(s.z[i]); }) /
@@ -139,7 +122,7 @@ TEST(ImplicitStep, plateFlowStartsAsItShould) {
         p.wall = p.x[2] < low || p.x[2] > low + gap;
         if (p.x[2] > low + gap) p.u[0] = speed;
     }
-    FluidScene couette(all, size, model, speed / gap, exactly("midpoint"));
+    ImplicitFluid couette(all, size, model, speed / gap, exactly("midpoint"));
     couette.run(time, steps);
     const double at = time * (1 - 0.5 / steps);
     const auto exact = [&](double z) {
@@ -171,7 +154,7 @@ TEST(ImplicitStep, keepsMomentumAndTakesEnergyAway) {
         const bool full = precision == particles::Precision::full;
         ImplicitSettings settings = exactly("midpoint");
         if (!full) settings.tolerance = 1e-5;
-        FluidScene box(all, size, sph::testing::model("wendlandC2"), 0.02, settings, MPI_COMM_WORLD, precision);
+        ImplicitFluid box(all, size, sph::testing::model("wendlandC2"), 0.02, settings, MPI_COMM_WORLD, precision);
         const auto& s = box.scene.store();
         const auto momentum = [&] {
             return Vec3(box.sum([&](std::size_t i) { return s.u[i]; }), box.sum([&](std::size_t i) { return s.v[i]; }),
@@ -193,7 +176,7 @@ TEST(ImplicitStep, isTheSameOnOneRankAndOnAll) {
     ImplicitSettings settings;
     settings.tolerance = 1e-7;
     const sph::FluidModel model = sph::testing::model("wendlandC2");
-    FluidScene alone(all, size, model, 0.02, settings, MPI_COMM_SELF), shared(all, size, model, 0.02, settings);
+    ImplicitFluid alone(all, size, model, 0.02, settings, MPI_COMM_SELF), shared(all, size, model, 0.02, settings);
     alone.run(4, 8), shared.run(4, 8);
     std::map<std::int64_t, std::size_t> place;
     for (std::size_t i = 0; i < alone.scene.store().size(); ++i) place[alone.scene.store().id[i]] = i;

@@ -4,56 +4,54 @@
 
 #include <gtest/gtest.h>
 
-#include "sph/samples.hpp"
+#include "coupling/fluidScene.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::implicit;
+using coupling::testing::FluidScene;
 using particles::ParticleStore;
 using sph::testing::Particle;
 
 namespace {
 
-constexpr double support = 2.4, jitter = 0.2, stepStrain = 0.05;
+constexpr double jitter = 0.2, stepStrain = 0.05;
 constexpr int strains = 20, strainsOfWindow = 2, layers = 3;
 const Index3 size{12, 12, 20 + 2 * layers};
 
-struct ShearedBox {
+struct ShearedBox : FluidScene {
     static constexpr double gap = 20, rate = 1, low = layers;
-    sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
-    coupling::Scene scene;
     std::unique_ptr<ImplicitStep> step;
 
     static Vec3 velocity(const Vec3& x) { return {rate * (x[2] - low - 0.5 * gap), 0, 0}; }
 
-    ShearedBox() {
-        model.viscosity = 1, model.soundSpeed = std::sqrt(500.0);  // bulk modulus 500 mu gammadot
-        model.walls = {2, low, low + gap, {velocity({0, 0, low}), velocity({0, 0, low + gap})}};
-        const particles::Box box = sph::testing::cube(size, true);
-        scene.system = std::make_unique<particles::ParticleSystem>(MPI_COMM_WORLD, box, ParticleStore::Optional{},
-                                                                   support, 0, 1.0, particles::Precision::full);
-        sph::testing::deal(particles(), *scene.system);
-        scene.fluidBox = box;
-        scene.fluidBox.low[2] = low, scene.fluidBox.high[2] = low + gap;
-        scene.spacing = 1;
-        scene.flow.rate = scene.flow.shearRate = rate;
-        scene.flow.velocity = velocity;
-        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
-        step = ImplicitStep::make(
-            scene,
-            {.settings = {.step = stepStrain, .tolerance = 1e-3}, .form = sph::OperatorForm::corrected, .shifting = 1});
+    static sph::FluidModel model() {
+        sph::FluidModel m = sph::testing::model("wendlandC2", "linear");
+        m.viscosity = 1, m.soundSpeed = std::sqrt(500.0);  // bulk modulus 500 mu gammadot
+        m.walls = {2, low, low + gap, {velocity({0, 0, low}), velocity({0, 0, low + gap})}};
+        return m;
     }
-
     // Fluid off its lattice, walls on theirs.
-    std::vector<Particle> particles() const {
+    static std::vector<Particle> particles(const sph::Walls& walls) {
         std::vector<Particle> all = sph::testing::lattice(size, jitter), places = sph::testing::lattice(size, 0);
         for (std::size_t i = 0; i < all.size(); ++i) {
             const double z = places[i].x[2];
             all[i].wall = z < low || z > low + gap;
             if (all[i].wall) all[i].x = places[i].x;
-            all[i].u = all[i].wall ? model.walls.velocity[model.walls.isUpper(all[i].x)] : velocity(all[i].x);
+            all[i].u = all[i].wall ? walls.velocity[walls.isUpper(all[i].x)] : velocity(all[i].x);
             all[i].density = all[i].mass = all[i].viscosity = 1;
         }
         return all;
+    }
+
+    ShearedBox()
+        : FluidScene(particles(model().walls), size, model(), rate, 0, MPI_COMM_WORLD, particles::Precision::full) {
+        scene.fluidBox.low[2] = low, scene.fluidBox.high[2] = low + gap;
+        scene.flow.shearRate = rate;
+        scene.flow.velocity = velocity;
+        ImplicitStep::Options options;
+        options.settings = {.step = stepStrain, .tolerance = 1e-3};
+        options.shifting = 1;
+        step = ImplicitStep::make(scene, options);
     }
 
     // Mean force per area that drags on the two walls, in units of mu gammadot.

@@ -74,7 +74,7 @@ kernel: {type: wendlandC2, support: 2.4 dx}
 integrator: implicit
 coupling: immersed
 operators: corrected
-implicit: {step: 0.05, tolerance: 1e-5}
+implicit: {step: 0.05, tolerance: 1e-5, error: 1}
 shifting: {coefficient: 1}
 """,
     "system/mesh.yaml": """domain: {size: [16, 16, 16] um, periodic: [true, true, false]}
@@ -128,6 +128,12 @@ def series(case, observer):
     return rows
 
 
+def table(case, observer):
+    """Rows of an observer by the names of its columns."""
+    with open(next((case / "postProcessing" / observer).glob("*/*.csv"))) as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
 def last_checkpoint(case):
     return max((case / "checkpoints").glob("*.h5"))
 
@@ -137,24 +143,33 @@ def same_checkpoint(a, b):
     assert done.returncode == 0, f"{a} and {b} differ:\n{done.stdout[:2000]}{done.stderr[:500]}"
 
 
+def copied(start, case):
+    shutil.copytree(start, case)
+    return case
+
+
+def same_in_parts(whole, start, application, steps, *options, ranks=1, observers=()):
+    """A run in two parts, the first of so many steps, ends with the bits of the run `whole`; the observers' rows join without a seam."""
+    parts = copied(start, whole.with_name("parts" + whole.name))
+    run(parts, application, "-steps", str(steps), *options, ranks=ranks)
+    run(parts, application, *options, ranks=ranks)
+    same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+    for observer in observers:
+        assert series(whole, observer) == series(parts, observer), observer
+    return parts
+
+
 def test_restart(folder):
     """A run in two parts ends with the bits of a run in one, on 1 and 2 ranks, in either precision; the observers' rows join without a seam."""
     start = prepared(folder / "start")
     for ranks, precision in ((1, "double"), (2, "double"), (2, "mixed")):
-        whole, parts = folder / f"whole{ranks}{precision}", folder / f"parts{ranks}{precision}"
+        whole = copied(start, folder / f"whole{ranks}{precision}")
         terms = ("-set", f"system/numerics.yaml:/precision={precision}")
-        shutil.copytree(start, whole)
-        shutil.copytree(start, parts)
         run(whole, "dmpFlow", *terms, ranks=ranks)
-        run(parts, "dmpFlow", "-steps", "37", *terms, ranks=ranks)
-        run(parts, "dmpFlow", *terms, ranks=ranks)
-        same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
-        for observer in ("deformation", "balance"):
-            assert series(whole, observer) == series(parts, observer), observer
-            assert len(series(whole, observer)) >= 12
+        same_in_parts(whole, start, "dmpFlow", 37, *terms, ranks=ranks, observers=("deformation", "balance"))
+        assert all(len(series(whole, observer)) >= 12 for observer in ("deformation", "balance"))
     # On another number of ranks: the same to rounding.
-    other = folder / "other"
-    shutil.copytree(start, other)
+    other = copied(start, folder / "other")
     run(other, "dmpFlow", "-steps", "37", ranks=1)
     run(other, "dmpFlow", ranks=2)
     close(series(folder / "whole1double", "balance"), series(other, "balance"), 1e-7)
@@ -166,26 +181,22 @@ def test_implicit(folder):
     start = prepared(folder / "start", IMPLICIT_CASE)
     cases = {}
     for ranks in (1, 2, 4):
-        case = cases[ranks] = folder / f"np{ranks}"
-        shutil.copytree(start, case)
+        case = cases[ranks] = copied(start, folder / f"np{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         record = json.loads((case / "run.json").read_text())
         assert record["performance"]["steps"] == 12 and 1 <= record["performance"]["iterationsPerStep"] < 100, record["performance"]
         for observer, tolerance in (("deformation", 1e-4), ("balance", 1e-4)):
             close(series(cases[1], observer), series(case, observer), tolerance)
-    def table(observer):
-        with open(next((cases[1] / "postProcessing" / observer).glob("*/*.csv"))) as file:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    assert 0.1 < table("deformation")[-1]["D12_inertia"] < 0.35, table("deformation")[-1]
-    rows = table("balance")
+    last = table(cases[1], "deformation")[-1]
+    assert 0.1 < last["D12_inertia"] < 0.35, last
+    rows = table(cases[1], "balance")
     for row in rows:
         assert abs(row["rbc_volume_m3"] / rows[0]["rbc_volume_m3"] - 1) < 1e-8 and row["changedSide"] == 0, row
         assert abs(row["density_mean"] - rows[0]["density_mean"]) < 1e-3, row
     # The preconditioner changes the way, not the end; fluid alone goes through its density balance too.
     iterations = {}
     for preconditioner in ("blockJacobi", "twoLevel", "withMembrane"):
-        case = folder / preconditioner
-        shutil.copytree(start, case)
+        case = copied(start, folder / preconditioner)
         run(case, "dmpFlow", "-set", f"system/numerics.yaml:/implicit/preconditioner={preconditioner}", ranks=2)
         close(series(cases[1], "deformation"), series(case, "deformation"), 1e-4)
         iterations[preconditioner] = json.loads((case / "run.json").read_text())["performance"]["iterationsPerStep"]
@@ -202,28 +213,22 @@ def test_implicit(folder):
     whole = prepared(folder / "tearing", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.1}\n"})
     losses = []
     for ranks in (1, 2):
-        case = folder / f"tearing{ranks}"
-        shutil.copytree(whole, case)
+        case = copied(whole, folder / f"tearing{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
     assert losses[0] == losses[1] > 0, losses
     # Of second order in the step.
     D = []
     for step in (0.1, 0.05, 0.025):
-        case = folder / f"step{step}"
-        shutil.copytree(start, case)
+        case = copied(start, folder / f"step{step}")
         run(case, "dmpFlow", "-set", f"system/numerics.yaml:/implicit/step={step}", "-set", "system/observers.yaml:/deformation/every=0.6 strain")
         D.append(float(series(case, "deformation")[-1][3]))
     assert 3 < (D[0] - D[1]) / (D[1] - D[2]) < 5, D
     for ranks, precision in ((1, "double"), (2, "mixed")):
         terms = ("-set", f"system/numerics.yaml:/precision={precision}")
-        whole, parts = folder / f"whole{precision}", folder / f"parts{precision}"
-        for case in (whole, parts):
-            shutil.copytree(start, case)
+        whole = copied(start, folder / f"whole{precision}")
         run(whole, "dmpFlow", *terms, ranks=ranks)
-        run(parts, "dmpFlow", "-steps", "5", *terms, ranks=ranks)
-        run(parts, "dmpFlow", *terms, ranks=ranks)
-        same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
+        same_in_parts(whole, start, "dmpFlow", 5, *terms, ranks=ranks)
     # Fluid alone starts from either integrator's files, but not from its checkpoints.
     for first, second in (("velocityVerlet", "implicit"), ("implicit", "velocityVerlet")):
         case = prepared(folder / first, FLUID_CASE)
@@ -232,14 +237,36 @@ def test_implicit(folder):
         assert f"was written by 'integrator: {first}'" in said and "firstTime" in said, said
 
 
+def test_stepControl(folder):
+    """The implicit step becomes shorter where the places of nodes or a bond ask for it, is taken back where a bond would change too much, and
+    is refined where membranes are far from linear: results come nearer to those of short steps."""
+    start = prepared(folder / "start", IMPLICIT_CASE)
+    D, performance = {}, {}
+    for name, terms in {"fine": "step: 0.0125, error: 1", "coarse": "step: 0.1, error: 1", "error": "step: 0.1, error: 2e-5",
+                        "bonds": "step: 0.1, error: 1, bondStrain: 0.02", "long": "step: 0.3, error: 1, bondStrain: 1"}.items():
+        case = folder / name
+        shutil.copytree(start, case)
+        run(case, "dmpFlow", "-set", "system/numerics.yaml:/implicit={tolerance: 1e-5, " + terms + "}",
+            "-set", "system/observers.yaml:/deformation/every=0.6 strain", ranks=2)
+        performance[name] = json.loads((case / "run.json").read_text())["performance"]
+        row = series(case, "deformation")[-1]
+        D[name] = float(row[3])
+        print(name, row[1], D[name], performance[name])
+    steps = {name: record["steps"] for name, record in performance.items()}
+    assert steps["coarse"] == 6 and steps["error"] >= 12 and steps["bonds"] >= 12, steps
+    assert performance["bonds"]["halvings"] > 0 == performance["coarse"]["halvings"], performance
+    assert performance["long"]["refinements"] > 0 == performance["fine"]["refinements"], performance
+    assert abs(D["error"] - D["fine"]) < 0.4 * abs(D["coarse"] - D["fine"]), D
+    assert abs(D["bonds"] - D["fine"]) < 0.02 * D["fine"] and abs(D["long"] - D["fine"]) < 0.03 * D["fine"], D
+
+
 def test_conjugate(folder):
     """The explicit step on corrected operators with an immersed membrane: the same on 1, 2 and 4 ranks, restarts to the same bits in either
     precision, volume kept, no particle through the membrane, bonds break alike; checkpoints of the other coupling are refused."""
     start = prepared(folder / "start", CONJUGATE_CASE)
     cases = {}
     for ranks in (1, 2, 4):
-        case = cases[ranks] = folder / f"np{ranks}"
-        shutil.copytree(start, case)
+        case = cases[ranks] = copied(start, folder / f"np{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         for observer, names in (("deformation", ("D12_extent", "D12_inertia", "inclination_rad", "angleTurned_rad", "length_m")),
                                 ("balance", ("density_mean", "density_min", "density_max", "kineticEnergy_J", "momentum_x_Ns",
@@ -250,15 +277,9 @@ def test_conjugate(folder):
     assert abs(last["density_mean"] / first["density_mean"] - 1) < 1e-4, last
     for ranks, precision in ((1, "double"), (2, "mixed")):
         terms = ("-set", f"system/numerics.yaml:/precision={precision}")
-        whole, parts = folder / f"whole{precision}", folder / f"parts{precision}"
-        for case in (whole, parts):
-            shutil.copytree(start, case)
+        whole = copied(start, folder / f"whole{precision}")
         run(whole, "dmpFlow", *terms, ranks=ranks)
-        run(parts, "dmpFlow", "-steps", "57", *terms, ranks=ranks)
-        run(parts, "dmpFlow", *terms, ranks=ranks)
-        same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
-        for observer in ("deformation", "balance"):
-            assert series(whole, observer) == series(parts, observer), observer
+        same_in_parts(whole, start, "dmpFlow", 57, *terms, ranks=ranks, observers=("deformation", "balance"))
     said = run(cases[1], "dmpFlow", "-set", "system/numerics.yaml:/coupling=dualIdentity", "-set", "system/numerics.yaml:/operators=plain",
                "-set", "system/control.yaml:/endStrain=1", code=4).stderr
     assert "was written with 'coupling: immersed'" in said and "firstTime" in said, said
@@ -273,13 +294,11 @@ def test_conjugate(folder):
     tearing = prepared(folder / "tearing", CONJUGATE_CASE, **{"constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.03}\n"})
     losses = []
     for ranks in (1, 2):
-        case = folder / f"tearing{ranks}"
-        shutil.copytree(tearing, case)
+        case = copied(tearing, folder / f"tearing{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
     assert losses[0] == losses[1] > 0, losses
-    parts = folder / "tearingParts"
-    shutil.copytree(tearing, parts)
+    parts = copied(tearing, folder / "tearingParts")
     run(parts, "dmpFlow", "-set", "system/control.yaml:/stop/firstBreak=true", code=5)
     run(parts, "dmpFlow")
     same_checkpoint(last_checkpoint(folder / "tearing1"), last_checkpoint(parts))
@@ -312,8 +331,7 @@ def test_integrators(folder):
         start = prepared(folder / name, files)
         found = []
         for change in ("/implicit={step: 0.025, tolerance: 1e-5}", "/integrator=velocityVerlet"):
-            case = folder / f"{name}{len(found)}"
-            shutil.copytree(start, case)
+            case = copied(start, folder / f"{name}{len(found)}")
             run(case, "dmpFlow", "-set", "system/numerics.yaml:" + change)
             found.append([{**shape, **balance} for shape, balance in zip(table(case, "deformation"), table(case, "balance"))])
         for a, b in zip(*found):
@@ -323,12 +341,6 @@ def test_integrators(folder):
             assert abs(b["D12_inertia"] / a["D12_inertia"] - 1) < 0.005 or a["strain"] < 0.1
             assert abs(b["inclination_rad"] - a["inclination_rad"]) < 0.005 * math.pi / 4 and abs(b["rbc_areaChange"] - a["rbc_areaChange"]) < 5e-4
         assert len(found[0]) == 6 and found[0][-1]["changedSide"] == found[1][-1]["changedSide"] == 0
-
-
-def table(case, observer):
-    """Rows of an observer by the names of its columns."""
-    with open(next((case / "postProcessing" / observer).glob("*/*.csv"))) as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 # Fluid alone that changes by itself: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
@@ -362,16 +374,10 @@ def poiseuille(z, t):  # over F L^2/nu
     return 0.5 * y * (1 - y) - math.fsum(4 / (k * math.pi) ** 3 * math.sin(k * math.pi * y) * math.exp(-((k * math.pi) ** 2) * t) for k in n)
 
 
-def rows_of(case, observer):
-    (name,) = (case / "postProcessing" / observer).glob("*/*.csv")
-    with open(name) as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-
-
 def profile_error(case, exact, scale):
     """Largest, over the times, of the mean square error of u over that of the exact one; L = 1 mm, nu = 1e-6 m^2/s."""
     errors = []
-    rows = rows_of(case, "profile")
+    rows = table(case, "profile")
     for t in sorted({row["time_s"] for row in rows} - {0.0}):
         pairs = [(row["u_m_s"], scale * exact(row["position_m"] / 1e-3, t)) for row in rows if row["time_s"] == t]
         errors.append(math.sqrt(sum((u - e) ** 2 for u, e in pairs) / sum(e * e for _, e in pairs)))
@@ -380,7 +386,7 @@ def profile_error(case, exact, scale):
 
 
 def decay_error(case):
-    rows, rate = rows_of(case, "balance"), 4e-6 * (2 * math.pi / 1e-3) ** 2
+    rows, rate = table(case, "balance"), 4e-6 * (2 * math.pi / 1e-3) ** 2
     energy = [row["kineticEnergy_J"] for row in rows]
     return max(abs(e / energy[0] - math.exp(-rate * row["time_s"])) for e, row in zip(energy, rows))
 
@@ -393,8 +399,7 @@ def test_rkl2(folder):
               "vortices": decay_error}
     for name, files, fewer in (("couette", COUETTE, 3), ("poiseuille", POISEUILLE, 3), ("vortices", VORTICES, 0.2)):
         verlet = prepared(folder / f"{name}Verlet", files)
-        case = folder / name
-        shutil.copytree(verlet, case)
+        case = copied(verlet, folder / name)
         run(verlet, "sphFlow")
         run(case, "sphFlow", *rkl2)
         found, reference = errors[name](case), errors[name](verlet)
@@ -406,19 +411,14 @@ def test_rkl2(folder):
     cases = {}
     for ranks, precision in ((1, "double"), (2, "double"), (4, "double"), (2, "mixed")):
         terms = (*rkl2, "-set", f"system/numerics.yaml:/precision={precision}")
-        whole, parts = folder / f"whole{ranks}{precision}", folder / f"parts{ranks}{precision}"
-        shutil.copytree(start, whole)
+        whole = copied(start, folder / f"whole{ranks}{precision}")
         run(whole, "sphFlow", *terms, ranks=ranks)
         for observer, columns in (("balance", 6), ("wall", 4), ("profile", 4)):  # the others are noise
             one, other = ([row[:columns] for row in series(c, observer)] for c in (folder / "whole1double", whole))
             close(one, other, 1e-12 if precision == "double" else 1e-5)
         if ranks < 4:
-            shutil.copytree(start, parts)
-            run(parts, "sphFlow", "-steps", "23", *terms, ranks=ranks)
-            run(parts, "sphFlow", *terms, ranks=ranks)
-            same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
-    other = folder / "other"
-    shutil.copytree(start, other)
+            same_in_parts(whole, start, "sphFlow", 23, *terms, ranks=ranks)
+    other = copied(start, folder / "other")
     run(other, "sphFlow", "-steps", "9")
     run(other, "sphFlow", "-steps", "9", *rkl2)
     implicit = ("-set", "system/numerics.yaml:/integrator=implicit", "-set", "system/numerics.yaml:/shifting=none")
@@ -432,12 +432,12 @@ def test_automatic(folder):
         return json.loads(run(case, "checkCase", "-json", *options).stdout)
     case = prepared(folder / "couette", {**COUETTE, "system/control.yaml": COUETTE["system/control.yaml"].replace("0.1 s", "1 s")})
     said = predicted(case, *automatic)
-    table = said["integrators"]
-    assert said["integrator"] == "rkl2" == min((name for name in table if not table[name]["obstacle"]), key=lambda name: table[name]["cost"])
-    assert "do not follow the flow" in table["implicit"]["obstacle"], table
+    costs = said["integrators"]
+    assert said["integrator"] == "rkl2" == min((name for name in costs if not costs[name]["obstacle"]), key=lambda name: costs[name]["cost"])
+    assert "do not follow the flow" in costs["implicit"]["obstacle"], costs
     brief = predicted(case, *automatic, "-set", "system/control.yaml:/endTime=0.05 s")
     assert brief["integrator"] == "velocityVerlet", "the first steps are as short as those of velocity Verlet"
-    assert 0.7 < table["velocityVerlet"]["step_s"] / predicted(case, "-set", "system/numerics.yaml:/integrator=velocityVerlet")["limits_s"]["viscous"] < 1.1
+    assert 0.7 < costs["velocityVerlet"]["step_s"] / predicted(case, "-set", "system/numerics.yaml:/integrator=velocityVerlet")["limits_s"]["viscous"] < 1.1
     run(case, "sphFlow", "-steps", "2", *automatic)
     assert json.loads((case / "run.json").read_text())["parameters"]["integrator"] == "rkl2"
     log = (case / "log.sphFlow").read_text()
@@ -480,17 +480,11 @@ def test_bodies(folder):
     run(start, "checkCase")
     motions = []
     for ranks in (1, 2, 4):
-        whole = folder / f"whole{ranks}"
-        shutil.copytree(start, whole)
+        whole = copied(start, folder / f"whole{ranks}")
         run(whole, "dmpFlow", ranks=ranks)
         motions.append([[float(v) for v in row] for row in series(whole, "motion")])
         if ranks < 4:
-            parts = folder / f"parts{ranks}"
-            shutil.copytree(start, parts)
-            run(parts, "dmpFlow", "-steps", "37", ranks=ranks)
-            run(parts, "dmpFlow", ranks=ranks)
-            same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
-            assert series(whole, "motion") == series(parts, "motion")
+            same_in_parts(whole, start, "dmpFlow", 37, ranks=ranks, observers=("motion",))
         assert list((whole / "results" / "bead").glob("*.pvtp")), "the body's surface is among the results"
     first, last = motions[0][0], motions[0][-1]
     turned, rate = last[5], last[16] / 200  # x of the axis, angular velocity about y over gammadot
@@ -516,8 +510,7 @@ bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centr
     rate = 0.1 * 4e-6 / (1e-3 * radius)  # Ca Gs/(mu a)
     motions = []
     for ranks in (1, 2, 4):
-        case = folder / f"np{ranks}"
-        shutil.copytree(start, case)
+        case = copied(start, folder / f"np{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         motions.append([[float(v) for v in row] for row in series(case, "motion")])
         for row in series(case, "balance"):
@@ -532,8 +525,7 @@ def test_kill(folder):
     """A run killed by SIGKILL goes on from its last checkpoint to the same bits."""
     control = CELL_CASE["system/control.yaml"].replace("wallClock: never", "wallClock: 0.3 s")
     case = prepared(folder / "killed", **{"system/control.yaml": control.replace("0.12", "1.0")})
-    whole = folder / "whole"
-    shutil.copytree(case, whole)
+    whole = copied(case, folder / "whole")
     process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), "-quiet"])
     deadline = time.time() + 60
     while time.time() < deadline and not list((case / "checkpoints").glob("*.h5")) and process.poll() is None:
@@ -552,8 +544,7 @@ def test_ranks(folder):
     for precision, tolerance in (("double", 1e-8), ("mixed", 1e-5)):
         results = {}
         for ranks in (1, 2, 4):
-            case = folder / f"{precision}{ranks}"
-            shutil.copytree(start, case)
+            case = copied(start, folder / f"{precision}{ranks}")
             run(case, "dmpFlow", "-set", f"system/numerics.yaml:/precision={precision}", ranks=ranks)
             results[ranks] = (series(case, "balance"), series(case, "deformation"))
         for ranks in (2, 4):
@@ -714,8 +705,7 @@ def test_rupture(folder):
     start = tearing(folder / "start", "{type: bondStretch, limit: 1.05}", 0.8)
     ends = {}
     for ranks in (1, 2):
-        case = folder / f"np{ranks}"
-        shutil.copytree(start, case)
+        case = copied(start, folder / f"np{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         seen = tables(case)
         rows, ends[ranks] = seen["rbc"], seen["rbc"][-1]
@@ -735,8 +725,7 @@ def test_rupture(folder):
         assert said["haemolysisIndex_percent"] > 1 and len(said["cells"]["rbc"]["firstBreak_place_m"]) == 3
     assert ends[1]["bondsBroken"] > 0
     assert all(math.isclose(ends[1][k], ends[2][k], rel_tol=1e-6, abs_tol=1e-18) for k in ends[1])
-    intact = folder / "intact"
-    shutil.copytree(start, intact)
+    intact = copied(start, folder / "intact")
     run(intact, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none")
     assert json.loads((intact / "run.json").read_text())["result"]["brokenBonds"] == 0
 
@@ -746,8 +735,7 @@ def test_damage(folder):
     start = tearing(folder / "start", "{type: damage, onset: 0.01, scale: 0.02, time: 0.4 us, exponent: 2}", 0.5)
     seen = {}
     for ranks in (1, 2, 4):
-        case = folder / f"np{ranks}"
-        shutil.copytree(start, case)
+        case = copied(start, folder / f"np{ranks}")
         run(case, "dmpFlow", ranks=ranks)
         seen[ranks] = tables(case)
         names = subprocess.run(["h5ls", f"{last_checkpoint(case)}/data/cells/rbc"], capture_output=True, text=True, check=True).stdout
@@ -766,11 +754,7 @@ def test_damage(folder):
         assert all(math.isclose(a["maxDamage"], b["maxDamage"], rel_tol=1e-6, abs_tol=1e-12) for a, b in zip(rows, other["rbc"]))
     steps = next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1)  # a row for each step
     for ranks in (1, 2):
-        parts = folder / f"parts{ranks}"
-        shutil.copytree(start, parts)
-        run(parts, "dmpFlow", "-steps", str(steps), ranks=ranks)
-        run(parts, "dmpFlow", ranks=ranks)
-        same_checkpoint(last_checkpoint(folder / f"np{ranks}"), last_checkpoint(parts))
+        parts = same_in_parts(folder / f"np{ranks}", start, "dmpFlow", steps, ranks=ranks)
     # A checkpoint's damage needs the law that it is of.
     said = run(parts, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none", "-set", "system/control.yaml:/endStrain=0.6", code=4).stderr
     assert "its rupture law keeps that of 0" in said, said

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sph/samples.hpp"
+#include "sph/swirl.hpp"
 #include "sph/velocityVerlet.hpp"
 
 using namespace corpuscle;
@@ -11,17 +11,7 @@ using namespace corpuscle::sph::testing;
 
 namespace {
 
-constexpr Index3 size{8, 8, 6};
-constexpr std::size_t particleCount = 8 * 8 * 6;
-
-// Swirling flow on a slightly disordered lattice.
-std::vector<Particle> swirl() {
-    std::vector<Particle> all = lattice(size, 0.05, 3);
-    const double k = 2 * std::numbers::pi / 8;
-    for (Particle& p : all)
-        p.u = Vec3(std::sin(k * p.x[0]) * std::cos(k * p.x[1]), -std::cos(k * p.x[0]) * std::sin(k * p.x[1]), 0.1);
-    return all;
-}
+using swirl::difference;
 
 struct Box3 {
     FluidModel fluid;
@@ -30,23 +20,10 @@ struct Box3 {
 
     explicit Box3(const std::string& equationOfState = "linear", MPI_Comm comm = MPI_COMM_WORLD,
                   Precision precision = Precision::full)
-        : fluid(model("wendlandC2", equationOfState)), system(comm, cube(size), {}, 2.5, 0.3, 1, precision) {
+        : fluid(model("wendlandC2", equationOfState)), system(comm, cube(swirl::size), {}, 2.5, 0.3, 1, precision) {
         fluid.viscosity = 0.1;
-        deal(swirl(), system);
+        deal(swirl::particles(), system);
         forces = std::make_unique<FluidForces>(fluid, system);
-    }
-    // Position, velocity and density by particle number, on every rank.
-    std::vector<double> state() const {
-        std::vector<double> all(7 * particleCount, 0.0);
-        const ParticleStore& s = system.store();
-        for (std::size_t i = 0; i < s.size(); ++i) {
-            const Vec3 x = system.box().wrap(s.position(i));
-            double* out = all.data() + 7 * s.id[i];
-            for (int k = 0; k < 3; ++k) out[k] = x[k];
-            out[3] = s.u[i], out[4] = s.v[i], out[5] = s.w[i], out[6] = s.density[i];
-        }
-        MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, system.comm());
-        return all;
     }
     std::vector<double> run(double time, int steps, int stages) {
         Rkl2 integrator(system, *forces, nullptr);
@@ -54,19 +31,9 @@ struct Box3 {
         integrator.setRate(LegendreStages::reach(stages) / (time / steps) * (1 - 1e-12));
         EXPECT_EQ(integrator.stages(time / steps), stages);
         for (int k = 0; k < steps; ++k) integrator.advance(time / steps);
-        return state();
+        return swirl::state(system);
     }
 };
-
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        double d = a[k] - b[k];
-        if (k % 7 < 3) d -= std::nearbyint(d / size[k % 7]) * size[k % 7];
-        sum += d * d;
-    }
-    return std::sqrt(sum);
-}
 
 double energy(const ParticleSystem& system) {
     double sum = 0;
@@ -91,7 +58,7 @@ TEST(Rkl2, agreesWithVelocityVerlet) {
     VelocityVerlet verlet(box.system, *box.forces, nullptr, {});
     verlet.start();
     for (int k = 0; k < 160; ++k) verlet.advance(0.4 / 160);
-    const auto other = box.state();
+    const auto other = swirl::state(box.system);
     EXPECT_GT(box.system.rebuilds(), 1);
     EXPECT_LT(difference(Box3().run(0.4, 80, 5), other), 0.5 * difference(Box3().run(0.4, 40, 5), other));
     EXPECT_LT(difference(Box3().run(0.4, 80, 5), other), 2e-3);

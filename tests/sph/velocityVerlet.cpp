@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/samples.hpp"
+#include "sph/swirl.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::sph;
@@ -13,49 +13,20 @@ using namespace corpuscle::sph::testing;
 
 namespace {
 
-constexpr Index3 size{8, 8, 6};
+using swirl::difference;
 
-// Swirling flow on a slightly disordered lattice.
-std::vector<Particle> swirl() {
-    std::vector<Particle> all = lattice(size, 0.05, 3);
-    const double k = 2 * std::numbers::pi / 8;
-    for (Particle& p : all)
-        p.u = Vec3(std::sin(k * p.x[0]) * std::cos(k * p.x[1]), -std::cos(k * p.x[0]) * std::sin(k * p.x[1]), 0.1);
-    return all;
-}
-
-// Position, velocity and density by particle number after a time of 0.4, on every rank.
+// The state after a time of 0.4.
 std::vector<double> run(int steps, const std::string& kernel = "wendlandC2") {
     FluidModel fluid = model(kernel, "linear");
     fluid.viscosity = 0.1;
-    ParticleSystem system(MPI_COMM_WORLD, cube(size), {}, 2.5, 0.3, 1);
-    deal(swirl(), system);
+    ParticleSystem system(MPI_COMM_WORLD, cube(swirl::size), {}, 2.5, 0.3, 1);
+    deal(swirl::particles(), system);
     FluidForces forces(fluid, system);
     VelocityVerlet integrator(system, forces, nullptr, {});
     integrator.start();
     for (int k = 0; k < steps; ++k) integrator.advance(0.4 / steps);
     EXPECT_GT(system.rebuilds(), 1);
-    std::vector<double> all(7 * 8 * 8 * 6, 0.0);
-    const ParticleStore& s = system.store();
-    const Box& box = system.box();
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec3 x = box.wrap(s.position(i));
-        double* out = all.data() + 7 * s.id[i];
-        out[0] = x[0], out[1] = x[1], out[2] = x[2], out[3] = s.u[i], out[4] = s.v[i], out[5] = s.w[i],
-        out[6] = s.density[i];
-    }
-    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return all;
-}
-
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        double d = a[k] - b[k];
-        if (k % 7 < 3) d -= std::nearbyint(d / size[k % 7]) * size[k % 7];
-        sum += d * d;
-    }
-    return std::sqrt(sum);
+    return swirl::state(system);
 }
 
 }  // namespace
@@ -73,9 +44,9 @@ TEST(VelocityVerlet, repeatsBitForBit) { EXPECT_EQ(run(25, "lucy"), run(25, "luc
 TEST(VelocityVerlet, aStepFollowsTheEquations) {
     FluidModel fluid = model("lucy");
     const double dt = 0.01;
-    ParticleSystem system(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1),
-        plain(MPI_COMM_WORLD, cube(size), {}, 2.3, 0.3, 1);
-    deal(swirl(), system);
+    ParticleSystem system(MPI_COMM_WORLD, cube(swirl::size), {}, 2.3, 0.3, 1),
+        plain(MPI_COMM_WORLD, cube(swirl::size), {}, 2.3, 0.3, 1);
+    deal(swirl::particles(), system);
     deal(swirl(), plain);
     FluidForces forces(fluid, system), plainForces(fluid, plain);
     VelocityVerlet integrator(system, forces, nullptr, {});

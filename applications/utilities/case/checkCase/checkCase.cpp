@@ -1,8 +1,8 @@
 // checkCase: everything about a case that can be known before it runs.
 //
-// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, what each integrator would cost, the particles, memory and
-// disk it will take, and, if 0/ has been filled, every limit of the time step and the run time predicted from a short burst.
-// Nothing is written.
+// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, what each integrator
+// would cost, the particles, memory and disk it will take, and, if 0/ has been filled, every limit of the time step and the run time
+// predicted from a short burst. Nothing is written.
 //
 // Sample runs:
 //     checkCase -case tutorials/rbcShear/Ca0.02
@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <vector>
 
 #include "membrane/moduli.hpp"
 #include "simulation/cost.hpp"
@@ -39,8 +40,9 @@ void reportGroups(Application& app, const simulation::Case& input, ordered_json&
 }
 
 void reportCosts(Application& app, const simulation::Case& input, ordered_json& json) {
-    app.log().table(simulation::costHeader(input), simulation::costRows(input));
-    for (const simulation::IntegratorCost& cost : simulation::predictCosts(input))
+    const std::vector<simulation::IntegratorCost> costs = simulation::predictCosts(input);
+    app.log().table(simulation::costHeader(input), simulation::costRows(input, costs));
+    for (const simulation::IntegratorCost& cost : costs)
         json["integrators"][cost.name] = {{"step_s", cost.step.seconds}, {"limit", cost.step.name},
                                           {"steps", cost.steps},         {"passes", cost.passes},
                                           {"cost", cost.cost},           {"obstacle", cost.obstacle}};

@@ -1,0 +1,35 @@
+#include "coupling/conjugate.hpp"
+
+#include <utility>
+
+namespace corpuscle::coupling {
+
+void findPressures(const Scene& scene, particles::RealArray& pressure) {
+    const particles::ParticleStore& s = scene.store();
+    const sph::FluidModel& model = scene.model();
+    pressure.resize(s.size());
+    model.equationOfState->specificPressure(s.density.data(), pressure.data(), static_cast<int>(s.size()),
+                                            model.density, model.soundSpeed);
+    for (std::size_t i = 0; i < s.size(); ++i) pressure[i] *= s.density[i] * s.density[i];
+}
+
+std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long number, double dt) {
+    if (options.densityBalance && number % options.balanceInterval == 0)
+        options.densityBalance->apply(*scene.system, scene.cells);
+    std::vector<RuptureEvent> events;
+    for (Cell& cell : scene.cells) {
+        if (!cell.membrane.canRupture()) continue;
+        std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
+        if (broken.empty()) continue;
+        cell.membrane.breakBonds(broken);
+        events.push_back({cell.membrane.cell, std::move(broken)});
+    }
+    return events;
+}
+
+double sumOverRanks(double value, MPI_Comm comm) {
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
+    return value;
+}
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,28 @@
+// What every step on conjugate operators (sph/operators.hpp) does alike, the explicit one (conjugateVerlet.hpp) and the implicit one
+// (implicit/implicitStep.hpp).
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "coupling/scene.hpp"
+#include "sph/operators.hpp"
+
+namespace corpuscle::coupling {
+
+struct ConjugateOptions {
+    sph::OperatorForm form = sph::OperatorForm::corrected;
+    std::optional<double> shifting{};  // C, strength per unit of strain
+    std::optional<DensityBalance> densityBalance{};
+    long balanceInterval = 0;  // steps between two balances
+};
+
+// Pressures of all owned particles by their densities [Pa].
+void findPressures(const Scene& scene, particles::RealArray& pressure);
+
+// At the end of a step, the number of which is given: density balance when it is due, then what breaks. Collective.
+std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long number, double dt);
+
+// Collective.
+double sumOverRanks(double value, MPI_Comm comm);
+
+}  // namespace corpuscle::coupling

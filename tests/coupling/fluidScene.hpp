@@ -1,0 +1,39 @@
+// A scene of fluid alone for the steps on conjugate operators. Lengths in spacings, density 1, kernel support 2.4.
+#pragma once
+#include "coupling/scene.hpp"
+#include "sph/samples.hpp"
+
+namespace corpuscle::coupling::testing {
+
+inline constexpr double fluidSupport = 2.4;
+
+inline std::vector<sph::testing::Particle> still(const Index3& size, double disorder = 0) {
+    std::vector<sph::testing::Particle> all = sph::testing::lattice(size, disorder);
+    for (sph::testing::Particle& p : all) p.u *= disorder, p.density = p.mass = p.viscosity = 1;
+    return all;
+}
+
+struct FluidScene {
+    Scene scene;
+
+    FluidScene(const std::vector<sph::testing::Particle>& all, const Index3& size, const sph::FluidModel& model,
+               double rate, double skin, MPI_Comm comm, particles::Precision precision) {
+        scene.system = std::make_unique<particles::ParticleSystem>(comm, sph::testing::cube(size, model.walls.exist()),
+                                                                   particles::ParticleStore::Optional{}, fluidSupport,
+                                                                   skin, 1.0, precision);
+        sph::testing::deal(all, *scene.system);
+        scene.fluidBox = scene.system->box();
+        scene.spacing = 1;
+        scene.flow.rate = rate;
+        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
+    }
+    // sum of f(place in the store) over all ranks of the world
+    template <class F>
+    double sum(F&& f) const {
+        double total = 0;
+        for (std::size_t i = 0; i < scene.store().size(); ++i) total += f(i);
+        return sph::testing::sumOverRanks(total);
+    }
+};
+
+}  // namespace corpuscle::coupling::testing
