@@ -5,6 +5,7 @@
 
 #include "simulation/caseRules.hpp"
 #include "simulation/cost.hpp"
+#include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
 
@@ -82,6 +83,8 @@ Case Case::read(const Application& app) {
         }
     }
     c.throwIfAny(problems);
+    c.written = c.numerics;
+    c.numerics = schemeOf(c, c.written.integrator);
     checkTogether(c, problems);
     c.throwIfAny(problems);
 
@@ -102,9 +105,11 @@ Case Case::read(const Application& app) {
         problems.add({"system/control.yaml", 0, 0}, "write.strain",
                      "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
     if (c.numerics.isAutomatic()) {
-        c.numerics.integrator = cheapest(predictCosts(c));
+        c.numerics = schemeOf(c, cheapest(predictCosts(c)));
         c.integratorChosen = true;
     }
+    for (auto& [file, table] : c.effective)
+        if (file == "system/numerics.yaml") table = write(c.numerics);
     c.observers.check(c.files["system/observers.yaml"],
                       {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
                       problems);
@@ -161,7 +166,7 @@ sph::FluidModel Case::fluidModel() const {
 }
 
 bool Case::isConjugate() const {
-    return numerics.isImplicit() || numerics.operators == "corrected" || (numerics.isImmersed() && !mesh.cells.empty());
+    return numerics.isImplicit() || numerics.isCorrected() || (numerics.isImmersed() && !mesh.cells.empty());
 }
 
 particles::Precision Case::precision() const {

@@ -22,7 +22,8 @@ struct Case {
     std::map<std::string, Node> files;   // the dictionaries as they were read
     std::vector<Node::Entry> effective;  // file and its full table: used.yaml
 
-    bool integratorChosen = false;  // numerics.integrator was automatic, and is now what costs least (cost.hpp)
+    NumericsSettings written;       // numerics before it is settled what automatic keys stand for (scheme.hpp)
+    bool integratorChosen = false;  // the integrator was automatic, and is now what costs least (cost.hpp)
 
     // What follows.
     sph::FlowState flow;

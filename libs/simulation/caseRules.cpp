@@ -5,6 +5,7 @@
 #include <set>
 
 #include "coupling/noFlux.hpp"
+#include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
 
@@ -75,7 +76,7 @@ void checkRkl2(const Case& c, Problems& problems) {
     if (!c.mesh.bodies.empty())
         problems.add(numerics, "integrator",
                      "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet");
-    if (c.numerics.operators == "corrected")
+    if (c.numerics.isCorrected())
         problems.add(numerics, "operators",
                      "found corrected, which 'integrator: rkl2' does not have; write operators: plain, or another "
                      "integrator");
@@ -107,7 +108,7 @@ void checkScheme(const Case& c, Problems& problems) {
         checkRkl2(c, problems);
         return;
     }
-    const bool cells = !c.mesh.cells.empty(), corrected = n.operators == "corrected";
+    const bool cells = !c.mesh.cells.empty(), corrected = n.isCorrected();
     if (cells && n.isImplicit() && !n.isImmersed())
         problems.add(numerics, "coupling",
                      "found dualIdentity, which goes with 'integrator: velocityVerlet'; write coupling: immersed");
@@ -154,9 +155,9 @@ void checkUnused(const Case& c, Problems& problems) {
     const Node* shifting = file->second.find("shifting");
     if (shifting && c.isConjugate())
         refuse(shifting->find("steps"), std::string("with ") +
-                                            (n.isImplicit()               ? "'integrator: implicit'"
-                                             : n.operators == "corrected" ? "'operators: corrected'"
-                                                                          : "'coupling: immersed'") +
+                                            (n.isImplicit()    ? "'integrator: implicit'"
+                                             : n.isCorrected() ? "'operators: corrected'"
+                                                               : "'coupling: immersed'") +
                                             ", where particles are shifted at every step");
 }
 
@@ -191,7 +192,7 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
 
 std::string obstacle(const Case& c, const std::string& integrator) {
     Case named = c;
-    named.numerics.integrator = integrator;
+    named.numerics = schemeOf(c, integrator);
     Problems problems;
     checkScheme(named, problems);
     try {

@@ -98,17 +98,22 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .model("kernel", &NumericsSettings::kernel, "smoothing kernel", {.fallback = "wendlandC2"})
             .word("integrator", &NumericsSettings::integrator, {"automatic", "velocityVerlet", "rkl2", "implicit"},
                   "time integration; automatic: the cheapest by the prediction that checkCase prints",
-                  {.fallback = "velocityVerlet"})
-            .word("coupling", &NumericsSettings::coupling, {"dualIdentity", "immersed"},
-                  "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them",
-                  {.fallback = "dualIdentity"})
-            .word("operators", &NumericsSettings::operators, {"plain", "corrected"},
-                  "form of the pair operators: of the kernel alone, or exact for linear fields", {.fallback = "plain"})
+                  {.fallback = "automatic"})
+            .word("coupling", &NumericsSettings::coupling, {"automatic", "dualIdentity", "immersed"},
+                  "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them; automatic: "
+                  "immersed, dualIdentity beside rigid bodies",
+                  {.fallback = "automatic"})
+            .word("operators", &NumericsSettings::operators, {"automatic", "plain", "corrected"},
+                  "form of the pair operators: of the kernel alone, or exact for linear fields; automatic: corrected "
+                  "with immersed membranes and with the implicit step",
+                  {.fallback = "automatic"})
             .word("precision", &NumericsSettings::precision, {"double", "mixed"},
                   "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state "
                   "and sums are double",
                   {.fallback = "double"})
-            .tableOr("none", "shifting", &NumericsSettings::shifting, "particle shifting", {.fallback = "none"})
+            .tableOr("none", "shifting", &NumericsSettings::shifting,
+                     "particle shifting; where the key is absent, {coefficient: 1} with corrected operators",
+                     {.fallback = "none"})
             .table("implicit", &NumericsSettings::implicit, "the implicit step", {.fallback = "{}"})
             .table("rkl2", &NumericsSettings::rkl2, "super-time-stepping", {.fallback = "{}"})
             .length("skin", &NumericsSettings::skin, "reserve of the neighbour list beyond the support",

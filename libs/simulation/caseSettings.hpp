@@ -63,6 +63,7 @@ struct NumericsSettings {
     bool isRkl2() const { return integrator == "rkl2"; }
     bool isImplicit() const { return integrator == "implicit"; }
     bool isImmersed() const { return coupling == "immersed"; }
+    bool isCorrected() const { return operators == "corrected"; }
     static const Schema<NumericsSettings>& schema();
 };
 

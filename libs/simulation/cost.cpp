@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "simulation/caseRules.hpp"
+#include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
 
@@ -97,7 +98,7 @@ std::vector<IntegratorCost> predictCosts(const Case& input) {
         cost.name = name;
         cost.obstacle = obstacle(input, name);
         Case named = input;
-        named.numerics.integrator = name;
+        named.numerics = schemeOf(input, name);
         cost.step = limitsOf(named, 0.5 * duration(input)).binding();
         countPasses(named, cost);
         cost.cost = cost.passes / duration(input) / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);

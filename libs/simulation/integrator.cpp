@@ -60,7 +60,7 @@ void Integrator::makeExplicit() {
 void Integrator::makeConjugate() {
     const NumericsSettings& numerics = input_.numerics;
     coupling::ConjugateOptions options;
-    if (numerics.operators == "plain") options.form = sph::OperatorForm::plain;
+    if (!numerics.isCorrected()) options.form = sph::OperatorForm::plain;
     if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
     if (numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene_);
     options.balanceInterval = numerics.balanceInterval();

@@ -1,6 +1,7 @@
 #include "simulation/schedule.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
 
 #include "observers/summary.hpp"
@@ -14,6 +15,8 @@ namespace corpuscle::simulation {
 using coupling::Scene;
 
 namespace {
+
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // of this rank
 
 long sum(long value, MPI_Comm comm) {
     MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_LONG, MPI_SUM, comm);
@@ -76,6 +79,7 @@ Schedule::Schedule(Application& app, const Case& input, const Scene& scene, cons
       progress_(app.log(), start),
       record_(input.directory / "run.json", app.name(), app.communicator()),
       began_(std::chrono::steady_clock::now()),
+      processorBegan_(processorSeconds()),
       smallestDt_(start.dt),
       largestDt_(start.dt) {
     if (!state.observers.empty()) observers_.restore(state.observers);
@@ -211,6 +215,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("performance", "steps", steps);
     record_.set("performance", "wallClock_s", wall);
     record_.set("performance", "coreSeconds", wall * app_.communicator().size());
+    record_.set("performance", "processorSeconds", app_.communicator().sum(processorSeconds() - processorBegan_));
     record_.set("performance", "particleStepsPerSecond", particleSteps(time) / wall);
     record_.set("performance", "rebuilds", scene.system->rebuilds());
     record_.set("extremes", "smallestStep_s", smallestDt_);

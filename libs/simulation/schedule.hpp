@@ -48,6 +48,7 @@ class Schedule {
     Progress progress_;
     RunRecord record_;
     std::chrono::steady_clock::time_point began_;
+    double processorBegan_;  // of this rank [s]
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
     double smallestDt_ = 0, largestDt_ = 0;
     bool begun_ = false;

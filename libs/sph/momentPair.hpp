@@ -23,7 +23,8 @@ struct Moments {
 };
 
 template <class Kernel>
-struct MomentPair : Moments {
+struct MomentPair {
+    using enum Moments::Sum;
     static constexpr int fields = 4, sums = count;
     static constexpr double repulsion = 0.2;
     MomentConstants c;

@@ -34,7 +34,9 @@ class Utilities : public testing::Test {
 
     void SetUp() override {
         writeText(at("system/control.yaml"), "application: dmpFlow\nendStrain: 1\n");
-        writeText(at("system/numerics.yaml"), "spacing: 1 um\nkernel: {type: wendlandC2, support: 3.0 dx}\n");
+        writeText(at("system/numerics.yaml"),
+                  "spacing: 1 um\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\n"
+                  "coupling: dualIdentity\n");
         writeText(at("system/mesh.yaml"),
                   "domain: {size: [12, 10, 10] um, periodic: [true, true, false]}\n"
                   "cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, "

@@ -47,7 +47,7 @@ TEST(VelocityVerlet, aStepFollowsTheEquations) {
     ParticleSystem system(MPI_COMM_WORLD, cube(swirl::size), {}, 2.3, 0.3, 1),
         plain(MPI_COMM_WORLD, cube(swirl::size), {}, 2.3, 0.3, 1);
     deal(swirl::particles(), system);
-    deal(swirl(), plain);
+    deal(swirl::particles(), plain);
     FluidForces forces(fluid, system), plainForces(fluid, plain);
     VelocityVerlet integrator(system, forces, nullptr, {});
     integrator.start();

@@ -42,6 +42,6 @@ side = max(row["changedSide"] for row in balance)
 print(f"largest change of volume {max(abs(row['capsule_volumeChange']) for row in balance):.1e}, particles on the wrong side {side:.0f}, "
       f"mean density {balance[-1]['density_mean']:.6f}")
 performance = run["performance"]
-print(f"{performance['coreSeconds'] / shape[-1]['strain']:.1f} core-seconds per unit strain, {performance['iterationsPerStep']:.1f} iterations per step")
+print(f"{performance['processorSeconds'] / shape[-1]['strain']:.1f} core-seconds per unit strain, {performance['iterationsPerStep']:.1f} iterations per step")
 print(f"largest error of D12 from strain 1 on {100 * worst:.2f} %, allowed {100 * allowed:.0f} %")
 sys.exit(worst > allowed or side > 0)

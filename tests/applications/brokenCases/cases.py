@@ -236,7 +236,7 @@ CASES = [
     # What goes with which integrator
     case("correctedWithDualIdentity", append(NUMERICS, "operators: corrected\nshifting: {}\n"), NUMERICS, "operators", "corrected",
          "found corrected", "'coupling: immersed'", "operators: plain"),
-    case("correctedWithoutShifting", [IMMERSED, append(NUMERICS, "operators: corrected\n")], NUMERICS, "operators", "corrected",
+    case("correctedWithoutShifting", [IMMERSED, append(NUMERICS, "operators: corrected\nshifting: none\n")], NUMERICS, "operators", "corrected",
          "found corrected", "clump", "'shifting: {coefficient: 1}'", "operators: plain"),
     case("correctedWithoutShiftingImplicit", [*IMPLICIT, append(NUMERICS, "operators: corrected\nshifting: none\n")], NUMERICS,
          "operators", "corrected", "found corrected", "'shifting: {coefficient: 1}'"),

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""How box and resolution matter: the capsule and the red cell of the tutorials in boxes of several sizes, against boundary elements.
+
+    boxes.py BIN DIRECTORY [NAME ...] [-np 2]     BIN: directory of the programs; NAME: rows to run, all without
+
+Runs what DIRECTORY does not hold yet, one folder for each row, and prints the table of all that have ended. A stopped run goes on.
+Boxes are along the flow, the vorticity and across the gap, in radii.
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+TUTORIALS = pathlib.Path(__file__).resolve().parents[1] / "tutorials"
+RADIUS = 4  # um
+
+CAPSULE = ("capsuleShear", "capsule", "/implicit/step=0.05")
+RED02 = ("rbcShear/Ca0.02", "rbc", "/implicit/step=0.1")
+RED002 = ("rbcShear/Ca0.002", "rbc", "/implicit/step=0.1")
+RUNS = {  # tutorial; spacings in a radius, box, strain
+    "capsule8box5": (*CAPSULE, 8, (5, 5, 5), 5),
+    "capsule8box8": (*CAPSULE, 8, (6, 6, 8), 5),
+    "capsule8box12": (*CAPSULE, 8, (6, 6, 12), 5),
+    "capsule12box5": (*CAPSULE, 12, (5, 5, 5), 5),
+    "capsule12box8": (*CAPSULE, 12, (6, 6, 8), 5),
+    "capsule12box12": (*CAPSULE, 12, (6, 6, 12), 5),
+    "capsule16box5": (*CAPSULE, 16, (5, 5, 5), 5),
+    "capsule8box5to30": (*CAPSULE, 8, (5, 5, 5), 30),
+    "red8box4": (*RED02, 8, (5, 4, 4), 22),
+    "red8box8": (*RED02, 8, (6, 6, 8), 22),
+    "red8box12": (*RED02, 8, (6, 6, 12), 22),
+    "red12box12": (*RED02, 12, (6, 6, 12), 22),
+    "stiff8box4": (*RED002, 8, (5, 4, 4), 22),
+    "stiff8box8": (*RED002, 8, (6, 6, 8), 22),
+    "stiff8box12": (*RED002, 8, (6, 6, 12), 22),
+}
+REFERENCES = {"capsuleShear": "capsuleShear/reference.csv", "rbcShear/Ca0.02": "rbcShear/reference/Ca0.02.csv",
+              "rbcShear/Ca0.002": "rbcShear/reference/Ca0.002.csv"}
+
+
+def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain):
+    settings = []
+    for key in ("system/mesh.yaml:/domain/size=[" + ", ".join(f"{length * RADIUS} um" for length in box) + "]",
+                f"system/numerics.yaml:/spacing={RADIUS / perRadius:.8g} um", f"system/mesh.yaml:/cells/0/edge={RADIUS / perRadius:.8g} um",
+                "system/numerics.yaml:" + step, f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}"):
+        settings += ["-set", key]
+    if not case.exists():
+        part = case.with_name(case.name + ".part")
+        shutil.rmtree(part, ignore_errors=True)
+        for folder in ("system", "constant"):
+            shutil.copytree(TUTORIALS / tutorial / folder, part / folder)
+        for program in ("membraneMesh", "particleFill"):
+            subprocess.run([binaries / program, "-case", part, "-quiet", *settings], check=True)
+        part.rename(case)
+    subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, "-quiet", *settings], check=True,
+                   env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
+
+
+def rows(path):
+    with open(path) as text:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(line for line in text if not line.startswith("#"))]
+
+
+def series(case, observer):
+    return [row for path in sorted(case.glob(f"postProcessing/{observer}/*/*.csv"), key=lambda p: float(p.parts[-2])) for row in rows(path)]
+
+
+def at(table, strain, key):
+    for a, b in zip(table, table[1:]):
+        if a["strain"] - 1e-9 <= strain <= b["strain"] + 1e-9:
+            return a[key] + (strain - a["strain"]) / (b["strain"] - a["strain"]) * (b[key] - a[key])
+    return math.nan
+
+
+def period(shape):
+    """The strain in which the main axis turns by a whole turn from the start; nan where it does not."""
+    turned, before = 0.0, shape[0]
+    for row in shape[1:]:
+        step = row["inclination_rad"] - before["inclination_rad"]
+        step -= math.pi * round(step / math.pi)
+        if turned + step <= -2 * math.pi:
+            return before["strain"] + (-2 * math.pi - turned) / step * (row["strain"] - before["strain"])
+        turned, before = turned + step, row
+    return math.nan
+
+
+def describe(name, case, tutorial, cell, step, perRadius, box, strain):
+    record = json.loads((case / "run.json").read_text())
+    shape, balance, reference = series(case, "deformation"), series(case, "balance"), rows(TUTORIALS / REFERENCES[tutorial])
+    performance = record["performance"]
+    if tutorial == "capsuleShear":
+        result = " ".join(f"{at(shape, t, 'D12_inertia'):.4f}" for t in (1, 2, 3, 4, 5) if t <= strain)
+        error = " ".join(f"{100 * (at(shape, t, 'D12_inertia') / at(reference, t, 'D12_inertia') - 1):+.2f}" for t in (1, 2, 3, 4, 5)) + " %"
+    else:
+        values = [row["D12_inertia"] for row in shape]
+        result = f"{min(values):.4f} to {max(values):.4f}, period {period(shape):.2f}"
+        error = f"{max(abs(row['D12_inertia'] - at(reference, row['strain'], 'D12_inertia')) for row in shape if row['strain'] <= reference[-1]['strain']):.4f}"
+    volume = max(abs(row[f"{cell}_volumeChange"]) for row in balance)
+    density = max(abs(row["density_mean"] / balance[0]["density_mean"] - 1) for row in balance)
+    crossed = max(row["changedSide"] for row in balance)
+    particles = record["parameters"]["particles"]
+    return (f"| {name} | {perRadius} | {' x '.join(map(str, box))} | {particles} | {result} | {error} | {crossed:.0f} | {volume:.0e} | {density:.0e} | "
+            f"{performance['iterationsPerStep']:.1f} | {performance['processorSeconds'] / shape[-1]['strain']:.1f} |")
+
+
+if __name__ == "__main__":
+    words = sys.argv[1:]
+    ranks = int(words.pop(words.index("-np") + 1)) if "-np" in words else 2
+    binaries, directory, *names = [word for word in words if word != "-np"]
+    for name in names:
+        if name not in RUNS:
+            sys.exit(f"boxes.py: no row '{name}'; there are {', '.join(RUNS)}")
+    directory = pathlib.Path(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    print("| row | spacings in a radius | box | particles | D12 by inertia | against boundary elements | crossed | volume | mean density | iterations a step | core-seconds a strain |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for name, row in RUNS.items():
+        case = directory / name
+        ended = (case / "run.json").exists() and json.loads((case / "run.json").read_text())["status"] == "done"
+        if not ended and (name in names or not names):
+            run(case, pathlib.Path(binaries).resolve(), ranks, *row)
+            ended = True
+        if ended:
+            print(describe(name, case, *row), flush=True)

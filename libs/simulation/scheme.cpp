@@ -1,0 +1,22 @@
+#include "simulation/scheme.hpp"
+
+namespace corpuscle::simulation {
+
+std::string couplingOf(const Case& c) {
+    const NumericsSettings& n = c.written;
+    if (n.coupling != "automatic") return n.coupling;
+    return c.mesh.bodies.empty() || n.isImplicit() ? "immersed" : "dualIdentity";
+}
+
+NumericsSettings schemeOf(const Case& c, const std::string& integrator) {
+    NumericsSettings n = c.written;
+    n.integrator = integrator;
+    n.coupling = couplingOf(c);
+    const bool immersed = n.isImmersed() && !c.mesh.cells.empty() && c.mesh.bodies.empty();
+    if (n.operators == "automatic") n.operators = n.isImplicit() || (immersed && !n.isRkl2()) ? "corrected" : "plain";
+    const auto file = c.files.find("system/numerics.yaml");
+    if (n.isCorrected() && (file == c.files.end() || !file->second.find("shifting"))) n.shifting.emplace();
+    return n;
+}
+
+}  // namespace corpuscle::simulation
