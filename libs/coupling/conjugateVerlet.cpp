@@ -49,6 +49,8 @@ class Verlet final : public ConjugateVerlet {
         return endStep(scene_, options_, ++steps_, dt);
     }
 
+    double largestDensityBalance() const override { return options_.largestBalance(); }
+
     Rates rates(int iterations) override {
         Rates found;
         found.viscous = largestEigenvalue(iterations, [&] {

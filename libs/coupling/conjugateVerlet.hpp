@@ -44,6 +44,7 @@ class ConjugateVerlet {
     };
     virtual Rates rates(int iterations) = 0;
 
+    virtual double largestDensityBalance() const = 0;
     long steps() const { return steps_; }
     void resume(long steps, long crossings) {  // crossings: of this rank
         steps_ = steps;

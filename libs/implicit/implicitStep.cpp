@@ -40,6 +40,7 @@ class Step final : public ImplicitStep {
     }
 
     Events advance(double dt) override { return advance(dt, backward_, 0); }
+    double largestDensityBalance() const override { return options_.largestBalance(); }
 
   private:
     using Field = particles::AlignedVector<Real>;

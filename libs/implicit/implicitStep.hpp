@@ -67,6 +67,7 @@ class ImplicitStep {
         long innerIterations = 0;  // on the nodes, by membraneCorrection.hpp
     };
     Statistics statistics;
+    virtual double largestDensityBalance() const = 0;
     const AllowedSteps& allowed() const { return allowed_; }  // by the last one; stepControl.hpp
     const coupling::NoFlux* noFlux() const { return noFlux_.get(); }
 

@@ -145,6 +145,12 @@ void Integrator::estimateRates() {
     springRate2_ = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
 }
 
+double Integrator::largestDensityBalance() const {
+    if (implicit_) return implicit_->largestDensityBalance();
+    if (conjugate_) return conjugate_->largestDensityBalance();
+    return scene_.coupling ? scene_.coupling->densityBalance().largest() : 0;
+}
+
 void Integrator::updateLimits(Time& time) {
     if (implicit_) {
         limits_.all.clear();

@@ -38,6 +38,7 @@ class Integrator {
     void advance(coupling::Scene& scene, Time& time);
 
     const sph::StepLimits& limits() const { return limits_; }
+    double largestDensityBalance() const;
     const implicit::ImplicitStep* implicitStep() const { return implicit_.get(); }
 
   private:

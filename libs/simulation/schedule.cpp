@@ -235,7 +235,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
             "{} times, halved {} times",
             perStep, statistics.mostIterations, inner, statistics.refinements, statistics.halvings);
     }
-    if (scene.coupling) record_.set("extremes", "largestDensityBalance", scene.coupling->densityBalance().largest());
+    record_.set("extremes", "largestDensityBalance", integrator_.largestDensityBalance());
     if (!scene.cells.empty()) {
         record_.set("result", "guardMoves", guardMoves_);
         record_.set("result", "brokenBonds", brokenBonds_);
