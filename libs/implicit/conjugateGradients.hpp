@@ -28,8 +28,8 @@ class ConjugateGradients {
     static constexpr int delay = 3, most = 2000;
     static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
-    // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. r is used up. Ends when the estimated |error|_A^2 is below
-    // tolerance^2 max(reference, x.A x). Collective.
+    // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always zero, whatever was there
+    // less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x). Collective.
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
                       Precondition&& precondition) {

@@ -117,7 +117,8 @@ class Step final : public ImplicitStep {
         noFlux_->find(*scene_.system, immersed_->touched());
     }
 
-    // Of the guess: residual_ = right-hand side - A guess.
+    // Of the guess: residual_ = right-hand side - A guess. Along with it, where the preconditioner gives zero: the divergence as the fourth number,
+    // and the whole force in the rows of walls. Both are linear in the velocity, so that the solver carries them to those of the velocity found.
     void findResidual() {
         const ParticleStore& s = store();
         const std::size_t n = s.size();
@@ -142,7 +143,7 @@ class Step final : public ImplicitStep {
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
             const Vec3 f = vector(force, i) + mass(i) * (g + c2_ * a - c1_ * change);
-            put(residual_, i, isFixed(i) ? Vec3(Vec3::Zero()) : f);
+            put(residual_, i, isFixed(i) ? vector(force, i) : f, operators_.divergence(i));
         }
     }
 
@@ -188,8 +189,10 @@ class Step final : public ImplicitStep {
         RealArray& force = operators_.force();
         std::fill(force.begin(), force.end(), 0.0);
         immersed_->spread(std::move(defect), force);
-        for (std::size_t i = 0; i < store().size(); ++i)
-            put(residual_, i, isFixed(i) ? Vec3(Vec3::Zero()) : vector(force, i));
+        for (std::size_t i = 0; i < store().size(); ++i) {
+            const Vec3 others = isFixed(i) ? get(residual_, i) : Vec3(Vec3::Zero());
+            put(residual_, i, others + vector(force, i), static_cast<double>(residual_[at(i) + 3]));
+        }
         precondition(residual_, correction_);
         double energy = 0;
         for (std::size_t k = 0; k < residual_.size(); ++k)
@@ -205,9 +208,10 @@ class Step final : public ImplicitStep {
             immersed_->spread(std::move(f), operators_.force());
         }
         const std::size_t n = store().size();
-        for (std::size_t i = 0; i < n; ++i)
-            put(w, i,
-                isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i) - vector(operators_.force(), i)));
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 inertia = isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i));
+            put(w, i, inertia - vector(operators_.force(), i), -operators_.divergence(i));
+        }
     }
 
     // Diagonal blocks of the fluid, multiples of the unit matrix. Those of the membrane make it worse: near it they hold back all that is
@@ -234,26 +238,30 @@ class Step final : public ImplicitStep {
             membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
             return;
         }
-        for (std::size_t i = 0; i < inverse_.size(); ++i)
-            for (std::size_t k = 0; k < width; ++k) z[at(i) + k] = inverse_[i] * r[at(i) + k];
+        for (std::size_t i = 0; i < inverse_.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) z[at(i) + k] = inverse_[i] * r[at(i) + k];
+            z[at(i) + 3] = 0;
+        }
         if (grid_) grid_->add(scene_.system->comm(), r.data(), z.data());
     }
 
-    // With the velocity found: density, places, what the walls feel; the state of the next step.
+    // With the velocity found: density, places, what the walls feel; the state of the next step. Divergences and the forces on walls are in
+    // residual_.
     void finish(double dt, double share) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
-        operators_.apply(*scene_.system, guess_,
-                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
-        findReference();
         Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
+        rate_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            const double rate = operators_.divergence(i);
-            s.densityRate[i] = -s.density[i] * rate;
-            s.density[i] *= ends_ ? 1 / (1 + dt * rate) : (1 - 0.5 * dt * rate) / (1 + 0.5 * dt * rate);
-            if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += vector(operators_.force(), i);
+            rate_[i] = static_cast<double>(residual_[at(i) + 3]);
+            if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += get(residual_, i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
+        findReference();
+        for (std::size_t i = 0; i < n; ++i) {
+            s.densityRate[i] = -s.density[i] * rate_[i];
+            s.density[i] *= ends_ ? 1 / (1 + dt * rate_[i]) : (1 - 0.5 * dt * rate_[i]) / (1 + 0.5 * dt * rate_[i]);
+        }
         moveParticles(dt, share);
     }
 
@@ -290,7 +298,7 @@ class Step final : public ImplicitStep {
             const Vec3 flow = affine(s.position(i)), w = isFixed(i) ? Vec3::Zero() : Vec3(get(guess_, i) - flow);
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
             sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
-            sum += operators_.volume(i) * pressure_[i] * operators_.divergence(i);
+            sum += operators_.volume(i) * pressure_[i] * rate_[i];
             put(disturbance, i, w);
             put(undisturbed, i, flow);
         }
@@ -313,9 +321,9 @@ class Step final : public ImplicitStep {
 
     static Vec3 get(const Field& f, std::size_t i) { return {f[at(i)], f[at(i) + 1], f[at(i) + 2]}; }
     static Vec3 vector(const RealArray& f, std::size_t i) { return {f[at(i)], f[at(i) + 1], f[at(i) + 2]}; }
-    static void put(Field& f, std::size_t i, const Vec3& v) {
+    static void put(Field& f, std::size_t i, const Vec3& v, double fourth = 0) {
         for (int k = 0; k < 3; ++k) f[at(i) + static_cast<std::size_t>(k)] = static_cast<Real>(v[k]);
-        f[at(i) + 3] = 0;
+        f[at(i) + 3] = static_cast<Real>(fourth);
     }
 
     Scene& scene_;
@@ -329,7 +337,7 @@ class Step final : public ImplicitStep {
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
     Field guess_, residual_, correction_, inverse_;
     RealArray pressure_;
-    std::vector<double> bulk_;
+    std::vector<double> bulk_, rate_;  // bulk modulus; divergence of the velocity found
     coupling::Transport transport_;
     Vectors load_;             // f(x*) + time k u_m
     Vectors guessed_, nodes_;  // velocities of the nodes: extrapolated, and found

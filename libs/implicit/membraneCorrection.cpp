@@ -77,8 +77,10 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
     }
 
     scatter(y);
-    for (std::size_t i = 0; i < inverse.size(); ++i)
-        for (std::size_t k = 0; k < 4; ++k) z[4 * i + k] = inverse[i] * r[4 * i + k];
+    for (std::size_t i = 0; i < inverse.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) z[4 * i + k] = inverse[i] * r[4 * i + k];
+        z[4 * i + 3] = 0;
+    }
     for (const int i : near)
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t at = 4 * static_cast<std::size_t>(i) + k;

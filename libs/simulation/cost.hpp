@@ -23,7 +23,7 @@ namespace corpuscle::simulation {
 
 struct PassCosts {
     static constexpr double conjugate = 4;  // velocity Verlet on conjugate operators
-    static constexpr double implicitOverhead = 5.5, passesPerIteration = 2;
+    static constexpr double implicitOverhead = 3.5, passesPerIteration = 2;
     static constexpr double iterations = 4, iterationsWithCells = 12;  // of the implicit step
     // In the time of a flow that changes by itself; the velocity of the implicit step is half a step behind.
     static constexpr double implicitStepsPerTransient = 40;
