@@ -17,15 +17,16 @@ given = reference ne 'none'
 D12ofReference = !given ? '' : ", reference using 1:2 skip 5 every 3 with points pt 6 lc 1 title 'extents, boundary elements'" \
                              . ", reference using 1:3 skip 5 every 3 with points pt 6 lc 2 title 'inertia, boundary elements'"
 angleOfReference = !given ? '' : ", reference using 1:4 skip 5 every 3 with points pt 6 lc 2 title 'main axis, boundary elements'"
-# Rigid cell in unbounded Stokes flow, period 20.45: that of a spheroid of axis ratio r (Jeffery 1922).
+# Rigid cell of Kuchel and Fackerell's shape in unbounded Stokes flow, period 20.45: that of a spheroid of axis ratio r (Jeffery 1922).
 r = 0.3435
 rigid(t) = (phase = t*r/(1 + r*r), degrees*(atan(r*tan(phase)) + pi*floor(phase/pi + 0.5)))
+rigidCell = !given ? '' : ", rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded'"
 set multiplot layout 1,2
 set ylabel 'D12'
 plot for [f in files] f using 2:3 skip 1 with lines lw 2 lc 1 title 'by extents', \
      for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'by inertia' @D12ofReference
 set ylabel 'degrees, with the flow'
 plot for [f in files] f using 2:($6*degrees) skip 1 with lines lw 2 lc 1 title 'angle turned by the material', \
-     for [f in files] f using 2:(followed($2, -$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis', \
-     rigid(x) with lines dt 2 lc 'gray40' title 'rigid cell, unbounded' @angleOfReference
+     for [f in files] f using 2:(followed($2, -$5*degrees)) skip 1 with lines lw 2 lc 2 title 'main axis' \
+     @rigidCell @angleOfReference
 unset multiplot

@@ -20,10 +20,12 @@ COLUMNS = {  # name in the CSV file: text in the table
     "D12_extent_max": "D12 by extents, largest",
     "D12_inertia_min": "D12 by inertia, smallest",
     "D12_inertia_max": "D12 by inertia, largest",
-    "angleTurned_deg": "angle turned [degrees]",
+    "angleTurned_deg": "angle turned by the material [degrees]",
+    "axisTurned_deg": "angle turned by the main axis [degrees]",
+    "fullTurn_strain": "strain of its first full turn",
     "areaDrift": "largest change of area",
     "volumeDrift": "largest change of volume",
-    "guardMoves": "moves of the leakage guard",
+    "guardMoves": "particles put back to their side",
     "changedSide": "particles on the wrong side, at most",
     "wallClock_s": "run time [s]",
 }
@@ -43,6 +45,24 @@ def series(case, observer, file):
     return rows
 
 
+def axisTurned(shape):
+    """Angle [degrees] by which the main axis has turned with the flow, row by row. It has no direction: followed from look to look."""
+    angles = [0.0]
+    for row in shape[1:]:
+        angle = -math.degrees(row["inclination_rad"])
+        angles.append(angle + 180 * math.floor((angles[-1] - angle) / 180 + 0.5))
+    return angles
+
+
+def strainOfTurn(shape, degrees=360):
+    """Strain at which the main axis has turned so far; nan before."""
+    angles = axisTurned(shape)
+    for (a, before), (b, after) in zip(zip(angles, shape), zip(angles[1:], shape[1:])):
+        if a < degrees <= b:
+            return before["strain"] + (after["strain"] - before["strain"]) * (degrees - a) / (b - a)
+    return math.nan
+
+
 def summary(case):
     with open(os.path.join(case, "run.json")) as text:
         run = json.load(text)
@@ -56,6 +76,8 @@ def summary(case):
         "strain": shape[-1]["strain"],
         **extremes,
         "angleTurned_deg": math.degrees(shape[-1]["angleTurned_rad"]),
+        "axisTurned_deg": axisTurned(shape)[-1],
+        "fullTurn_strain": strainOfTurn(shape),
         "areaDrift": drift("_areaChange"),
         "volumeDrift": drift("_volumeChange"),
         "guardMoves": balance[-1]["guardMoves"],
@@ -66,7 +88,7 @@ def summary(case):
 
 def shown(name, value):
     if name.endswith("Drift"):
-        return f"{100 * value:+.3f} %"
+        return f"{100 * value:+.3f} %" if abs(value) > 5e-6 else f"{value:+.0e}"
     if name.startswith("D12"):
         return f"{value:.4f}"
     return f"{value:.4g}" if name == "Ca" else f"{value:.6g}" if math.isfinite(value) and value == int(value) else f"{value:.2f}"
@@ -84,7 +106,9 @@ def main(arguments):
     for case, result in zip(cases, results):
         print(os.path.basename(os.path.abspath(case)))
         for name, text in COLUMNS.items():
-            print(f"  {text:38s}{shown(name, result[name]):>12s}")
+            if name == "fullTurn_strain" and math.isnan(result[name]):
+                continue
+            print(f"  {text:40s}{shown(name, result[name]):>12s}")
 
 
 if __name__ == "__main__":
