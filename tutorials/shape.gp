@@ -8,6 +8,8 @@ set terminal pngcairo size 1200,500 font ",11"
 set output out
 set datafile separator comma
 set xlabel 'strain'
+# As far as the run has come; a reference may go on.
+set xrange [0:real(system("cat " . files . " | awk -F, '$2 + 0 > last {last = $2} END {print last}'"))]
 set key below
 degrees = 180/pi
 # The main axis has no direction: its angle is followed from look to look, on through restarts; at strain 0 it lies along the flow.

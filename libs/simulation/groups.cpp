@@ -74,6 +74,7 @@ ParticleEstimate estimateParticles(const Case& c) {
         n.walls = 2 * layer * c.wallLayers();
     }
     for (const CellSettings& cell : c.mesh.cells) {
+        if (c.numerics.isImmersed()) break;  // nodes are no particles
         // Hexagonal area of a node: sqrt(3)/2 edge^2. As particles the nodes replace fluid of area x dx.
         const double area = cell.shape->area();
         n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
