@@ -227,7 +227,8 @@ class Step final : public ImplicitStep {
         const std::size_t n = store().size();
         inverse_.resize(n);
         for (std::size_t i = 0; i < n; ++i) inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / diagonal(i));
-        if (rigid_) rigid_->factorise(c1_, [&](std::size_t i) { return diagonal(i) - c1_ * mass(i); }, inverse_);
+        const auto withoutMass = [&](std::size_t i) { return diagonal(i) - c1_ * mass(i); };
+        if (rigid_) rigid_->factorise(c1_, withoutMass, inverse_);
         if (grid_) placeOnGrid();
     }
     void placeOnGrid() {

@@ -135,8 +135,8 @@ void RigidUnknowns<Real>::putResidual(double c1, double c2, const Field& u, cons
         const Mat3 I = inertiaInSpace(body);
         row.force += body.solid.mass * (c2 * rate.linear - c1 * (guess.linear - last.linear)) +
                      model.density * body.solid.volume * model.bodyForce;
-        row.torque += I * (c2 * rate.angular - c1 * (guess.angular - last.angular)) -
-                      guess.angular.cross(I * guess.angular);
+        row.torque +=
+            I * (c2 * rate.angular - c1 * (guess.angular - last.angular)) - guess.angular.cross(I * guess.angular);
         return row;
     });
 }

@@ -109,9 +109,9 @@ class RigidUnknowns {
 
     coupling::Scene& scene_;
     bool onGrid_;
-    std::vector<bodies::RigidState> saved_;        // at the beginning of the step
-    std::vector<double> kappa_;                    // of groups().near [N s/m]
-    std::vector<double> outward_;                  // share of the members' pairs, by l_ij, that are not with bodies
+    std::vector<bodies::RigidState> saved_;         // at the beginning of the step
+    std::vector<double> kappa_;                     // of groups().near [N s/m]
+    std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies
     std::vector<sph::Wrench> reaction_, residual_;  // of the continuation, this rank's part; of the last r, whole
     std::vector<Eigen::LLT<Matrix6>> inertia_, particles_;  // D, and P^T P
     Field shared_;

@@ -29,8 +29,8 @@ struct SphereInFluid {
         : size(boxSize), centre(place), comm(among) {
         fluid.bodyForce = bodyForce;
         const Box box = cube(size);
-        system = std::make_unique<ParticleSystem>(
-            comm, box, ParticleStore::Optional{.mass = true, .member = true}, support, skin, 1.0);
+        system = std::make_unique<ParticleSystem>(comm, box, ParticleStore::Optional{.mass = true, .member = true},
+                                                  support, skin, 1.0);
         auto mesh = membrane::testing::icosphere(3);
         for (Vec3& x : mesh.nodes) x = radius * x + centre;
         Body body("sphere", "sphere", {mesh.nodes, mesh.triangles}, density, choose<BodyMotion>(behaviour), support, 1);

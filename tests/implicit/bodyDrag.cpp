@@ -37,8 +37,8 @@ double dragFactor(double radius, int length) {
 
 double torqueFactor(double radius, int length) {
     const Vec3 middle = Vec3::Constant(0.5 * length);
-    SphereScene s({{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius},
-                  2e-3);
+    SphereScene s(
+        {{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius}, 2e-3);
     s.body().state.motion.angular = Vec3(0, 0.002, 0);
     run(s, 0.1 * length * length / s.scene.model().viscosity);
     return -s.body().wrench.torque[1] / (8 * pi * s.scene.model().viscosity * std::pow(radius, 3) * 0.002);

@@ -150,7 +150,9 @@ TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
         SphereInFluid f({12, 12, 12}, Vec3(3, 6, 9), "free", 2.5, 0.1);
         f.setVelocities(someVelocity, turning);
         SphereScene s(std::move(f), 0.02);
-        const auto momentum = [&] { return Vec3(s.fluidMomentum() + s.body().solid.mass * s.body().state.motion.linear); };
+        const auto momentum = [&] {
+            return Vec3(s.fluidMomentum() + s.body().solid.mass * s.body().state.motion.linear);
+        };
         const Vec3 before = momentum(), velocity = s.body().state.motion.linear;
         const auto step = s.step(1e-9, method);
         Vec3 last = before, lastVelocity = velocity;
@@ -161,15 +163,18 @@ TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
         EXPECT_LT((momentum() - before).norm(), 1e-8 * s.body().solid.mass);
         EXPECT_GT((s.body().state.motion.linear - velocity).norm(), 1e-3);
         if (std::string(method) == "backwardEuler") {  // the force is what changes momentum
-            EXPECT_LT((s.body().solid.mass * (s.body().state.motion.linear - lastVelocity) - s.body().wrench.force).norm(),
-                      1e-8 * s.body().solid.mass);
+            EXPECT_LT(
+                (s.body().solid.mass * (s.body().state.motion.linear - lastVelocity) - s.body().wrench.force).norm(),
+                1e-8 * s.body().solid.mass);
         }
         // Its particles stand where it does.
         const auto& store = s.scene.store();
         for (std::size_t i = 0; i < store.size(); ++i) {
             if (store.kindOf(i) != particles::Kind::body) continue;
-            const Vec3 arm = s.body().state.orientation * s.body().particles[static_cast<std::size_t>(store.member[i])].place;
-            EXPECT_LT(s.scene.system->box().minimumImage(s.body().state.centre + arm - store.position(i)).norm(), 1e-12);
+            const Vec3 arm =
+                s.body().state.orientation * s.body().particles[static_cast<std::size_t>(store.member[i])].place;
+            EXPECT_LT(s.scene.system->box().minimumImage(s.body().state.centre + arm - store.position(i)).norm(),
+                      1e-12);
         }
     }
 }
@@ -186,7 +191,8 @@ TEST(RigidBodies, everythingMovingTogetherGoesOnForEver) {
 }
 
 TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
-    SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "{type: driven, velocity: [0.02, 0, 0] m/s, angularVelocity: [0, 0.05, 0] 1/s}");
+    SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6),
+                    "{type: driven, velocity: [0.02, 0, 0] m/s, angularVelocity: [0, 0.05, 0] 1/s}");
     const RigidMotion driven{Vec3(0.02, 0, 0), Vec3(0, 0.05, 0)};
     f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, driven);
     SphereScene s(std::move(f), 0.02);
@@ -209,5 +215,6 @@ TEST(RigidBodies, areTheSameOnOneRankAndOnAll) {
     const bodies::RigidState &a = alone.body().state, &b = shared.body().state;
     EXPECT_LT((a.motion.linear - b.motion.linear).norm(), 1e-7 * a.motion.linear.norm());
     EXPECT_LT((a.motion.angular - b.motion.angular).norm(), 1e-6 * a.motion.angular.norm());
-    EXPECT_LT((alone.body().wrench.torque - shared.body().wrench.torque).norm(), 1e-5 * alone.body().wrench.torque.norm());
+    EXPECT_LT((alone.body().wrench.torque - shared.body().wrench.torque).norm(),
+              1e-5 * alone.body().wrench.torque.norm());
 }

@@ -10,6 +10,7 @@ import os
 import pathlib
 import shutil
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -531,7 +532,7 @@ def test_bodies(folder):
 
 def test_implicitBodies(folder):
     """A free body by the implicit step: in one run and in two the same bits, on 1, 2 and 4 ranks the same to ten times the tolerance, and
-    the motion that velocity Verlet gives it; at the same time it may lie inside a capsule."""
+    the motion that velocity Verlet gives it; it may lie inside an immersed capsule."""
     scheme = "kernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-6}\n"
     start = prepared(folder / "start", BODY_CASE, **{"system/numerics.yaml": "spacing: 1 um\n" + scheme})
     run(start, "checkCase")
@@ -548,10 +549,14 @@ def test_implicitBodies(folder):
     same_in_parts(whole, start, "dmpFlow", 5, "-set", "system/numerics.yaml:/precision=mixed", ranks=2)
     explicit = prepared(folder / "explicit", BODY_CASE)
     run(explicit, "dmpFlow", ranks=2)
-    a, b = table(explicit, "motion")[-1], table(whole, "motion")[-1]
-    for key, allowed in (("angularVelocity_y_1_s", 0.05), ("rotation_y", 0.03)):
-        assert abs(b[key] / a[key] - 1) < allowed, (key, a[key], b[key])
-    case = prepared(folder / "inclusion", INCLUSION_CASE, **{"system/numerics.yaml": "spacing: 0.6 um\n" + scheme})
+    a, b = table(explicit, "motion"), table(whole, "motion")
+    turned = b[-1]["rotation_y"] / a[-1]["rotation_y"] - 1
+    settled = [[row["angularVelocity_y_1_s"] for row in rows if row["strain"] > 0.06] for rows in (a, b)]
+    rate = statistics.mean(settled[1]) / statistics.mean(settled[0]) - 1
+    print(f"implicit against velocity Verlet, 4 particles across: rotation {turned:+.4f}, rate {rate:+.4f}")
+    assert abs(turned) < 0.03 and abs(rate) < 0.05, (turned, rate)
+    case = prepared(folder / "inclusion", INCLUSION_CASE, **{
+        "system/numerics.yaml": "spacing: 0.6 um\n" + scheme.replace("step: 0.01, tolerance: 1e-6", "step: 0.05, tolerance: 1e-3")})
     run(case, "dmpFlow", ranks=2)
     last = table(case, "balance")[-1]
     assert last["changedSide"] == 0 and last["guardMoves"] == 0 and abs(last["capsule_volumeChange"]) < 1e-8, last
