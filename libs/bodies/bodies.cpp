@@ -60,6 +60,10 @@ void Bodies::drifted(ParticleSystem& system, double dt) {
         groups_.motion[b] = {body.state.motion.linear + 0.5 * dt * rate.linear,
                              body.state.motion.angular + 0.5 * dt * rate.angular};
     }
+    place(system);
+}
+
+void Bodies::place(ParticleSystem& system) const {
     ParticleStore& s = system.store();
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         const auto i = static_cast<std::size_t>(groups_.members[k].particle);

@@ -37,8 +37,12 @@ class Bodies : public sph::Load {
     void addAccelerations(particles::ParticleSystem& system) override;
     void kicked(particles::ParticleSystem& system, double dt) override;
 
-  private:
+    // For whoever steps bodies and particles in another way: who of the bodies' particles is here, after particles have changed their
+    // order; and these to their places, the images nearest to where they are.
     void findMembers(const particles::ParticleSystem& system);
+    void place(particles::ParticleSystem& system) const;
+
+  private:
     void findCandidates(const particles::ParticleSystem& system);
     void updateNear(const particles::ParticleSystem& system);
     Vec3 arm(const particles::ParticleSystem& system, const Body& body, int particle) const;

@@ -77,6 +77,7 @@ std::vector<double> Body::saved() const {
     add(state.centre), add(state.orientation.coeffs());
     add(state.motion.linear), add(state.motion.angular);
     add(wrench.force), add(wrench.torque);
+    add(acceleration.linear), add(acceleration.angular);
     return values;
 }
 
@@ -93,6 +94,7 @@ void Body::restore(const std::vector<double>& values) {
     take(state.centre), take(state.orientation.coeffs());
     take(state.motion.linear), take(state.motion.angular);
     take(wrench.force), take(wrench.torque);
+    take(acceleration.linear), take(acceleration.angular);
 }
 
 }  // namespace corpuscle::bodies

@@ -26,6 +26,7 @@ struct Body {
     int cell = 0;               // number of the cell that it is inside, 0: none
     double viscosity = 0;       // of the fluid around it [Pa s]
     RigidState state;
+    RigidMotion acceleration;      // of the last step, where it is implicit (implicit/rigidUnknowns.hpp)
     Wrench wrench;                 // of the fluid, about the centre of mass, at the last evaluation
     std::int64_t firstMember = 0;  // number of its first particle: field `member` of the store
     std::vector<BodyParticle> particles;
@@ -47,7 +48,7 @@ struct Body {
     std::vector<Vec3> nodes() const;  // of its surface, now
 
     // What a restart needs beside the particles.
-    static constexpr std::size_t stateLength = 19;
+    static constexpr std::size_t stateLength = 25;
     std::vector<double> saved() const;
     void restore(const std::vector<double>& saved);
 

@@ -56,6 +56,7 @@ struct Free : BodyMotion {
     RigidMotion start(const RigidMotion& flow) const override {
         return {velocity.value_or(flow.linear), angularVelocity.value_or(flow.angular)};
     }
+    bool yields() const override { return true; }
     RigidMotion response(const RigidState& state, const Solid& solid, const Wrench& wrench) const override {
         RigidState from = state;
         from.setAngularMomentum(solid, wrench.torque);

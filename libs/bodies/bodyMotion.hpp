@@ -15,6 +15,8 @@ class BodyMotion {
     virtual RigidMotion start(const RigidMotion& flow) const = 0;
     // The largest speed that the motion prescribes to a body of this radius [m/s].
     virtual double speed(double /*radius*/) const { return 0; }
+    // Whether it yields to forces at all.
+    virtual bool yields() const { return false; }
     // Acceleration by a force and a torque: the inverse of mass and inertia, 0 for what does not yield.
     virtual RigidMotion response(const RigidState&, const Solid&, const Wrench&) const { return {}; }
     // Velocity Verlet: half a kick and the drift; the second half.

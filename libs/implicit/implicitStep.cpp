@@ -10,6 +10,7 @@
 #include "coupling/transport.hpp"
 #include "implicit/coarseGrid.hpp"
 #include "implicit/membraneCorrection.hpp"
+#include "implicit/rigidUnknowns.hpp"
 #include "implicit/stepControl.hpp"
 
 namespace corpuscle::implicit {
@@ -34,6 +35,7 @@ class Step final : public ImplicitStep {
           transport_(scene, options.shifting) {
         if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
+        if (scene.bodies) rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, grid_ != nullptr);
         if (scene.cells.empty()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
         noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
@@ -73,12 +75,14 @@ class Step final : public ImplicitStep {
         const double share = backward ? 1 : 0.5;  // of dt, at which forces are taken
         setTimes(dt, share);
         moveBy(share * dt);
+        if (rigid_) rigid_->depart(share * dt);
         scene_.system->rebuild();
         prepare();
         findResidual();
         factorise();
         if (!solve(dt)) {
             moveBy(-share * dt);
+            if (rigid_) rigid_->takeBack();
             return false;
         }
         if (immersed_) {
@@ -112,6 +116,7 @@ class Step final : public ImplicitStep {
         const sph::FluidModel& model = scene_.model();
         for (std::size_t i = 0; i < n; ++i)
             bulk_[i] = model.equationOfState->bulkModulus(s.density[i], model.density, model.soundSpeed);
+        if (rigid_) rigid_->find(operators_);
         if (!immersed_) return;
         immersed_->build(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
@@ -122,12 +127,14 @@ class Step final : public ImplicitStep {
     void findResidual() {
         const ParticleStore& s = store();
         const std::size_t n = s.size();
-        guess_.resize(width * n), residual_.resize(width * n);
+        const std::size_t length = width * n + (rigid_ ? rigid_->length() : 0);
+        guess_.resize(length), residual_.resize(length);
         for (std::size_t i = 0; i < n; ++i) {
             const double ahead = isFixed(i) ? 0 : h_;
             const Vec3 u = s.velocity(i) + ahead * Vec3(s.fx[i], s.fy[i], s.fz[i]);
             put(guess_, i, u);
         }
+        if (rigid_) rigid_->extrapolate(h_, guess_);
         operators_.apply(*scene_.system, guess_,
                          [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
         RealArray& force = operators_.force();
@@ -139,12 +146,14 @@ class Step final : public ImplicitStep {
             immersed_->addResistance(time_, guessed_, f);
             immersed_->spread(std::move(f), force);
         }
+        if (rigid_) rigid_->addContinuation(guess_, force);
         const Vec3& g = scene_.model().bodyForce;
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
             const Vec3 f = vector(force, i) + mass(i) * (g + c2_ * a - c1_ * change);
             put(residual_, i, isFixed(i) ? vector(force, i) : f, operators_.divergence(i));
         }
+        if (rigid_) rigid_->putResidual(c1_, c2_, guess_, force, residual_);
     }
 
     // The velocity of this step in guess_, that of the nodes in nodes_.
@@ -193,6 +202,7 @@ class Step final : public ImplicitStep {
             const Vec3 others = isFixed(i) ? get(residual_, i) : Vec3(Vec3::Zero());
             put(residual_, i, others + vector(force, i), static_cast<double>(residual_[at(i) + 3]));
         }
+        if (rigid_) rigid_->putForces(force, residual_);
         precondition(residual_, correction_);
         double energy = 0;
         for (std::size_t k = 0; k < residual_.size(); ++k)
@@ -207,11 +217,13 @@ class Step final : public ImplicitStep {
             immersed_->addResistance(time_, immersed_->interpolate(z.data()), f);
             immersed_->spread(std::move(f), operators_.force());
         }
+        if (rigid_) rigid_->addContinuation(z, operators_.force());
         const std::size_t n = store().size();
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 inertia = isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i));
             put(w, i, inertia - vector(operators_.force(), i), -operators_.divergence(i));
         }
+        if (rigid_) rigid_->putProduct(c1_, z, operators_.force(), w);
     }
 
     // Diagonal blocks of the fluid, multiples of the unit matrix. Those of the membrane make it worse: near it they hold back all that is
@@ -220,6 +232,8 @@ class Step final : public ImplicitStep {
         const std::size_t n = store().size();
         inverse_.resize(n);
         for (std::size_t i = 0; i < n; ++i) inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / diagonal(i));
+        const auto withoutMass = [&](std::size_t i) { return diagonal(i) - c1_ * mass(i); };
+        if (rigid_) rigid_->factorise(c1_, withoutMass, inverse_);
         if (grid_) placeOnGrid();
     }
     void placeOnGrid() {
@@ -234,6 +248,10 @@ class Step final : public ImplicitStep {
         return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
     }
     void precondition(const Field& r, Field& z) {
+        preconditionParticles(rigid_ ? rigid_->distribute(r) : r, z);
+        if (rigid_) rigid_->project(z);
+    }
+    void preconditionParticles(const Field& r, Field& z) {
         if (withMembrane_) {
             membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
             return;
@@ -250,10 +268,11 @@ class Step final : public ImplicitStep {
     void finish(double dt, double share) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
+        if (rigid_) findForcesOnBodies();
         Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
         rate_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            rate_[i] = static_cast<double>(residual_[at(i) + 3]);
+            rate_[i] = rigid_ ? operators_.divergence(i) : static_cast<double>(residual_[at(i) + 3]);
             if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += get(residual_, i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
@@ -263,6 +282,20 @@ class Step final : public ImplicitStep {
             s.density[i] *= ends_ ? 1 / (1 + dt * rate_[i]) : (1 - 0.5 * dt * rate_[i]) / (1 + 0.5 * dt * rate_[i]);
         }
         moveParticles(dt, share);
+    }
+
+    // What the system has as their forces at the velocity found, so that they are what changes momentum. The solver does not carry them: rows of
+    // particles of bodies are empty.
+    void findForcesOnBodies() {
+        operators_.apply(*scene_.system, guess_,
+                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
+        if (immersed_) {
+            Vectors f = load_;
+            immersed_->addResistance(time_, nodes_, f);
+            immersed_->spread(std::move(f), operators_.force());
+        }
+        rigid_->addContinuation(guess_, operators_.force());
+        rigid_->findWrenches(operators_.force());
     }
 
     void moveParticles(double dt, double share) {
@@ -283,6 +316,7 @@ class Step final : public ImplicitStep {
             s.fx[i] = a[0], s.fy[i] = a[1], s.fz[i] = a[2];
             s.setVelocity(i, v);
         }
+        if (rigid_) rigid_->arrive(dt, h_, guess_);
         if (noFlux_) noFlux_->keepSides(*scene_.system);
         state.behind = dt - share * dt, state.lastSpacing = h_;
     }
@@ -297,7 +331,10 @@ class Step final : public ImplicitStep {
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec3 flow = affine(s.position(i)), w = isFixed(i) ? Vec3::Zero() : Vec3(get(guess_, i) - flow);
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
-            sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
+            if (rigid_ && rigid_->isMember(i))  // stress within the body resists what is not rigid
+                sum -= w.dot(vector(operators_.force(), i));
+            else
+                sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
             sum += operators_.volume(i) * pressure_[i] * rate_[i];
             put(disturbance, i, w);
             put(undisturbed, i, flow);
@@ -332,6 +369,7 @@ class Step final : public ImplicitStep {
     std::string fault_;
     sph::Operators<Real> operators_;
     std::unique_ptr<CoarseGrid> grid_;
+    std::unique_ptr<RigidUnknowns<Real>> rigid_;  // none without bodies
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt

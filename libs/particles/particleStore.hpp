@@ -45,7 +45,8 @@ using IntegerArray = AlignedVector<std::int64_t>;
 
 enum class Kind : std::int64_t { fluid = 0, membrane = 1, wall = 2, body = 3 };
 
-// Particles that the fluid meets but that do not move as fluid: two of them do not act on each other.
+// Particles that the fluid meets but that do not move as fluid: two of them do not act on each other, unless
+// the lists are made to hold pairs within bodies (ParticleSystem::pairWithinBodies).
 constexpr bool isBoundary(Kind kind) { return kind == Kind::wall || kind == Kind::body; }
 
 class ParticleStore {

@@ -88,12 +88,16 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
     const int n = owned();
     halo_.plan(x.data(), y.data(), z.data(), n, decomposition_, box_, reach);
     const int g = halo_.ghostCount();
+    const auto actsOnFluidOnly = [&](int i) {
+        const Kind kind = store_.kindOf(static_cast<std::size_t>(i));
+        return pairWithinBodies_ ? kind == Kind::wall : isBoundary(kind);
+    };
     const auto total = static_cast<std::size_t>(n) + static_cast<std::size_t>(g);
     RealArray& records = buildRecords_;
     records.resize(total * 4);
     for (int i = 0; i < n; ++i) {
         double* r = records.data() + 4 * static_cast<std::size_t>(i);
-        r[0] = x[i], r[1] = y[i], r[2] = z[i], r[3] = isBoundary(store_.kindOf(i)) ? 1.0 : 0.0;
+        r[0] = x[i], r[1] = y[i], r[2] = z[i], r[3] = actsOnFluidOnly(i) ? 1.0 : 0.0;
     }
     halo_.exchange(records.data(), n, 4);
 

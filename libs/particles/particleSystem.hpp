@@ -44,6 +44,9 @@ class ParticleSystem {
     long rebuilds() const { return rebuilds_; }
     std::size_t bytes() const;
 
+    // From the next build on, lists hold pairs of two particles of bodies too, as if they were fluid.
+    void pairWithinBodies() { pairWithinBodies_ = true; }
+
     // Fills the store for the first time: cuts bricks, sends every particle to its owner, builds lists. Collective.
     void start();
     // Takes up a checkpoint on the same number of ranks: the store holds this rank's particles in their saved order.
@@ -89,6 +92,7 @@ class ParticleSystem {
     Box box_;
     double support_, skin_, spacing_;
     Precision precision_;
+    bool pairWithinBodies_ = false;
     ParticleStore store_;
     Decomposition decomposition_;
     Halo halo_;

@@ -119,17 +119,12 @@ void checkScheme(const Case& c, Problems& problems) {
         problems.add(numerics, "operators",
                      "found corrected, which let particles clump without shifting; write 'shifting: {coefficient: 1}' "
                      "beside it, or operators: plain");
-    if (c.mesh.bodies.empty() || !c.isConjugate()) return;
-    if (n.isImplicit())
-        problems.add(numerics, "integrator",
-                     "found implicit, but system/mesh.yaml has bodies, which move with 'integrator: velocityVerlet' "
-                     "only; write that, or remove the bodies");
-    else
-        problems.add(numerics, corrected ? "operators" : "coupling",
-                     std::string("found ") + (corrected ? "corrected" : "immersed") +
-                         ", but system/mesh.yaml has bodies, which go with " +
-                         (cells ? "'coupling: dualIdentity' and " : "") +
-                         "'operators: plain' only; write that, or remove the bodies");
+    if (c.mesh.bodies.empty() || !c.isConjugate() || n.isImplicit()) return;
+    problems.add(numerics, corrected ? "operators" : "coupling",
+                 std::string("found ") + (corrected ? "corrected" : "immersed") +
+                     ", but system/mesh.yaml has bodies, which 'integrator: velocityVerlet' moves with " +
+                     (cells ? "'coupling: dualIdentity' and " : "") +
+                     "'operators: plain' only; write that, or integrator: implicit");
 }
 
 namespace {

@@ -59,7 +59,8 @@ double passes(const Case& c, double dt) {
     if (c.numerics.isImplicit())
         return PassCosts::implicitOverhead +
                PassCosts::passesPerIteration *
-                   (c.mesh.cells.empty() ? PassCosts::iterations : PassCosts::iterationsWithCells);
+                   (c.mesh.cells.empty() && c.mesh.bodies.empty() ? PassCosts::iterations
+                                                                  : PassCosts::iterationsWithin);
     if (c.numerics.isRkl2()) return sph::LegendreStages::needed(viscousRate(c) / c.numerics.safety * dt) + 1;
     return c.isConjugate() ? PassCosts::conjugate : 1;
 }

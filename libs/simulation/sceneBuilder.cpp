@@ -128,7 +128,10 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
                                                                input.numerics.isImplicit() ? 0 : input.skin(),
                                                                input.spacing(), input.precision());
     if (hasCells) scene.cells = readCells(input);
-    if (hasBodies) addBodies(input, scene);
+    if (hasBodies) {
+        addBodies(input, scene);
+        if (input.numerics.isImplicit()) scene.system->pairWithinBodies();
+    }
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
     if (input.numerics.shifting && !input.isConjugate())  // conjugate steps have their own, at every step

@@ -148,6 +148,13 @@ void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
     for (std::size_t i = 0; i < n; ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
 }
 
+template <class Real>
+void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
+    findRates(system, u);
+    for (std::size_t i = 0; i < volume_.size(); ++i)
+        for (std::size_t k = 0; k < width; ++k) force_[width * i + k] = k < 3 ? viscousUnit_ * sums_[width * i + k] : 0;
+}
+
 // The stress is in units that let both passes share one sum.
 template <class Real>
 void Operators<Real>::setPressure(std::size_t i, double pressure) {

@@ -38,6 +38,8 @@ class Operators {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
         addStress(system);
     }
+    // force_i = -(L u)_i [N]. Collective.
+    void applyViscosity(particles::ParticleSystem& system, const Field& u);
     particles::RealArray& force() { return force_; }  // what else acts may be added, until the next application
     const particles::RealArray& force() const { return force_; }
     double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]

@@ -15,6 +15,7 @@ inline constexpr double support = 2.4, skin = 0.3;
 struct SphereInFluid {
     Index3 size;
     Vec3 centre;
+    MPI_Comm comm;
     sph::FluidModel fluid = model("wendlandC2");
     std::unique_ptr<ParticleSystem> system;
     std::unique_ptr<Bodies> bodies;
@@ -23,12 +24,13 @@ struct SphereInFluid {
     std::vector<bool> solid;
 
     SphereInFluid(const Index3& boxSize, const Vec3& place, const std::string& behaviour, double density = 1,
-                  double disorder = 0, double radius = 3, const Vec3& bodyForce = Vec3::Zero())
-        : size(boxSize), centre(place) {
+                  double disorder = 0, double radius = 3, const Vec3& bodyForce = Vec3::Zero(),
+                  MPI_Comm among = MPI_COMM_WORLD)
+        : size(boxSize), centre(place), comm(among) {
         fluid.bodyForce = bodyForce;
         const Box box = cube(size);
-        system = std::make_unique<ParticleSystem>(
-            MPI_COMM_WORLD, box, ParticleStore::Optional{.mass = true, .member = true}, support, skin, 1.0);
+        system = std::make_unique<ParticleSystem>(comm, box, ParticleStore::Optional{.mass = true, .member = true},
+                                                  support, skin, 1.0);
         auto mesh = membrane::testing::icosphere(3);
         for (Vec3& x : mesh.nodes) x = radius * x + centre;
         Body body("sphere", "sphere", {mesh.nodes, mesh.triangles}, density, choose<BodyMotion>(behaviour), support, 1);
@@ -50,7 +52,7 @@ struct SphereInFluid {
         bodies = std::make_unique<Bodies>(std::move(all), Bodies::Medium{1, bodyForce, 1});
         forces = std::make_unique<sph::FluidForces>(fluid, *system, &bodies->groups());
         int rank = 0;
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+        MPI_Comm_rank(comm, &rank);
         if (rank == 0) addParticles();
         system->start();
         bodies->moved(*system, 0, true);
@@ -90,7 +92,7 @@ struct SphereInFluid {
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = 0; i < s.size(); ++i)
             if (s.kindOf(i) == Kind::fluid) sum += s.mass[i] * s.velocity(i);
-        MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, comm);
         return sum;
     }
 };

@@ -1,0 +1,289 @@
+#include "implicit/rigidUnknowns.hpp"
+
+#include <algorithm>
+
+namespace corpuscle::implicit {
+
+using bodies::Body;
+using bodies::RigidState;
+using particles::ParticleStore;
+using particles::RealArray;
+using sph::RigidMotion;
+using sph::Wrench;
+
+namespace {
+
+Vec3 vector(const RealArray& f, std::size_t i) { return {f[4 * i], f[4 * i + 1], f[4 * i + 2]}; }
+
+Mat3 cross(const Vec3& r) {  // cross(r) v = r x v
+    Mat3 m;
+    m << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
+    return m;
+}
+
+Mat3 inertiaInSpace(const Body& body) {
+    const Mat3 R = body.state.rotation();
+    return R * body.solid.inertia.asDiagonal() * R.transpose();
+}
+
+void add(Wrench& sum, const Vec3& arm, const Vec3& force) {
+    sum.force += force;
+    sum.torque += arm.cross(force);
+}
+
+}  // namespace
+
+template <class Real>
+void RigidUnknowns<Real>::depart(double seconds) {
+    saved_.clear();
+    for (Body& body : bodies()) {
+        saved_.push_back(body.state);
+        bodies::drive(body.state, seconds);
+    }
+    scene_.bodies->findMembers(*scene_.system);
+    scene_.bodies->place(*scene_.system);
+}
+
+template <class Real>
+void RigidUnknowns<Real>::takeBack() {
+    for (std::size_t b = 0; b < saved_.size(); ++b) bodies()[b].state = saved_[b];
+    scene_.bodies->place(*scene_.system);
+}
+
+// L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1 within bodies has at
+// their particles the sum of l_ij over all others.
+template <class Real>
+void RigidUnknowns<Real>::find(sph::Operators<Real>& operators) {
+    scene_.bodies->moved(*scene_.system, 0, true);
+    Field marks(behind(), Real(0));
+    for (const auto& m : members()) {
+        Real* mark = marks.data() + width * static_cast<std::size_t>(m.particle);
+        mark[0] = static_cast<Real>(m.depth / scene_.spacing), mark[1] = Real(1);
+    }
+    operators.applyViscosity(*scene_.system, marks);
+    kappa_.clear(), outward_.clear();
+    for (const auto& near : scene_.bodies->groups().near)
+        kappa_.push_back(vector(operators.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
+                         near.inverseDistance);
+    for (const auto& m : members()) {
+        const auto i = static_cast<std::size_t>(m.particle);
+        outward_.push_back(std::clamp(-vector(operators.force(), i)[1] / operators.viscousDiagonal(i), 0.0, 1.0));
+    }
+}
+
+template <class Real>
+void RigidUnknowns<Real>::extrapolate(double h, Field& u) const {
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        const RigidMotion &last = bodies()[b].state.motion, &rate = bodies()[b].acceleration;
+        put(u, b, last.linear + h * rate.linear, last.angular + h * rate.angular);
+    }
+    spread(u);
+}
+
+template <class Real>
+void RigidUnknowns<Real>::addContinuation(const Field& u, RealArray& force) {
+    reaction_.assign(bodies().size(), {});
+    const auto& near = scene_.bodies->groups().near;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+        const auto b = static_cast<std::size_t>(near[k].group);
+        const std::size_t at = width * static_cast<std::size_t>(near[k].particle);
+        const Vec3 w = Vec3(u[at], u[at + 1], u[at + 2]) - motion(u, b).at(near[k].arm), f = kappa_[k] * w;
+        for (int c = 0; c < 3; ++c) force[at + static_cast<std::size_t>(c)] -= f[c];
+        add(reaction_[b], near[k].arm, f);
+    }
+}
+
+// row(body, P^T of the forces) of free bodies; the rest 0.
+template <class Real>
+template <class Row>
+void RigidUnknowns<Real>::putRows(const RealArray& force, Field& rows, Row&& row) const {
+    const std::vector<Wrench> sums = gather(force);
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+        const Wrench found = isFree(b) ? row(b, sums[b]) : Wrench{};
+        put(rows, b, found.force, found.torque);
+    }
+    for (const auto& m : members())
+        std::fill_n(rows.data() + width * static_cast<std::size_t>(m.particle), width, Real(0));
+}
+
+template <class Real>
+void RigidUnknowns<Real>::putForces(const RealArray& force, Field& rows) const {
+    putRows(force, rows, [](std::size_t, const Wrench& sum) { return sum; });
+}
+
+template <class Real>
+void RigidUnknowns<Real>::putProduct(double c1, const Field& u, const RealArray& force, Field& product) const {
+    putRows(force, product, [&](std::size_t b, const Wrench& sum) {
+        Wrench row{-sum.force - reaction_[b].force, -sum.torque - reaction_[b].torque};
+        if (!isRoot()) return row;
+        const RigidMotion z = motion(u, b);
+        row.force += c1 * bodies()[b].solid.mass * z.linear;
+        row.torque += c1 * inertiaInSpace(bodies()[b]) * z.angular;
+        return row;
+    });
+}
+
+template <class Real>
+void RigidUnknowns<Real>::putResidual(double c1, double c2, const Field& u, const RealArray& force,
+                                      Field& residual) const {
+    const sph::FluidModel& model = scene_.model();
+    putRows(force, residual, [&](std::size_t b, const Wrench& sum) {
+        Wrench row{sum.force + reaction_[b].force, sum.torque + reaction_[b].torque};
+        if (!isRoot()) return row;
+        const Body& body = bodies()[b];
+        const RigidMotion guess = motion(u, b), &last = body.state.motion, &rate = body.acceleration;
+        const Mat3 I = inertiaInSpace(body);
+        row.force += body.solid.mass * (c2 * rate.linear - c1 * (guess.linear - last.linear)) +
+                     model.density * body.solid.volume * model.bodyForce;
+        row.torque +=
+            I * (c2 * rate.angular - c1 * (guess.angular - last.angular)) - guess.angular.cross(I * guess.angular);
+        return row;
+    });
+}
+
+template <class Real>
+std::vector<Wrench> RigidUnknowns<Real>::gather(const RealArray& force) const {
+    std::vector<Wrench> sums(bodies().size());
+    for (const auto& m : members())
+        add(sums[static_cast<std::size_t>(m.group)], m.arm, vector(force, static_cast<std::size_t>(m.particle)));
+    return sums;
+}
+
+template <class Real>
+auto RigidUnknowns<Real>::square(const Vec3& arm) -> Matrix6 {
+    const Mat3 r = cross(arm);
+    Matrix6 m;
+    m << Mat3::Identity(), -r, r, -r * r;
+    return m;
+}
+
+template <class Real>
+auto RigidUnknowns<Real>::continuationBlocks() const -> std::vector<Matrix6> {
+    std::vector<Matrix6> blocks(bodies().size(), Matrix6::Zero());
+    const auto& near = scene_.bodies->groups().near;
+    for (std::size_t k = 0; k < near.size(); ++k)
+        blocks[static_cast<std::size_t>(near[k].group)] += kappa_[k] * square(near[k].arm);
+    return blocks;
+}
+
+template <class Real>
+void RigidUnknowns<Real>::invert(double c1, std::vector<Matrix6>& blocks) {
+    MPI_Allreduce(MPI_IN_PLACE, blocks.data(), static_cast<int>(36 * blocks.size()), MPI_DOUBLE, MPI_SUM,
+                  scene_.system->comm());
+    inertia_.clear(), particles_.clear();
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const Body& body = bodies()[b];
+        blocks[b].template topLeftCorner<3, 3>() += c1 * body.solid.mass * Mat3::Identity();
+        blocks[b].template bottomRightCorner<3, 3>() +=
+            c1 * inertiaInSpace(body) + 2 * body.viscosity * body.solid.volume * Mat3::Identity();
+        inertia_.emplace_back(blocks[b]);
+        Matrix6 sum = Matrix6::Zero();
+        for (const bodies::BodyParticle& p : body.particles) sum += square(body.state.orientation * p.place);
+        particles_.emplace_back(sum);
+    }
+}
+
+template <class Real>
+auto RigidUnknowns<Real>::distribute(const Field& r) -> const Field& {
+    residual_.clear();
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        const RigidMotion part = motion(r, b);
+        residual_.push_back({part.linear, part.angular});
+    }
+    addUp(residual_);
+    if (!onGrid_) return r;
+    shared_ = r;
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        Vector6 f;
+        f << residual_[b].force, residual_[b].torque;
+        f = particles_[b].solve(f);
+        put(shared_, b, f.template head<3>(), f.template tail<3>());
+    }
+    spread(shared_);
+    return shared_;
+}
+
+template <class Real>
+void RigidUnknowns<Real>::project(Field& z) {
+    std::vector<Wrench> sums(bodies().size());
+    if (onGrid_) {
+        for (const auto& m : members()) {
+            const std::size_t at = width * static_cast<std::size_t>(m.particle);
+            add(sums[static_cast<std::size_t>(m.group)], m.arm, Vec3(z[at], z[at + 1], z[at + 2]));
+        }
+        addUp(sums);
+    }
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+        Vector6 found = Vector6::Zero(), r, f;
+        if (isFree(b)) {
+            f << sums[b].force, sums[b].torque;
+            r << residual_[b].force, residual_[b].torque;
+            found = particles_[b].solve(f) + inertia_[b].solve(r);
+        }
+        put(z, b, found.template head<3>(), found.template tail<3>());
+    }
+    spread(z);
+}
+
+template <class Real>
+void RigidUnknowns<Real>::findWrenches(const RealArray& force) {
+    std::vector<Wrench> sums = gather(force);
+    for (std::size_t b = 0; b < sums.size(); ++b)
+        sums[b].force += reaction_[b].force, sums[b].torque += reaction_[b].torque;
+    addUp(sums);
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+        Body& body = bodies()[b];
+        body.wrench = sums[b];
+        body.wrench.force += scene_.model().density * body.solid.volume * scene_.model().bodyForce;
+    }
+}
+
+template <class Real>
+void RigidUnknowns<Real>::arrive(double dt, double h, const Field& u) {
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        Body& body = bodies()[b];
+        const RigidMotion last = saved_[b].motion, found = isFree(b) ? motion(u, b) : last;
+        body.state = saved_[b];
+        body.state.motion = found;
+        bodies::drive(body.state, dt);
+        body.acceleration = {(found.linear - last.linear) / h, (found.angular - last.angular) / h};
+    }
+    scene_.bodies->place(*scene_.system);
+}
+
+template <class Real>
+RigidMotion RigidUnknowns<Real>::motion(const Field& u, std::size_t body) const {
+    const Real* a = u.data() + behind() + perBody * body;
+    return {Vec3(a[0], a[1], a[2]), Vec3(a[4], a[5], a[6])};
+}
+
+template <class Real>
+void RigidUnknowns<Real>::put(Field& f, std::size_t body, const Vec3& linear, const Vec3& angular) const {
+    Real* a = f.data() + behind() + perBody * body;
+    for (int k = 0; k < 3; ++k) a[k] = static_cast<Real>(linear[k]), a[4 + k] = static_cast<Real>(angular[k]);
+    a[3] = a[7] = Real(0);
+}
+
+template <class Real>
+void RigidUnknowns<Real>::spread(Field& u) const {
+    std::vector<RigidMotion> motions;
+    for (std::size_t b = 0; b < bodies().size(); ++b) motions.push_back(motion(u, b));
+    for (const auto& m : members()) {
+        const Vec3 at = motions[static_cast<std::size_t>(m.group)].at(m.arm);
+        Real* to = u.data() + width * static_cast<std::size_t>(m.particle);
+        for (int k = 0; k < 3; ++k) to[k] = static_cast<Real>(at[k]);
+        to[3] = Real(0);
+    }
+}
+
+template <class Real>
+void RigidUnknowns<Real>::addUp(std::vector<Wrench>& wrenches) const {
+    static_assert(sizeof(Wrench) == 6 * sizeof(double));
+    MPI_Allreduce(MPI_IN_PLACE, wrenches.data(), static_cast<int>(6 * wrenches.size()), MPI_DOUBLE, MPI_SUM,
+                  scene_.system->comm());
+}
+
+template class RigidUnknowns<double>;
+template class RigidUnknowns<float>;
+
+}  // namespace corpuscle::implicit

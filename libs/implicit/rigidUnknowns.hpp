@@ -1,0 +1,123 @@
+// Rigid bodies in the implicit step (implicitStep.hpp): U and Omega of a body are unknowns in place of its particles' velocities.
+//
+//     u_j = U + Omega x r_j                                    P, for the body's particles, r_j from its centre of mass
+//     F = sum_j f_j,   T = sum_j r_j x f_j                     P^T, of what the system has as forces on particles
+//     m (c1 (U - U') - c2 A') = F + rho0 b V
+//     I (c1 (Omega - Omega') - c2 alpha') = T - Omega* x I Omega*
+//
+// symbol        | meaning                                                                                       | unit
+// U', Omega'    | of the middle of the last step; A', alpha': rates between the middles of the last two           | m/s, 1/s
+// m, I, V       | mass, inertia where the body stands at x*, and volume: of the solid, not of its particles       | kg, kg m^2, m^3
+// rho0 b        | uniform body force: a pressure gradient (bodies/bodies.hpp)                                     | N/m^3
+// Omega*        | extrapolated                                                                                   | 1/s
+//
+// Particles of bodies are in D, D^T V and L as those of the fluid, pairs within a body included. L carries mu grad u where the true
+// stress is mu (grad u + grad u^T). Over fluid and body together both have the same energy as long as the velocity is continuous and
+// without divergence, since then int grad u : grad u^T = int (div u)^2 = 0. So the torque 2 mu V Omega, which the traction mu du/dn lacks
+// (sph/rigidGroups.hpp adds it as D Omega), is that of the pairs within the body, and arms are those of the particles.
+//
+// The surface lies somewhere between its particles and those of the fluid. What the fluid's velocity w_i = u_i - U - Omega x r_i in the
+// frame of the body stands for beyond it is continued as in fluidPair.hpp, symmetrically, by the energy
+//
+//     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij depth_j/distance_i       l_ij: coefficient of the pair in L, j in bodies
+// of the fluid particles near it (bodies/bodies.hpp): with the pairs' own l_ij w_i it is Morris' factor 1 + depth/distance, and it
+// vanishes when everything turns as one piece.
+//
+// In a field (four numbers a particle) a body's unknowns stand behind the particles: U, 0, Omega, 0. Of a velocity every rank has all of
+// them, and the particles of bodies have theirs; of forces every rank has its part, and these particles have none. So the sum over all
+// numbers and ranks is the scalar product, and nothing but the preconditioner needs a reduction. Held and driven bodies keep their
+// velocity: their rows are taken out, as those of walls.
+#pragma once
+#include <Eigen/Cholesky>
+
+#include "coupling/scene.hpp"
+#include "sph/operators.hpp"
+
+namespace corpuscle::implicit {
+
+template <class Real>
+class RigidUnknowns {
+  public:
+    using Field = particles::AlignedVector<Real>;
+
+    // onGrid: the preconditioner has a part that acts on particles of bodies (coarseGrid.hpp).
+    RigidUnknowns(coupling::Scene& scene, bool onGrid) : scene_(scene), onGrid_(onGrid) {}
+
+    std::size_t length() const { return perBody * bodies().size(); }  // what stands behind the particles
+
+    // Places of bodies and of their particles: `seconds` on from the beginning of the step; back to it.
+    void depart(double seconds);
+    void takeBack();
+    // At x*, where lists and operators have been built. Collective.
+    void find(sph::Operators<Real>& operators);
+
+    // First guess: the velocity extrapolated over h.
+    void extrapolate(double h, Field& u) const;
+    // Adds -kappa_i w_i to the fluid's forces; bodies get theirs in the next product or residual.
+    void addContinuation(const Field& u, particles::RealArray& force);
+    // Rows of bodies in A u, and in the residual of u.
+    void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
+    void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual) const;
+    // P^T of forces alone.
+    void putForces(const particles::RealArray& force, Field& rows) const;
+
+    // Preconditioner: z = Pi (D^-1 + G) Pi^T r, where Pi makes the velocities of a body's particles rigid by least squares, G is the part on
+    // the grid, and D of a body is inertia and what its particles have of the diagonal with others.
+    // diagonal(i): of particle i without its mass. Takes the particles of bodies out of `inverse`. Collective.
+    template <class Diagonal>
+    void factorise(double c1, Diagonal&& diagonal, Field& inverse) {
+        std::vector<Matrix6> blocks = continuationBlocks();
+        for (std::size_t k = 0; k < members().size(); ++k) {
+            const auto i = static_cast<std::size_t>(members()[k].particle);
+            blocks[static_cast<std::size_t>(members()[k].group)] +=
+                outward_[k] * diagonal(i) * square(members()[k].arm);
+            inverse[i] = Real(0);
+        }
+        invert(c1, blocks);
+    }
+    const Field& distribute(const Field& r);  // Pi^T r
+    void project(Field& z);                   // of the last r. Collective
+
+    // At the end of a step with the velocity u: motion and places of bodies, force and torque on them. Collective.
+    void arrive(double dt, double h, const Field& u);
+    // Force and torque of the fluid, from the forces at the velocity found. Collective.
+    void findWrenches(const particles::RealArray& force);
+
+    bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }
+
+  private:
+    using Matrix6 = Eigen::Matrix<double, 6, 6>;
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    static constexpr std::size_t width = 4, perBody = 8;
+
+    std::vector<bodies::Body>& bodies() const { return scene_.bodies->all(); }
+    const std::vector<sph::RigidGroups::Member>& members() const { return scene_.bodies->groups().members; }
+    std::size_t behind() const { return width * scene_.store().size(); }
+    bool isRoot() const { return scene_.system->decomposition().rank() == 0; }
+    bool isFree(std::size_t b) const { return bodies()[b].behaviour->yields(); }
+
+    static Matrix6 square(const Vec3& arm);  // P^T P of one particle
+    std::vector<Matrix6> continuationBlocks() const;
+    void invert(double c1, std::vector<Matrix6>& blocks);
+    sph::RigidMotion motion(const Field& u, std::size_t body) const;
+    void put(Field& f, std::size_t body, const Vec3& linear, const Vec3& angular) const;
+    void spread(Field& u) const;  // P
+    template <class Row>
+    void putRows(const particles::RealArray& force, Field& rows, Row&& row) const;
+    std::vector<sph::Wrench> gather(const particles::RealArray& force) const;
+    void addUp(std::vector<sph::Wrench>& wrenches) const;
+
+    coupling::Scene& scene_;
+    bool onGrid_;
+    std::vector<bodies::RigidState> saved_;         // at the beginning of the step
+    std::vector<double> kappa_;                     // of groups().near [N s/m]
+    std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies
+    std::vector<sph::Wrench> reaction_, residual_;  // of the continuation, this rank's part; of the last r, whole
+    std::vector<Eigen::LLT<Matrix6>> inertia_, particles_;  // D, and P^T P
+    Field shared_;
+};
+
+extern template class RigidUnknowns<double>;
+extern template class RigidUnknowns<float>;
+
+}  // namespace corpuscle::implicit

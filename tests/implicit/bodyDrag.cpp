@@ -1,0 +1,65 @@
+// Drag and torque on a sphere in a periodic box by the implicit step against Stokes flow.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "implicit/sphereScene.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::implicit;
+using bodies::testing::SphereInFluid;
+using implicit::testing::SphereScene;
+
+namespace {
+
+constexpr double pi = std::numbers::pi, tolerance = 1e-4;
+constexpr int steps = 40;
+
+double fraction(double radius, int length) { return 4 * pi / 3 * std::pow(radius / length, 3); }
+
+double hasimoto(double c) { return 1 / (1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c); }
+
+void run(SphereScene& s, double time) {
+    const auto step = s.step(tolerance);
+    for (int k = 0; k < steps; ++k) step->advance(time / steps);
+    std::printf("%.1f iterations a step\n", static_cast<double>(step->statistics.iterations) / steps);
+}
+
+// tests/bodies/drag.cpp has the same of the explicit step.
+double dragFactor(double radius, int length) {
+    const Vec3 middle = Vec3::Constant(0.5 * length);
+    SphereScene s({{length, length, length}, middle, "held", 1, 0, radius, Vec3(2e-4, 0, 0)}, 1e-3);
+    const double drag = 6 * pi * s.scene.model().viscosity * radius, volume = std::pow(length, 3);
+    run(s, 3.5 * volume / (drag * hasimoto(fraction(radius, length))));
+    return s.body().wrench.force[0] / (drag * s.fluidMomentum()[0] / volume);
+}
+
+double torqueFactor(double radius, int length) {
+    const Vec3 middle = Vec3::Constant(0.5 * length);
+    SphereScene s(
+        {{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius}, 2e-3);
+    s.body().state.motion.angular = Vec3(0, 0.002, 0);
+    run(s, 0.1 * length * length / s.scene.model().viscosity);
+    return -s.body().wrench.torque[1] / (8 * pi * s.scene.model().viscosity * std::pow(radius, 3) * 0.002);
+}
+
+}  // namespace
+
+// Hasimoto, J. Fluid Mech. 5:317 (1959): 1/K = 1 - 1.7601 c^(1/3) + c - 1.5593 c^2, c the volume fraction.
+TEST(BodyDrag, ofACubicArrayIsHasimotos) {
+    for (const auto& [radius, length, allowed] : {std::tuple{3.0, 15, 0.08}, std::tuple{4.5, 22, 0.02}}) {
+        const double K = hasimoto(fraction(radius, length)), measured = dragFactor(radius, length);
+        std::printf("a = %.1f dx: K %.4f, Hasimoto %.4f, %+.2f %%\n", radius, measured, K, 100 * (measured / K - 1));
+        EXPECT_NEAR(measured / K, 1, allowed);
+    }
+}
+
+// Images turn the fluid backwards: T = 8 pi mu a^3 Omega/(1 - c).
+TEST(BodyDrag, torqueOnATurningSphereIsStokes) {
+    for (const auto& [radius, length, allowed] : {std::tuple{3.0, 15, 0.1}, std::tuple{4.5, 22, 0.055}}) {
+        const double measured = torqueFactor(radius, length) * (1 - fraction(radius, length));
+        std::printf("a = %.1f dx: T (1 - c)/(8 pi mu a^3 Omega) %.4f\n", radius, measured);
+        EXPECT_NEAR(measured, 1, allowed);
+    }
+}

@@ -1,0 +1,220 @@
+// Rigid bodies in the implicit step: symmetry, balances, what must stay as it is, ranks.
+#include "implicit/rigidUnknowns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "implicit/sphereScene.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::implicit;
+using bodies::RigidMotion;
+using bodies::testing::SphereInFluid;
+using implicit::testing::SphereScene;
+
+namespace {
+
+const RigidMotion turning{Vec3(0.01, -0.02, 0.005), Vec3(0.01, 0.03, -0.02)};
+
+Vec3 someVelocity(std::size_t id, const Vec3& arm) {
+    const auto n = static_cast<double>(id);
+    return 0.01 * Vec3(std::sin(n), std::cos(2 * n), std::sin(3 * n)) + Vec3(0.01 * arm[2], 0, 0);
+}
+
+// The matrix of ImplicitStep and its preconditioner without a grid.
+struct System {
+    using Field = RigidUnknowns<double>::Field;
+    static constexpr double c1 = 3, time = 0.2;
+    SphereScene sphere;
+    sph::Operators<double> operators;
+    RigidUnknowns<double> rigid;
+    Field inverse;
+
+    explicit System(const char* behaviour, double disorder = 0.15, bool onGrid = true)
+        : sphere(SphereInFluid({12, 12, 12}, Vec3(3, 6, 11), behaviour, 2.5, disorder), 1),
+          operators(sphere.scene.model(), *sphere.scene.system, sph::OperatorForm::corrected),
+          rigid(sphere.scene, onGrid) {
+        operators.build(*sphere.scene.system);
+        rigid.find(operators);
+        const auto diagonal = [&](std::size_t i) {
+            return operators.viscousDiagonal(i) + time * 9 * operators.bulkDiagonal(i);
+        };
+        for (std::size_t i = 0; i < size(); ++i) inverse.push_back(1 / (c1 + diagonal(i)));
+        rigid.factorise(c1, diagonal, inverse);
+    }
+    std::size_t size() const { return sphere.scene.store().size(); }
+    MPI_Comm comm() const { return sphere.scene.system->comm(); }
+
+    // Of the allowed velocities: from numbers that do not depend on ranks.
+    Field velocity(unsigned seed, const RigidMotion& motion) {
+        sphere.body().state.motion = motion, sphere.body().acceleration = {};
+        Field u(4 * size() + rigid.length(), 0.0);
+        for (std::size_t i = 0; i < size(); ++i) {
+            std::mt19937_64 random(seed + static_cast<unsigned>(sphere.scene.store().id[i]));
+            std::uniform_real_distribution<double> d(-0.1, 0.1);
+            for (std::size_t k = 0; k < 3; ++k) u[4 * i + k] = d(random);
+        }
+        rigid.extrapolate(1, u);
+        return u;
+    }
+    Field times(const Field& u) {
+        operators.apply(*sphere.scene.system, u, [](std::size_t, double rate) { return -time * 9 * rate; });
+        rigid.addContinuation(u, operators.force());
+        Field w(u.size(), 0.0);
+        for (std::size_t k = 0; k < 4 * size(); ++k) w[k] = c1 * u[k] - operators.force()[k];
+        rigid.putProduct(c1, u, operators.force(), w);
+        return w;
+    }
+    Field precondition(const Field& r) {
+        const Field& spread = rigid.distribute(r);
+        Field z(r.size(), 0.0);
+        for (std::size_t i = 0; i < size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)  // a part that acts on all particles
+                z[4 * i + k] = (inverse[i] + 0.3) * spread[4 * i + k];
+        rigid.project(z);
+        return z;
+    }
+    double dot(const Field& a, const Field& b) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+        return coupling::sumOverRanks(sum, comm());
+    }
+};
+
+void run(ImplicitStep& step, double time, int steps) {
+    for (int k = 0; k < steps; ++k) step.advance(time / steps);
+}
+
+}  // namespace
+
+TEST(RigidBodies, systemAndPreconditionerAreSymmetric) {
+    System s("free");
+    const auto a = s.velocity(1, turning), b = s.velocity(7, {Vec3(-0.3, 0.1, 0.2), Vec3(0.2, -0.1, 0.1)});
+    const auto Aa = s.times(a), Ab = s.times(b);
+    const double size = std::sqrt(s.dot(a, Aa) * s.dot(b, Ab));
+    EXPECT_GT(s.dot(a, Aa), 0);
+    EXPECT_NEAR(s.dot(a, Ab), s.dot(b, Aa), 1e-12 * size);
+    const auto za = s.precondition(Aa), zb = s.precondition(Ab);
+    EXPECT_GT(s.dot(Aa, za), 0);
+    EXPECT_NEAR(s.dot(Aa, zb), s.dot(Ab, za), 1e-12 * std::sqrt(s.dot(Aa, za) * s.dot(Ab, zb)));
+}
+
+TEST(RigidBodies, bodiesThatDoNotYieldAreTakenOut) {
+    System s("held");
+    const auto u = s.velocity(1, {}), w = s.times(u), z = s.precondition(w);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        if (!s.rigid.isMember(i)) continue;
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(z[4 * i + k], 0);
+    }
+    for (std::size_t k = 4 * s.size(); k < w.size(); ++k) EXPECT_EQ(w[k], 0);
+}
+
+// Pairs within the body take the place of D Omega: on a lattice nothing is left over.
+TEST(RigidBodies, fluidThatTurnsWithTheBodyExertsNothing) {
+    System s("free", 0);
+    auto u = s.velocity(1, turning);
+    const auto& store = s.sphere.scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 arm = s.sphere.scene.system->box().minimumImage(store.position(i) - s.sphere.centre);
+        const Vec3 v = turning.at(arm);
+        for (int k = 0; k < 3; ++k) u[4 * i + static_cast<std::size_t>(k)] = v[k];
+    }
+    const double torque = [&] {  // of fluid at rest
+        s.times(s.velocity(1, {Vec3::Zero(), turning.angular}));
+        s.rigid.findWrenches(s.operators.force());
+        return s.sphere.body().wrench.torque.norm();
+    }();
+    s.sphere.body().state.motion = turning;
+    s.times(u);
+    s.rigid.findWrenches(s.operators.force());
+    EXPECT_GT(torque, 0.1);
+    EXPECT_LT(s.sphere.body().wrench.torque.norm(), 1e-12 * torque);
+    EXPECT_LT(s.sphere.body().wrench.force.norm(), 1e-12 * torque);
+}
+
+TEST(RigidBodies, aStepTakenBackLeavesThemAsTheyWere) {
+    System s("free");
+    s.sphere.body().state.motion = turning;
+    const bodies::RigidState before = s.sphere.body().state;
+    s.rigid.depart(2);
+    EXPECT_GT((s.sphere.body().state.centre - before.centre).norm(), 0.01);
+    s.rigid.takeBack();
+    EXPECT_EQ(s.sphere.body().state.centre, before.centre);
+    EXPECT_EQ(s.sphere.body().state.orientation.coeffs(), before.orientation.coeffs());
+}
+
+TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
+    for (const char* method : {"midpoint", "backwardEuler"}) {
+        SphereInFluid f({12, 12, 12}, Vec3(3, 6, 9), "free", 2.5, 0.1);
+        f.setVelocities(someVelocity, turning);
+        SphereScene s(std::move(f), 0.02);
+        const auto momentum = [&] {
+            return Vec3(s.fluidMomentum() + s.body().solid.mass * s.body().state.motion.linear);
+        };
+        const Vec3 before = momentum(), velocity = s.body().state.motion.linear;
+        const auto step = s.step(1e-9, method);
+        Vec3 last = before, lastVelocity = velocity;
+        for (int k = 0; k < 6; ++k) {
+            last = momentum(), lastVelocity = s.body().state.motion.linear;
+            step->advance(1);
+        }
+        EXPECT_LT((momentum() - before).norm(), 1e-8 * s.body().solid.mass);
+        EXPECT_GT((s.body().state.motion.linear - velocity).norm(), 1e-3);
+        if (std::string(method) == "backwardEuler") {  // the force is what changes momentum
+            EXPECT_LT(
+                (s.body().solid.mass * (s.body().state.motion.linear - lastVelocity) - s.body().wrench.force).norm(),
+                1e-8 * s.body().solid.mass);
+        }
+        // Its particles stand where it does.
+        const auto& store = s.scene.store();
+        for (std::size_t i = 0; i < store.size(); ++i) {
+            if (store.kindOf(i) != particles::Kind::body) continue;
+            const Vec3 arm =
+                s.body().state.orientation * s.body().particles[static_cast<std::size_t>(store.member[i])].place;
+            EXPECT_LT(s.scene.system->box().minimumImage(s.body().state.centre + arm - store.position(i)).norm(),
+                      1e-12);
+        }
+    }
+}
+
+TEST(RigidBodies, everythingMovingTogetherGoesOnForEver) {
+    const Vec3 U(0.4, -0.3, 0.2);
+    SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "free", 0.5);
+    f.setVelocities([&](std::size_t, const Vec3&) { return U; }, {U, Vec3::Zero()});
+    std::fill(f.system->store().density.begin(), f.system->store().density.end(), 1.0);
+    SphereScene s(std::move(f), 0.02);
+    run(*s.step(1e-9), 6, 6);
+    EXPECT_LT((s.body().state.centre - Vec3(6, 6, 6) - 6 * U).norm(), 1e-9);
+    EXPECT_LT(s.body().turned().angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
+}
+
+TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
+    SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6),
+                    "{type: driven, velocity: [0.02, 0, 0] m/s, angularVelocity: [0, 0.05, 0] 1/s}");
+    const RigidMotion driven{Vec3(0.02, 0, 0), Vec3(0, 0.05, 0)};
+    f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, driven);
+    SphereScene s(std::move(f), 0.02);
+    run(*s.step(1e-6), 8, 8);
+    EXPECT_LT((s.body().state.centre - Vec3(6.16, 6, 6)).norm(), 1e-12);
+    EXPECT_NEAR(s.body().turned().angularDistance(Eigen::Quaterniond::Identity()), 0.4, 1e-12);
+    EXPECT_LT(s.body().wrench.force[0], -0.1);
+    EXPECT_LT(s.body().wrench.torque[1], -0.1);
+    EXPECT_GT(s.fluidMomentum()[0], 0.1);
+}
+
+TEST(RigidBodies, areTheSameOnOneRankAndOnAll) {
+    const auto make = [](MPI_Comm comm) {
+        SphereInFluid f({12, 12, 12}, Vec3(0.3, 11.5, 6), "free", 2.5, 0.1, 3, Vec3(1e-3, 0, 0), comm);
+        f.setVelocities(someVelocity, turning);
+        return SphereScene(std::move(f), 0.02);
+    };
+    SphereScene alone = make(MPI_COMM_SELF), shared = make(MPI_COMM_WORLD);
+    run(*alone.step(1e-8), 4, 4), run(*shared.step(1e-8), 4, 4);
+    const bodies::RigidState &a = alone.body().state, &b = shared.body().state;
+    EXPECT_LT((a.motion.linear - b.motion.linear).norm(), 1e-7 * a.motion.linear.norm());
+    EXPECT_LT((a.motion.angular - b.motion.angular).norm(), 1e-6 * a.motion.angular.norm());
+    EXPECT_LT((alone.body().wrench.torque - shared.body().wrench.torque).norm(),
+              1e-5 * alone.body().wrench.torque.norm());
+}
