@@ -58,9 +58,9 @@ sph::StepLimits limitsOf(const Case& c, double t) {
 double passes(const Case& c, double dt) {
     if (c.numerics.isImplicit())
         return PassCosts::implicitOverhead +
-               PassCosts::passesPerIteration *
-                   (c.mesh.cells.empty() && c.mesh.bodies.empty() ? PassCosts::iterations
-                                                                  : PassCosts::iterationsWithin);
+               PassCosts::passesPerIteration * (c.mesh.cells.empty() && c.mesh.bodies.empty()
+                                                    ? PassCosts::iterations
+                                                    : PassCosts::iterationsWithin);
     if (c.numerics.isRkl2()) return sph::LegendreStages::needed(viscousRate(c) / c.numerics.safety * dt) + 1;
     return c.isConjugate() ? PassCosts::conjugate : 1;
 }
