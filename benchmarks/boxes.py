@@ -11,12 +11,13 @@ import json
 import math
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 
-TUTORIALS = pathlib.Path(__file__).resolve().parents[1] / "tutorials"
-RADIUS = 4  # um
+from tutorialCase import RADIUS, TUTORIALS, prepare, sized
+
+sys.path.insert(0, str(TUTORIALS))
+from summary import series, strainOfTurn
 
 CAPSULE = ("capsuleShear", "capsule", "/implicit/step=0.05")
 RED02 = ("rbcShear/Ca0.02", "rbc", "/implicit/step=0.1")
@@ -43,30 +44,16 @@ REFERENCES = {"capsuleShear": "capsuleShear/reference.csv", "rbcShear/Ca0.02": "
 
 
 def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain):
-    settings = []
-    for key in ("system/mesh.yaml:/domain/size=[" + ", ".join(f"{length * RADIUS} um" for length in box) + "]",
-                f"system/numerics.yaml:/spacing={RADIUS / perRadius:.8g} um", f"system/mesh.yaml:/cells/0/edge={RADIUS / perRadius:.8g} um",
-                "system/numerics.yaml:" + step, f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}"):
-        settings += ["-set", key]
-    if not case.exists():
-        part = case.with_name(case.name + ".part")
-        shutil.rmtree(part, ignore_errors=True)
-        for folder in ("system", "constant"):
-            shutil.copytree(TUTORIALS / tutorial / folder, part / folder)
-        for program in ("membraneMesh", "particleFill"):
-            subprocess.run([binaries / program, "-case", part, "-quiet", *settings], check=True)
-        part.rename(case)
-    subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, "-quiet", *settings], check=True,
+    options = prepare(case, binaries, tutorial, [
+        *sized([length * RADIUS for length in box], RADIUS / perRadius), "system/numerics.yaml:" + step,
+        f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}"])
+    subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, *options], check=True,
                    env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
 
 
 def rows(path):
     with open(path) as text:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(line for line in text if not line.startswith("#"))]
-
-
-def series(case, observer):
-    return [row for path in sorted(case.glob(f"postProcessing/{observer}/*/*.csv"), key=lambda p: float(p.parts[-2])) for row in rows(path)]
 
 
 def at(table, strain, key):
@@ -76,28 +63,17 @@ def at(table, strain, key):
     return math.nan
 
 
-def period(shape):
-    """The strain in which the main axis turns by a whole turn from the start; nan where it does not."""
-    turned, before = 0.0, shape[0]
-    for row in shape[1:]:
-        step = row["inclination_rad"] - before["inclination_rad"]
-        step -= math.pi * round(step / math.pi)
-        if turned + step <= -2 * math.pi:
-            return before["strain"] + (-2 * math.pi - turned) / step * (row["strain"] - before["strain"])
-        turned, before = turned + step, row
-    return math.nan
-
-
 def describe(name, case, tutorial, cell, step, perRadius, box, strain):
     record = json.loads((case / "run.json").read_text())
-    shape, balance, reference = series(case, "deformation"), series(case, "balance"), rows(TUTORIALS / REFERENCES[tutorial])
+    shape, balance = series(case, "deformation", "*.csv"), series(case, "balance", "conservation.csv")
+    reference = rows(TUTORIALS / REFERENCES[tutorial])
     performance = record["performance"]
     if tutorial == "capsuleShear":
         result = " ".join(f"{at(shape, t, 'D12_inertia'):.4f}" for t in (1, 2, 3, 4, 5) if t <= strain)
         error = " ".join(f"{100 * (at(shape, t, 'D12_inertia') / at(reference, t, 'D12_inertia') - 1):+.2f}" for t in (1, 2, 3, 4, 5)) + " %"
     else:
         values = [row["D12_inertia"] for row in shape]
-        result = f"{min(values):.4f} to {max(values):.4f}, period {period(shape):.2f}"
+        result = f"{min(values):.4f} to {max(values):.4f}, period {strainOfTurn(shape):.2f}"
         error = f"{max(abs(row['D12_inertia'] - at(reference, row['strain'], 'D12_inertia')) for row in shape if row['strain'] <= reference[-1]['strain']):.4f}"
     volume = max(abs(row[f"{cell}_volumeChange"]) for row in balance)
     density = max(abs(row["density_mean"] / balance[0]["density_mean"] - 1) for row in balance)

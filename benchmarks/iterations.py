@@ -8,26 +8,20 @@ that without the first.
 """
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 
-TUTORIALS = pathlib.Path(__file__).resolve().parents[1] / "tutorials"
+from tutorialCase import RADIUS, prepare, sized
+
+BOX = (20, 20, 20)  # um
 CASES = {"Ca0.3": "capsuleShear", "Ca0.02": "rbcShear/Ca0.02", "Ca0.002": "rbcShear/Ca0.002"}
 
 
 def run(case, binaries, tutorial, radius, preconditioner, steps):
-    settings = ["-quiet"]
-    for key in ("system/mesh.yaml:/domain/size=[20 um, 20 um, 20 um]", f"system/numerics.yaml:/spacing={4 / radius:.8g} um",
-                f"system/mesh.yaml:/cells/0/edge={4 / radius:.8g} um", "system/control.yaml:/startFrom=firstTime",
-                f"system/numerics.yaml:/implicit={{step: 0.05, tolerance: 3e-3, error: 1, preconditioner: {preconditioner}}}"):
-        settings += ["-set", key]
-    if not (case / "0").exists():
-        for folder in ("system", "constant"):
-            shutil.copytree(TUTORIALS / tutorial / folder, case / folder)
-        for program in ("membraneMesh", "particleFill"):
-            subprocess.run([binaries / program, "-case", case, *settings], check=True)
-    subprocess.run([binaries / "dmpFlow", "-case", case, *settings, "-steps", str(steps)], check=True)
+    options = prepare(case, binaries, tutorial, [
+        *sized(BOX, RADIUS / radius), "system/control.yaml:/startFrom=firstTime",
+        f"system/numerics.yaml:/implicit={{step: 0.05, tolerance: 3e-3, error: 1, preconditioner: {preconditioner}}}"])
+    subprocess.run([binaries / "dmpFlow", "-case", case, *options, "-steps", str(steps)], check=True)
     return json.loads((case / "run.json").read_text())["performance"]
 
 

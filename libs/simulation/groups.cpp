@@ -73,13 +73,13 @@ ParticleEstimate estimateParticles(const Case& c) {
             if (j != k) layer *= count[j];
         n.walls = 2 * layer * c.wallLayers();
     }
-    for (const CellSettings& cell : c.mesh.cells) {
-        if (c.numerics.isImmersed()) break;  // nodes are no particles
-        // Hexagonal area of a node: sqrt(3)/2 edge^2. As particles the nodes replace fluid of area x dx.
-        const double area = cell.shape->area();
-        n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
-        n.fluid -= std::lround(area * c.spacing() / c.particleVolume());
-    }
+    if (!c.numerics.isImmersed())  // else nodes are no particles
+        for (const CellSettings& cell : c.mesh.cells) {
+            // Hexagonal area of a node: sqrt(3)/2 edge^2. As particles the nodes replace fluid of area x dx.
+            const double area = cell.shape->area();
+            n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
+            n.fluid -= std::lround(area * c.spacing() / c.particleVolume());
+        }
     for (const BodyPlaceSettings& body : c.mesh.bodies) {
         const long inside = std::lround(body.shape->volume() / c.particleVolume());
         n.bodies += inside;

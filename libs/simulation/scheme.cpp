@@ -2,11 +2,15 @@
 
 namespace corpuscle::simulation {
 
+namespace {
+
 std::string couplingOf(const Case& c) {
     const NumericsSettings& n = c.written;
     if (n.coupling != "automatic") return n.coupling;
     return c.mesh.bodies.empty() || n.isImplicit() ? "immersed" : "dualIdentity";
 }
+
+}  // namespace
 
 NumericsSettings schemeOf(const Case& c, const std::string& integrator) {
     NumericsSettings n = c.written;

@@ -10,7 +10,6 @@
 
 namespace corpuscle::simulation {
 
-std::string couplingOf(const Case& c);
 // As written, for one integrator.
 NumericsSettings schemeOf(const Case& c, const std::string& integrator);
 

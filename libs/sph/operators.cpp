@@ -151,8 +151,15 @@ void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
 template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
     findRates(system, u);
-    for (std::size_t i = 0; i < volume_.size(); ++i)
-        for (std::size_t k = 0; k < width; ++k) force_[width * i + k] = k < 3 ? viscousUnit_ * sums_[width * i + k] : 0;
+    takeForces();
+}
+
+template <class Real>
+void Operators<Real>::takeForces() {
+    for (std::size_t i = 0; i < volume_.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) force_[width * i + k] = viscousUnit_ * sums_[width * i + k];
+        force_[width * i + 3] = 0;
+    }
 }
 
 // The stress is in units that let both passes share one sum.
@@ -168,10 +175,7 @@ void Operators<Real>::addStress(ParticleSystem& system) {
     const std::size_t n = volume_.size();
     std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // ghosts': folded already
     sum(system, kernels_.stress, kernels_.stressAtWall, stressRecords_, stressFields, stressPart);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) force_[width * i + k] = viscousUnit_ * sums_[width * i + k];
-        force_[width * i + 3] = 0;
-    }
+    takeForces();
 }
 
 template class Operators<double>;

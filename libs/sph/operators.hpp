@@ -61,6 +61,7 @@ class Operators {
     void findRates(particles::ParticleSystem& system, const Field& u);
     void setPressure(std::size_t i, double pressure);
     void addStress(particles::ParticleSystem& system);
+    void takeForces();  // force_ of sums_
     template <class Kernel>
     void sum(particles::ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
              particles::Halo::Part part);

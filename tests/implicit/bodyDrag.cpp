@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "implicit/sphereScene.hpp"
+#include "implicit/rigidSphereScene.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::implicit;
 using bodies::testing::SphereInFluid;
-using implicit::testing::SphereScene;
+using implicit::testing::RigidSphereScene;
 
 namespace {
 
@@ -20,7 +20,7 @@ double fraction(double radius, int length) { return 4 * pi / 3 * std::pow(radius
 
 double hasimoto(double c) { return 1 / (1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c); }
 
-void run(SphereScene& s, double time) {
+void run(RigidSphereScene& s, double time) {
     const auto step = s.step(tolerance);
     for (int k = 0; k < steps; ++k) step->advance(time / steps);
     std::printf("%.1f iterations a step\n", static_cast<double>(step->statistics.iterations) / steps);
@@ -29,7 +29,7 @@ void run(SphereScene& s, double time) {
 // tests/bodies/drag.cpp has the same of the explicit step.
 double dragFactor(double radius, int length) {
     const Vec3 middle = Vec3::Constant(0.5 * length);
-    SphereScene s({{length, length, length}, middle, "held", 1, 0, radius, Vec3(2e-4, 0, 0)}, 1e-3);
+    RigidSphereScene s({{length, length, length}, middle, "held", 1, 0, radius, Vec3(2e-4, 0, 0)}, 1e-3);
     const double drag = 6 * pi * s.scene.model().viscosity * radius, volume = std::pow(length, 3);
     run(s, 3.5 * volume / (drag * hasimoto(fraction(radius, length))));
     return s.body().wrench.force[0] / (drag * s.fluidMomentum()[0] / volume);
@@ -37,7 +37,7 @@ double dragFactor(double radius, int length) {
 
 double torqueFactor(double radius, int length) {
     const Vec3 middle = Vec3::Constant(0.5 * length);
-    SphereScene s(
+    RigidSphereScene s(
         {{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius}, 2e-3);
     s.body().state.motion.angular = Vec3(0, 0.002, 0);
     run(s, 0.1 * length * length / s.scene.model().viscosity);

@@ -6,13 +6,13 @@
 #include <map>
 #include <random>
 
-#include "implicit/sphereScene.hpp"
+#include "implicit/rigidSphereScene.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::implicit;
 using bodies::RigidMotion;
 using bodies::testing::SphereInFluid;
-using implicit::testing::SphereScene;
+using implicit::testing::RigidSphereScene;
 
 namespace {
 
@@ -27,7 +27,7 @@ Vec3 someVelocity(std::size_t id, const Vec3& arm) {
 struct System {
     using Field = RigidUnknowns<double>::Field;
     static constexpr double c1 = 3, time = 0.2;
-    SphereScene sphere;
+    RigidSphereScene sphere;
     sph::Operators<double> operators;
     RigidUnknowns<double> rigid;
     Field inverse;
@@ -149,7 +149,7 @@ TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
     for (const char* method : {"midpoint", "backwardEuler"}) {
         SphereInFluid f({12, 12, 12}, Vec3(3, 6, 9), "free", 2.5, 0.1);
         f.setVelocities(someVelocity, turning);
-        SphereScene s(std::move(f), 0.02);
+        RigidSphereScene s(std::move(f), 0.02);
         const auto momentum = [&] {
             return Vec3(s.fluidMomentum() + s.body().solid.mass * s.body().state.motion.linear);
         };
@@ -184,7 +184,7 @@ TEST(RigidBodies, everythingMovingTogetherGoesOnForEver) {
     SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "free", 0.5);
     f.setVelocities([&](std::size_t, const Vec3&) { return U; }, {U, Vec3::Zero()});
     std::fill(f.system->store().density.begin(), f.system->store().density.end(), 1.0);
-    SphereScene s(std::move(f), 0.02);
+    RigidSphereScene s(std::move(f), 0.02);
     run(*s.step(1e-9), 6, 6);
     EXPECT_LT((s.body().state.centre - Vec3(6, 6, 6) - 6 * U).norm(), 1e-9);
     EXPECT_LT(s.body().turned().angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
@@ -195,7 +195,7 @@ TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
                     "{type: driven, velocity: [0.02, 0, 0] m/s, angularVelocity: [0, 0.05, 0] 1/s}");
     const RigidMotion driven{Vec3(0.02, 0, 0), Vec3(0, 0.05, 0)};
     f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, driven);
-    SphereScene s(std::move(f), 0.02);
+    RigidSphereScene s(std::move(f), 0.02);
     run(*s.step(1e-6), 8, 8);
     EXPECT_LT((s.body().state.centre - Vec3(6.16, 6, 6)).norm(), 1e-12);
     EXPECT_NEAR(s.body().turned().angularDistance(Eigen::Quaterniond::Identity()), 0.4, 1e-12);
@@ -208,9 +208,9 @@ TEST(RigidBodies, areTheSameOnOneRankAndOnAll) {
     const auto make = [](MPI_Comm comm) {
         SphereInFluid f({12, 12, 12}, Vec3(0.3, 11.5, 6), "free", 2.5, 0.1, 3, Vec3(1e-3, 0, 0), comm);
         f.setVelocities(someVelocity, turning);
-        return SphereScene(std::move(f), 0.02);
+        return RigidSphereScene(std::move(f), 0.02);
     };
-    SphereScene alone = make(MPI_COMM_SELF), shared = make(MPI_COMM_WORLD);
+    RigidSphereScene alone = make(MPI_COMM_SELF), shared = make(MPI_COMM_WORLD);
     run(*alone.step(1e-8), 4, 4), run(*shared.step(1e-8), 4, 4);
     const bodies::RigidState &a = alone.body().state, &b = shared.body().state;
     EXPECT_LT((a.motion.linear - b.motion.linear).norm(), 1e-7 * a.motion.linear.norm());

@@ -510,19 +510,25 @@ def same_motions(motions, length, rate, tolerance=1e-6):
             assert all(abs(x - y) < tolerance * scale for x, y, scale in zip(a[2:18], b[2:18], scales)), (a, b)
 
 
-def test_bodies(folder):
-    """A free body across a periodic face: a run in two parts ends with the bits of a run in one, on 1 and 2 ranks; 4 ranks see the same motion."""
-    start = prepared(folder / "start", BODY_CASE)
-    run(start, "checkMesh")
-    run(start, "checkCase")
+def motions_on_ranks(folder, start, steps):
+    """Motion of the body on 1, 2 and 4 ranks; on 1 and 2, a run in two parts, the first of `steps`, ends with the bits of a run in one."""
     motions = []
     for ranks in (1, 2, 4):
         whole = copied(start, folder / f"whole{ranks}")
         run(whole, "dmpFlow", ranks=ranks)
         motions.append([[float(v) for v in row] for row in series(whole, "motion")])
         if ranks < 4:
-            same_in_parts(whole, start, "dmpFlow", 37, ranks=ranks, observers=("motion",))
+            same_in_parts(whole, start, "dmpFlow", steps, ranks=ranks, observers=("motion",))
         assert list((whole / "results" / "bead").glob("*.pvtp")), "the body's surface is among the results"
+    return motions
+
+
+def test_bodies(folder):
+    """A free body across a periodic face: a run in two parts ends with the bits of a run in one, on 1 and 2 ranks; 4 ranks see the same motion."""
+    start = prepared(folder / "start", BODY_CASE)
+    run(start, "checkMesh")
+    run(start, "checkCase")
+    motions = motions_on_ranks(folder, start, 37)
     first, last = motions[0][0], motions[0][-1]
     turned, rate = last[5], last[16] / 200  # x of the axis, angular velocity about y over gammadot
     assert len(motions[0]) >= 12 and abs(first[16] - 100) < 1e-6, "it starts with half the curl of the flow"
@@ -536,13 +542,7 @@ def test_implicitBodies(folder):
     scheme = "kernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-6}\n"
     start = prepared(folder / "start", BODY_CASE, **{"system/numerics.yaml": "spacing: 1 um\n" + scheme})
     run(start, "checkCase")
-    motions = []
-    for ranks in (1, 2, 4):
-        whole = copied(start, folder / f"whole{ranks}")
-        run(whole, "dmpFlow", ranks=ranks)
-        motions.append([[float(v) for v in row] for row in series(whole, "motion")])
-        if ranks < 4:
-            same_in_parts(whole, start, "dmpFlow", 5, ranks=ranks, observers=("motion",))
+    motions = motions_on_ranks(folder, start, 5)
     same_motions(motions, 5e-6, 200, 1e-5)
     whole = copied(start, folder / "mixed")
     run(whole, "dmpFlow", "-set", "system/numerics.yaml:/precision=mixed", ranks=2)

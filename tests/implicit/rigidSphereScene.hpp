@@ -5,11 +5,11 @@
 
 namespace corpuscle::implicit::testing {
 
-struct SphereScene {
+struct RigidSphereScene {
     coupling::Scene scene;
     Vec3 centre;
 
-    SphereScene(bodies::testing::SphereInFluid&& f, double rate) : centre(f.centre) {
+    RigidSphereScene(bodies::testing::SphereInFluid&& f, double rate) : centre(f.centre) {
         scene.system = std::move(f.system);
         scene.bodies = std::move(f.bodies);
         scene.forces = std::move(f.forces);
