@@ -1,0 +1,27 @@
+"""A tutorial's case at another size, prepared in a folder of its own."""
+import pathlib
+import shutil
+import subprocess
+
+TUTORIALS = pathlib.Path(__file__).resolve().parents[1] / "tutorials"
+RADIUS = 4  # um, of the cells of capsuleShear and rbcShear
+
+
+def sized(box, spacing):
+    """Settings of a box [um], and of a spacing of particles and edge of the mesh [um]."""
+    return ["system/mesh.yaml:/domain/size=[" + ", ".join(f"{length:g} um" for length in box) + "]",
+            f"system/numerics.yaml:/spacing={spacing:.8g} um", f"system/mesh.yaml:/cells/0/edge={spacing:.8g} um"]
+
+
+def prepare(case, binaries, tutorial, settings):
+    """Meshed and filled, unless it exists. Returns the options that hold for every program of the case."""
+    options = ["-quiet", *(word for setting in settings for word in ("-set", setting))]
+    if not case.exists():
+        part = case.with_name(case.name + ".part")
+        shutil.rmtree(part, ignore_errors=True)
+        for folder in ("system", "constant"):
+            shutil.copytree(TUTORIALS / tutorial / folder, part / folder)
+        for program in ("membraneMesh", "particleFill"):
+            subprocess.run([binaries / program, "-case", part, *options], check=True)
+        part.rename(case)
+    return options
