@@ -230,6 +230,17 @@ void Immersed::addResistance(double time, const Vectors& u, Vectors& f) const {
     });
 }
 
+double Immersed::meanResistance(double time) const {
+    double trace = 0;
+    forCells([&](std::size_t c, std::size_t first, std::size_t last) {
+        for (std::size_t m = 0; m < last - first; ++m) {
+            trace += time * stiffness_[c].diagonal(m).trace();
+            if (cells_[c].membrane.isViscous()) trace += damping_[c].diagonal(m).trace();
+        }
+    });
+    return trace / (3.0 * static_cast<double>(nodes_));
+}
+
 bool Immersed::isViscous() const {
     return std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.membrane.isViscous(); });
 }

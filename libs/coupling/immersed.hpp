@@ -44,6 +44,7 @@ class Immersed {
     Vectors force() const;                                                 // of the membranes [N]
     void addStiffness(double factor, const Vectors& u, Vectors& f) const;  // f += factor K u
     void addResistance(double time, const Vectors& u, Vectors& f) const;   // f -= (time K + C) u
+    double meanResistance(double time) const;  // a third of the trace of (time K + C), per node [N s/m]
     bool isViscous() const;
     void addViscousForces(const Vectors& u, Vectors& f) const;  // f -= C u, without build
     Vectors forceAt(const Vectors& displacement) const;         // of the membranes' elasticity, nodes displaced [N]

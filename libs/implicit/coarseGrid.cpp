@@ -62,13 +62,10 @@ CoarseGrid::CoarseGrid(const particles::Box& box, double spacing) : box_(box) {
         count_[static_cast<std::size_t>(k)] = wall ? intervals - 1 : intervals;
     }
     plans_ = std::make_unique<Plans>(count_, walls_);
+    quads_.resize(plans_->nodes);
 }
 
 CoarseGrid::~CoarseGrid() = default;
-
-std::size_t CoarseGrid::nodeAt(int i, int j, int k) const {
-    return static_cast<std::size_t>((i * count_[1] + j) * count_[2] + k);
-}
 
 // Of linear elements along a periodic axis, for exp(i theta n) on its nodes.
 CoarseGrid::Symbol CoarseGrid::symbol(int axis, int mode) const {
@@ -156,48 +153,49 @@ void CoarseGrid::place(std::size_t particle, const Vec3& x) {
         if (walls_ && k == 0) {
             const double inside = std::clamp((x[axis] - box_.low[axis]) / step_[k], 0.0, n + 1.0);
             const int first = std::min(static_cast<int>(inside), n);
-            p.node[k][0] = first - 1;  // node 0 of the grid is one step from the wall
-            p.node[k][1] = first < n ? first : -1;
-            p.weight[k] = static_cast<float>(inside - first);
+            const auto weight = static_cast<float>(inside - first);
+            if (first > 0) p.node[k][0] = first - 1, p.weight[k][0] = 1 - weight;  // node 0 is one step from the wall
+            if (first < n) p.node[k][1] = first, p.weight[k][1] = weight;
         } else {
             const int first = std::min(static_cast<int>(along), n - 1);
+            const auto weight = static_cast<float>(along - first);
             p.node[k][0] = first, p.node[k][1] = (first + 1) % n;
-            p.weight[k] = static_cast<float>(along - first);
+            p.weight[k][0] = 1 - weight, p.weight[k][1] = weight;
         }
     }
 }
 
-template <class F>
-void CoarseGrid::forNodes(const std::vector<int>* particles, F&& f) const {
-    const std::size_t count = particles ? particles->size() : places_.size();
-    for (std::size_t entry = 0; entry < count; ++entry) {
-        const std::size_t i = particles ? static_cast<std::size_t>((*particles)[entry]) : entry;
-        const Place& p = places_[i];
-        const float first[3] = {1 - p.weight[0], 1 - p.weight[1], 1 - p.weight[2]};
-        for (int a = 0; a < 2; ++a) {
-            if (p.node[0][a] < 0) continue;
-            const float wa = a ? p.weight[0] : first[0];
-            for (int b = 0; b < 2; ++b) {
-                const float wb = wa * (b ? p.weight[1] : first[1]);
-                for (int c = 0; c < 2; ++c)
-                    f(i, nodeAt(p.node[0][a], p.node[1][b], p.node[2][c]), wb * (c ? p.weight[2] : first[2]));
-            }
-        }
+CoarseGrid::Corners CoarseGrid::corners(const Place& p) const {
+    Corners c;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const std::size_t a = k / 4, b = k / 2 % 2, d = k % 2;
+        c.node[k] = static_cast<std::size_t>((p.node[0][a] * count_[1] + p.node[1][b]) * count_[2] + p.node[2][d]);
+        c.weight[k] = static_cast<double>(p.weight[0][a] * p.weight[1][b] * p.weight[2][d]);
     }
+    return c;
+}
+
+template <class F>
+void CoarseGrid::forParticles(const std::vector<int>* particles, F&& f) const {
+    if (particles)
+        for (const int i : *particles) f(static_cast<std::size_t>(i));
+    else
+        for (std::size_t i = 0; i < places_.size(); ++i) f(i);
 }
 
 std::span<double> CoarseGrid::values() { return {plans_->values, components * plans_->nodes}; }
 
 template <class Real>
 void CoarseGrid::gather(const Real* r, const std::vector<int>* particles) {
-    const std::size_t nodes = plans_->nodes;
-    double* const values = plans_->values;
-    std::fill_n(values, components * nodes, 0.0);
-    forNodes(particles, [&](std::size_t i, std::size_t node, float w) {
-        for (std::size_t k = 0; k < 3; ++k)
-            values[k * nodes + node] +=
-                static_cast<double>(w) * static_cast<double>(r[4 * i + static_cast<std::size_t>(axis_[k])]);
+    std::fill(quads_.begin(), quads_.end(), Quad::Zero());
+    forParticles(particles, [&](std::size_t i) {
+        const Quad value = Eigen::Map<const Eigen::Array<Real, 4, 1>>(r + 4 * i).template cast<double>();
+        const Corners c = corners(places_[i]);
+        for (std::size_t k = 0; k < 8; ++k) quads_[c.node[k]] += c.weight[k] * value;
     });
+    double* value = plans_->values;
+    for (const int axis : axis_)
+        for (const Quad& quad : quads_) *value++ = quad[axis];
 }
 
 void CoarseGrid::solve(MPI_Comm comm) {
@@ -209,12 +207,16 @@ void CoarseGrid::solve(MPI_Comm comm) {
 }
 
 template <class Real>
-void CoarseGrid::spread(Real* z, const std::vector<int>* particles) const {
-    const std::size_t nodes = plans_->nodes;
-    const double* const values = plans_->values;
-    forNodes(particles, [&](std::size_t i, std::size_t node, float w) {
-        for (std::size_t k = 0; k < 3; ++k)
-            z[4 * i + static_cast<std::size_t>(axis_[k])] += static_cast<Real>(w * values[k * nodes + node]);
+void CoarseGrid::spread(Real* z, const std::vector<int>* particles) {
+    const double* value = plans_->values;
+    for (const int axis : axis_)
+        for (Quad& quad : quads_) quad[axis] = *value++;
+    for (Quad& quad : quads_) quad[3] = 0;
+    forParticles(particles, [&](std::size_t i) {
+        const Corners c = corners(places_[i]);
+        Quad sum = Quad::Zero();
+        for (std::size_t k = 0; k < 8; ++k) sum += c.weight[k] * quads_[c.node[k]];
+        Eigen::Map<Eigen::Array<Real, 4, 1>>(z + 4 * i) += sum.template cast<Real>();
     });
 }
 
@@ -227,8 +229,8 @@ void CoarseGrid::add(MPI_Comm comm, const Real* r, Real* z) {
 
 template void CoarseGrid::gather(const double*, const std::vector<int>*);
 template void CoarseGrid::gather(const float*, const std::vector<int>*);
-template void CoarseGrid::spread(double*, const std::vector<int>*) const;
-template void CoarseGrid::spread(float*, const std::vector<int>*) const;
+template void CoarseGrid::spread(double*, const std::vector<int>*);
+template void CoarseGrid::spread(float*, const std::vector<int>*);
 template void CoarseGrid::add(MPI_Comm, const double*, double*);
 template void CoarseGrid::add(MPI_Comm, const float*, float*);
 

@@ -51,15 +51,20 @@ class CoarseGrid {
     void gather(const Real* r, const std::vector<int>* particles = all);
     void solve(MPI_Comm comm);  // Collective.
     template <class Real>
-    void spread(Real* z, const std::vector<int>* particles = all) const;
+    void spread(Real* z, const std::vector<int>* particles = all);
     std::span<double> values();  // on the nodes, component after component
 
   private:
     using Complex = std::complex<double>;
     using Block = Eigen::Matrix3cd;
+    using Quad = Eigen::Array4d;
     struct Place {
-        int node[3][2] = {{-1, -1}, {-1, -1}, {-1, -1}};  // along each axis, -1: at a wall
-        float weight[3] = {0, 0, 0};                      // of the second
+        int node[3][2] = {};      // along each axis
+        float weight[3][2] = {};  // of these, 0 at a wall
+    };
+    struct Corners {
+        std::array<std::size_t, 8> node;
+        std::array<double, 8> weight;
     };
     struct Plans;
     struct Symbol {  // of one axis: mass, stiffness, and of the derivative
@@ -71,8 +76,8 @@ class CoarseGrid {
     void factorise();
     void solveModes();
     template <class F>
-    void forNodes(const std::vector<int>* particles, F&& f) const;  // f(particle, node, weight)
-    std::size_t nodeAt(int i, int j, int k) const;
+    void forParticles(const std::vector<int>* particles, F&& f) const;  // f(particle)
+    Corners corners(const Place& place) const;
 
     particles::Box box_;
     std::array<int, 3> axis_{};  // the axis across the walls (or the last), then the other two: slowest first in memory
@@ -81,6 +86,8 @@ class CoarseGrid {
     bool walls_ = false;
     double inertia_ = 0, viscosity_ = 0, lambda_ = 0;
     std::vector<Place> places_;
+    std::vector<Quad>
+        quads_;  // values of a node side by side, x y z and a number without meaning: one vector for what particles take or give
     std::unique_ptr<Plans> plans_;
     std::vector<Block> inverse_;  // pivots of every mode, or its inverse
     std::vector<Block> upper_;    // of every mode between two planes

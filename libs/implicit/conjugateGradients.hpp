@@ -1,13 +1,17 @@
 // Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl. Math. 25 (1989) 153):
 // both scalar products of an iteration are added up over the ranks at once.
 //
-// It stops by the energy of the error: alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the
-// sum over the last few steps bounds the error before them from below, closely once convergence is linear (Strakos and Tichy, ETNA 13
-// (2002) 56). A norm of the residual would under-weigh smooth modes, the more the finer the resolution.
+// It stops by the energy of the error: g_k = alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the
+// error is the sum of what later steps would take off. They are taken to fall as the last few did, by q a step, the slowest of the means
+// over one, two and three of them: g_k q/(1 - q). A sum over steps already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before
+// them, which is far above the present one where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the
+// finer the resolution.
 #pragma once
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "particles/particleStore.hpp"
@@ -25,7 +29,8 @@ template <class Real>
 class ConjugateGradients {
   public:
     using Field = particles::AlignedVector<Real>;
-    static constexpr int delay = 3, most = 2000;
+    static constexpr std::size_t window = 3, least = 2;  // steps
+    static constexpr int most = 2000;
     static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
     // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always zero, whatever was there
@@ -67,10 +72,8 @@ class ConjugateGradients {
             gammaBefore = gamma;
             gains.push_back(alpha * gamma);
             c.energy += gains.back();
-            c.error = 0;
-            for (std::size_t k = gains.size() > delay ? gains.size() - delay : 0; k < gains.size(); ++k)
-                c.error += gains[k];
-            if (gains.size() >= delay && c.error <= tolerance * tolerance * std::max(reference, c.energy)) {
+            c.error = remaining(gains);
+            if (gains.size() >= least && c.error <= tolerance * tolerance * std::max(reference, c.energy)) {
                 ++c.iterations;
                 break;
             }
@@ -79,6 +82,14 @@ class ConjugateGradients {
     }
 
   private:
+    static double remaining(const std::vector<double>& gains) {
+        const std::size_t last = gains.size() - 1;
+        double q = last == 0 ? 1 : 0;
+        for (std::size_t k = 1; k <= std::min(window, last); ++k)
+            q = std::max(q, std::pow(gains[last] / gains[last - k], 1 / static_cast<double>(k)));
+        return q < 1 ? gains[last] * q / (1 - q) : std::numeric_limits<double>::infinity();
+    }
+
     Field z_, w_, p_, s_;
 };
 

@@ -18,9 +18,11 @@ const Schema<ImplicitSettings>& ImplicitSettings::schema() {
                       {.fallback = "0.1", .range = between(1e-4, 1)})
             .word("method", &ImplicitSettings::method, {"midpoint", "backwardEuler"}, "of second or of first order",
                   {.fallback = "midpoint"})
-            .word("preconditioner", &ImplicitSettings::preconditioner, {"twoLevel", "withMembrane", "blockJacobi"},
-                  "of the solver: with the flow on a background grid, with that and the membranes, or without either",
-                  {.fallback = "twoLevel"});
+            .word("preconditioner", &ImplicitSettings::preconditioner,
+                  {"automatic", "twoLevel", "withMembrane", "blockJacobi"},
+                  "of the solver: with the flow on a background grid, with that and the membranes, or without either; "
+                  "automatic: the first or the second, by their stiffness",
+                  {.fallback = "automatic"});
     return s;
 }
 

@@ -11,7 +11,7 @@ struct ImplicitSettings {
     double tolerance = 1e-3;  // of the velocity, in the norm of energy
     double error = 1e-3;      // of the nodes' places, in radii per unit of strain
     double bondStrain = 0.1;  // of one step
-    std::string method = "midpoint", preconditioner = "twoLevel";
+    std::string method = "midpoint", preconditioner = "automatic";
     static const Schema<ImplicitSettings>& schema();
 };
 

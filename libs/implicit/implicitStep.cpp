@@ -30,7 +30,6 @@ class Step final : public ImplicitStep {
         : scene_(scene),
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
-          withMembrane_(!scene.cells.empty() && options.settings.preconditioner == "withMembrane"),
           operators_(scene.model(), *scene.system, options.form),
           transport_(scene, options.shifting) {
         if (options.settings.preconditioner != "blockJacobi")
@@ -235,6 +234,13 @@ class Step final : public ImplicitStep {
         const auto withoutMass = [&](std::size_t i) { return diagonal(i) - c1_ * mass(i); };
         if (rigid_) rigid_->factorise(c1_, withoutMass, inverse_);
         if (grid_) placeOnGrid();
+        withMembrane_ = immersed_ && isMembraneStiff();
+    }
+    bool isMembraneStiff() const {
+        const std::string& named = options_.settings.preconditioner;
+        const double fluid = scene_.model().viscosity * scene_.spacing;  // around a node
+        return named == "withMembrane" ||
+               (named == "automatic" && immersed_->meanResistance(time_) > stiffMembrane * fluid);
     }
     void placeOnGrid() {
         const sph::FluidModel& model = scene_.model();
@@ -365,7 +371,7 @@ class Step final : public ImplicitStep {
 
     Scene& scene_;
     Options options_;
-    bool backward_, withMembrane_, ends_ = false;  // ends_: everything at the end of this step
+    bool backward_, withMembrane_ = false, ends_ = false;  // ends_: everything at the end of this step
     std::string fault_;
     sph::Operators<Real> operators_;
     std::unique_ptr<CoarseGrid> grid_;

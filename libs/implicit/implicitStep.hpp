@@ -45,6 +45,8 @@ class ImplicitStep {
     virtual ~ImplicitStep() = default;
     static constexpr double linearisation = 0.01;
     static constexpr int mostRefinements = 3, mostHalvings = 5;
+    // Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one (docs/implicit.md).
+    static constexpr double stiffMembrane = 50;
 
     // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help.
     virtual std::vector<coupling::RuptureEvent> advance(double dt) = 0;

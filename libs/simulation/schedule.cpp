@@ -225,11 +225,12 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     if (const implicit::ImplicitStep* implicitStep = integrator_.implicitStep()) {
         const auto& statistics = implicitStep->statistics;
         const double perStep = static_cast<double>(statistics.iterations) / static_cast<double>(std::max(1L, steps));
+        const double inner = static_cast<double>(statistics.innerIterations) / static_cast<double>(std::max(1L, steps));
         record_.set("performance", "iterationsPerStep", perStep);
+        record_.set("performance", "innerIterationsPerStep", inner);
         record_.set("extremes", "mostIterations", statistics.mostIterations);
         record_.set("performance", "refinements", statistics.refinements);
         record_.set("performance", "halvings", statistics.halvings);
-        const double inner = static_cast<double>(statistics.innerIterations) / static_cast<double>(std::max(1L, steps));
         app_.log().info(
             "implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes; refined "
             "{} times, halved {} times",

@@ -218,6 +218,12 @@ def test_implicit(folder):
         close(series(cases[1], "deformation"), series(case, "deformation"), 1e-4)
         iterations[preconditioner] = json.loads((case / "run.json").read_text())["performance"]["iterationsPerStep"]
     assert iterations["withMembrane"] <= iterations["twoLevel"] + 1 < 0.7 * iterations["blockJacobi"], iterations
+    # By itself it takes the membrane in where that is stiff.
+    for Ca, onNodes in ((0.3, False), (0.01, True)):
+        case = copied(start, folder / f"automatic{Ca}")
+        run(case, "dmpFlow", "-steps", "2", "-set", f"constant/flow.yaml:/Ca={Ca}")
+        inner = json.loads((case / "run.json").read_text())["performance"]["innerIterationsPerStep"]
+        assert (inner > 0) == onNodes, (Ca, inner)
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/integrator=implicit")
     # Membrane viscosity slows the cell down; bonds break at the same step on any number of ranks, and the open cell goes on.
