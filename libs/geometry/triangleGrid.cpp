@@ -36,6 +36,11 @@ Vec3 nearestWeights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) 
 }
 
 namespace {
+
+// Boxes and planes this much further off than the nearest point are still looked at, so that of triangles that share it the one with the lowest
+// number is found, in whatever order the tree has them.
+constexpr double slack = 1 + 1e-12;
+
 Vec3 combine(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) { return w[0] * a + w[1] * b + w[2] * c; }
 }  // namespace
 
@@ -46,10 +51,10 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach)
     number_.resize(mesh.triangles.size());
     std::iota(number_.begin(), number_.end(), 0);
     split(0, static_cast<int>(number_.size()), centres, number_);
-    std::vector<int> place(number_.size());
+    place_.resize(number_.size());
     for (std::size_t t = 0; t < number_.size(); ++t) {
         triangles_.push_back(mesh.triangles[number_[t]]);
-        place[number_[t]] = static_cast<int>(t);
+        place_[number_[t]] = static_cast<int>(t);
     }
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e)
         for (const int t : {edges_[e].left, edges_[e].right}) {
@@ -57,7 +62,7 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach)
             const Index3& n = mesh.triangles[t];
             for (int s = 0; s < 3; ++s)
                 if (std::minmax({n[s], n[(s + 1) % 3]}) == std::pair{edges_[e].a, edges_[e].b})
-                    sideEdge_[place[t]][s] = e;
+                    sideEdge_[place_[t]][s] = e;
         }
     update(mesh.nodes);
 }
@@ -92,7 +97,7 @@ void TriangleGrid::computeNormals() {
     faceNormal_.resize(triangles_.size());
     nodeNormal_.assign(nodes_.size(), Vec3::Zero());
     edgeNormal_.assign(edges_.size(), Vec3::Zero());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const int t : place_) {  // as the mesh has them, whatever the tree is
         const Index3& n = triangles_[t];
         faceNormal_[t] = (nodes_[n[1]] - nodes_[n[0]]).cross(nodes_[n[2]] - nodes_[n[0]]).normalized();
         for (int s = 0; s < 3; ++s) {
@@ -132,7 +137,7 @@ SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
     stack[waiting++] = {0, boxes_[0].distance2(x)};
     while (waiting > 0) {
         const Waiting next = stack[--waiting];
-        if (next.distance2 > least2) continue;
+        if (next.distance2 > slack * least2) continue;
         int n = next.box;
         while (n >= 0) {
             const Box& box = boxes_[n];
@@ -141,11 +146,11 @@ SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
                     const Index3& corner = triangles_[t];
                     const Vec3 &a = nodes_[corner[0]], &b = nodes_[corner[1]], &c = nodes_[corner[2]];
                     const double height = (x - a).dot(faceNormal_[t]);
-                    if (height * height > least2 * (1 + 1e-12)) continue;
+                    if (height * height > slack * least2) continue;
                     const Vec3 w = nearestWeights(x, a, b, c);
                     const Vec3 p = combine(w, a, b, c);
                     const double d2 = (x - p).squaredNorm();
-                    if (d2 > least2 || (at >= 0 && d2 == least2)) continue;
+                    if (d2 > least2 || (at >= 0 && d2 == least2 && number_[t] > number_[at])) continue;
                     least2 = d2;
                     at = t;
                     best.weights = w;
@@ -155,8 +160,9 @@ SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
             }
             const double one = boxes_[n + 1].distance2(x), two = boxes_[box.second].distance2(x);
             const bool firstNearer = one <= two;
-            if (std::max(one, two) <= least2) stack[waiting++] = {firstNearer ? box.second : n + 1, std::max(one, two)};
-            n = std::min(one, two) > least2 ? -1 : firstNearer ? n + 1 : box.second;
+            if (std::max(one, two) <= slack * least2)
+                stack[waiting++] = {firstNearer ? box.second : n + 1, std::max(one, two)};
+            n = std::min(one, two) > slack * least2 ? -1 : firstNearer ? n + 1 : box.second;
         }
     }
     if (at < 0) return {};

@@ -53,6 +53,7 @@ class TriangleGrid {
     std::vector<Vec3> nodes_;
     std::vector<Index3> triangles_;  // in the order of the tree
     std::vector<int> number_;        // of the mesh
+    std::vector<int> place_;         // of each triangle of the mesh among them
     double reach_;
 
     std::vector<Index3> sideEdge_;  // edge number of each side of each triangle

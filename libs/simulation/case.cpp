@@ -85,6 +85,7 @@ Case Case::read(const Application& app) {
     c.throwIfAny(problems);
     c.written = c.numerics;
     c.numerics = schemeOf(c, c.written.integrator);
+    c.mesh.fill.jitter = jitterOf(c);
     checkTogether(c, problems);
     c.throwIfAny(problems);
 
@@ -109,7 +110,10 @@ Case Case::read(const Application& app) {
         c.integratorChosen = true;
     }
     for (auto& [file, table] : c.effective)
-        if (file == "system/numerics.yaml") table = write(c.numerics);
+        if (file == "system/numerics.yaml")
+            table = write(c.numerics);
+        else if (file == "system/mesh.yaml")
+            table = write(c.mesh);
     c.observers.check(c.files["system/observers.yaml"],
                       {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
                       problems);

@@ -91,7 +91,7 @@ struct BodyPlaceSettings : SurfaceSettings {
     const std::string& type() const { return body ? *body : name; }
 };
 struct FillSettings {
-    double jitter = 0;  // in spacings
+    std::optional<double> jitter;  // in spacings; a loaded case has one (scheme.hpp)
     long seed = 1;
     long relaxation = 60;  // sweeps that even out the particles around membranes
     static const Schema<FillSettings>& schema();

@@ -23,4 +23,9 @@ NumericsSettings schemeOf(const Case& c, const std::string& integrator) {
     return n;
 }
 
+double jitterOf(const Case& c) {
+    constexpr double usual = 0.1;
+    return c.mesh.fill.jitter.value_or(c.numerics.isImmersed() && !c.mesh.cells.empty() ? usual : 0);
+}
+
 }  // namespace corpuscle::simulation

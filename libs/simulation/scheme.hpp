@@ -1,10 +1,12 @@
-// What `automatic` and absent keys of system/numerics.yaml stand for.
+// What `automatic` and absent keys of system/numerics.yaml and system/mesh.yaml stand for.
 //
 // key        | stands for
 // coupling   | immersed; dualIdentity beside rigid bodies, unless the integrator is named implicit
 // integrator | the cheapest of those that can do the case (cost.hpp)
 // operators  | corrected with immersed membranes (not beside rigid bodies) and with the implicit step, plain otherwise
 // shifting   | absent: {coefficient: 1} with corrected operators, none otherwise
+// jitter     | absent: 0.1 with immersed membranes, 0 otherwise. Where the flow draws a perfect lattice out its planes part: all neighbours of a
+//            | particle come to lie in one plane, and shifting, which follows gradients, does not see it because every particle has its mirror image
 #pragma once
 #include "simulation/case.hpp"
 
@@ -12,5 +14,6 @@ namespace corpuscle::simulation {
 
 // As written, for one integrator.
 NumericsSettings schemeOf(const Case& c, const std::string& integrator);
+double jitterOf(const Case& c);  // once the scheme is known
 
 }  // namespace corpuscle::simulation

@@ -113,7 +113,7 @@ std::map<std::string, std::string> startSettings(const Case& input, const std::s
     for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
         addSurface(mesh.bodies[i], fmt::format("mesh.bodies[{}]", i), settings);
     flatten(*fill.find("jitter"), "mesh.fill.jitter", settings);
-    if (mesh.fill.jitter > 0) flatten(*fill.find("seed"), "mesh.fill.seed", settings);
+    if (*mesh.fill.jitter > 0) flatten(*fill.find("seed"), "mesh.fill.seed", settings);
     flatten(*numerics.find("spacing"), "numerics.spacing", settings);
     if (!mesh.cells.empty()) flatten(*numerics.find("coupling"), "numerics.coupling", settings);
     const bool relaxed = !mesh.cells.empty() && !input.numerics.isImmersed();

@@ -120,4 +120,22 @@ TEST(TriangleGrid, followsTheMovedMesh) {
     EXPECT_NEAR(grid.nearest(x).distance, 0, 1e-18);
 }
 
+// A run that goes on from a checkpoint has a tree of the shape there, one that was not stopped has that of its start.
+TEST(TriangleGrid, answersDoNotDependOnTheTree) {
+    TriangleMesh turned = cell();
+    for (Vec3& x : turned.nodes) x = {x[1] + 0.3 * x[2], -x[0], 0.7 * x[2] + 0.2 * x[1]};
+    const TriangleGrid own(cell(), 1e-6);
+    TriangleGrid moved(turned, 1e-6);
+    moved.update(cell().nodes);
+    const std::vector<Vec3> away = randomPoints(static_cast<int>(cell().nodes.size()), 0.3e-6);
+    for (std::size_t m = 0; m < away.size(); ++m) {  // most are nearest to a node or an edge, which triangles share
+        const SurfacePoint a = own.nearest(cell().nodes[m] + away[m]), b = moved.nearest(cell().nodes[m] + away[m]);
+        ASSERT_TRUE(a && b);
+        EXPECT_EQ(a.triangle, b.triangle);
+        EXPECT_EQ(a.distance, b.distance);
+        EXPECT_EQ(a.point, b.point);
+        EXPECT_EQ(a.weights, b.weights);
+    }
+}
+
 }  // namespace

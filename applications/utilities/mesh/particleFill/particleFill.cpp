@@ -88,7 +88,7 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
     geometry::LatticeBox box;
     box.size = input.mesh.domain.size;
     box.spacing = input.spacing();
-    box.jitter = input.mesh.fill.jitter;
+    box.jitter = *input.mesh.fill.jitter;
     box.seed = static_cast<std::uint64_t>(input.mesh.fill.seed);
     if (const int axis = input.flowModel->wallAxis(); axis >= 0) {
         box.wallNormal = axis;
