@@ -180,33 +180,41 @@ class Step final : public ImplicitStep {
             }
             const double enough = linearisation * linearisation * std::max(reference, c.energy);
             if (refinement == mostRefinements || findDefect() <= enough) return true;
+            takeDefect();
             ++statistics.refinements;
         }
     }
 
-    // What the membranes' forces at the places found differ from the linear ones, as residual_ and in load_; the energy of the velocity that it
-    // makes, by the preconditioner.
+    // What the membranes' forces at the places found differ from the linear ones, as residual_ of what moves; the energy of the velocity that
+    // it makes, by the preconditioner.
     double findDefect() {
-        Vectors displacement = nodes_, defect;
+        Vectors displacement = nodes_;
         const Vectors before = immersed_->velocities();
         for (std::size_t m = 0; m < nodes_.size(); ++m) displacement[m] = time_ * (nodes_[m] - before[m]);
-        defect = immersed_->forceAt(displacement);
+        defect_ = immersed_->forceAt(displacement);
         Vectors linear = load_;
         immersed_->addStiffness(-time_, nodes_, linear);
-        for (std::size_t m = 0; m < defect.size(); ++m) defect[m] -= linear[m], load_[m] += defect[m];
+        for (std::size_t m = 0; m < defect_.size(); ++m) defect_[m] -= linear[m];
         RealArray& force = operators_.force();
         std::fill(force.begin(), force.end(), 0.0);
-        immersed_->spread(std::move(defect), force);
-        for (std::size_t i = 0; i < store().size(); ++i) {
-            const Vec3 others = isFixed(i) ? get(residual_, i) : Vec3(Vec3::Zero());
-            put(residual_, i, others + vector(force, i), static_cast<double>(residual_[at(i) + 3]));
-        }
+        immersed_->spread(defect_, force);
+        for (std::size_t i = 0; i < store().size(); ++i)
+            if (!isFixed(i)) put(residual_, i, vector(force, i), static_cast<double>(residual_[at(i) + 3]));
         if (rigid_) rigid_->putForces(force, residual_);
         precondition(residual_, correction_);
         double energy = 0;
         for (std::size_t k = 0; k < residual_.size(); ++k)
             energy += static_cast<double>(residual_[k]) * static_cast<double>(correction_[k]);
         return coupling::sumOverRanks(energy, scene_.system->comm());
+    }
+
+    // What is solved for then belongs to the membranes' load, and to the force on walls.
+    void takeDefect() {
+        for (std::size_t m = 0; m < defect_.size(); ++m) load_[m] += defect_[m];
+        for (std::size_t i = 0; i < store().size(); ++i)
+            if (isFixed(i))
+                put(residual_, i, get(residual_, i) + vector(operators_.force(), i),
+                    static_cast<double>(residual_[at(i) + 3]));
     }
 
     void apply(const Field& z, Field& w) {
@@ -383,7 +391,8 @@ class Step final : public ImplicitStep {
     RealArray pressure_;
     std::vector<double> bulk_, rate_;  // bulk modulus; divergence of the velocity found
     coupling::Transport transport_;
-    Vectors load_;             // f(x*) + time k u_m
+    Vectors load_;             // f(x*) + time k u_m, and what refinements have added
+    Vectors defect_;           // of the velocity found last
     Vectors guessed_, nodes_;  // velocities of the nodes: extrapolated, and found
 };
 

@@ -75,7 +75,8 @@ void checkRkl2(const Case& c, Problems& problems) {
                      "implicit with coupling: immersed");
     if (!c.mesh.bodies.empty())
         problems.add(numerics, "integrator",
-                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet");
+                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet, "
+                     "or implicit");
     if (c.numerics.isCorrected())
         problems.add(numerics, "operators",
                      "found corrected, which 'integrator: rkl2' does not have; write operators: plain, or another "

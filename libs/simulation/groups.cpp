@@ -27,7 +27,11 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
         add("Ca", c.fluid.viscosity * rate * a / Gs,
             fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                         laws.bonds ? ", hexagonal network" : ""));
-        add("lambda", laws.interior.viscosityRatio, "viscosity inside/outside");
+        const bool jump = laws.interior.viscosityRatio != 1 && !c.isConjugate();
+        add("lambda", laws.interior.viscosityRatio,
+            jump ? "viscosity inside/outside; dual identity holds back the rotation of the inside, coupling: immersed "
+                   "does not"
+                 : "viscosity inside/outside");
         if (laws.viscosity)
             add("Bq", laws.viscosity->shear / (c.fluid.viscosity * a),
                 "Boussinesq number: shear viscosity of the membrane over mu a");

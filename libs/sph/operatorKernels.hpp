@@ -1,5 +1,6 @@
 // Chooses the builds of the laws of operators.hpp for a kernel. One file per precision instantiates them.
 #pragma once
+#include "sph/gradientPair.hpp"
 #include "sph/lucy.hpp"
 #include "sph/pairBuild.hpp"
 #include "sph/pairKernels.hpp"
@@ -30,12 +31,15 @@ struct OperatorKernels {
     }
     template <class Kernel, bool varying>
     static PairKernels::Operators<Real> of() {
-        return {build<MomentPair<Kernel>, MomentConstants>, build<RatePair<Kernel, varying, false>, WallPlanes>,
-                build<RatePair<Kernel, varying, true>, WallPlanes>, build<StressPair<Kernel, false>, WallPlanes>,
-                build<StressPair<Kernel, true>, WallPlanes>};
+        return {build<MomentPair<Kernel>, MomentConstants>, rates<Kernel, varying, false>, rates<Kernel, varying, true>,
+                build<StressPair<Kernel, !varying, false>, WallPlanes>,
+                build<StressPair<Kernel, !varying, true>, WallPlanes>};
     }
     template <class Law, class Constants>
     static constexpr particles::PairKernel<Constants, Real> build = PairBuild<Law, Constants, Real, precision>::kernel;
+    template <class Kernel, bool varying, bool atWall>
+    static constexpr particles::PairKernel<WallPlanes, Real> rates =
+        build<std::conditional_t<varying, GradientPair<Kernel, atWall>, RatePair<Kernel, atWall>>, WallPlanes>;
 };
 
 PairKernels::Operators<double> operatorsDouble(KernelKind kernel, bool varyingViscosity);

@@ -14,10 +14,17 @@ using particles::ParticleStore;
 using particles::ParticleSystem;
 
 namespace {
-constexpr int rateFields = 16, stressFields = 10, momentFields = 4;
-constexpr particles::Halo::Part velocityPart{3, 6}, stressPart{4, 10};
-constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14;
-constexpr double leastMoment = 0.05;  // of the smallest direction, 1 on an ideal set
+constexpr int rateFields = 16, momentFields = 4, stressAt = 4;
+constexpr particles::Halo::Part velocityPart{3, 6};
+constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8;
+constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
+constexpr double leastMoment = 0.05;              // of the smallest direction, 1 on an ideal set
+
+Mat3 matrix(const std::array<double, 6>& s) {
+    Mat3 m;
+    m << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
+    return m;
+}
 
 template <class Real>
 PairKernels::Operators<Real> kernelsOf(KernelKind kernel, bool varyingViscosity) {
@@ -33,6 +40,7 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
     : model_(model),
       form_(form),
       varyingViscosity_(system.store().optional().viscosity),
+      stressFields_(stressAt + (varyingViscosity_ ? 9 : 6)),
       kernels_(kernelsOf<Real>(model.kernel->kind(), varyingViscosity_)) {
     const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
     unitVolume_ = model.mass / model.density;
@@ -95,9 +103,9 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
             correction_[i] = {B(0, 0), B(1, 1), B(2, 2), B(0, 1), B(0, 2), B(1, 2)};
             scale_[i] = 1 / scale;
         }
-        const double mu = varyingViscosity_ ? system.store().viscosity[i] : model_.viscosity;
-        viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(Moments::strength);
+        viscous_[i] = 2 * model_.viscosity * volume_[i] * scale_[i] * m(Moments::strength);
         bulk_[i] = m(Moments::square) * volume_[i] / 3;
+        if (varyingViscosity_) viscous_[i] += 4 * excessViscosity(system, i) * bulk_[i];
     }
 }
 
@@ -105,6 +113,7 @@ template <class Real>
 void Operators<Real>::packRecords(ParticleSystem& system) {
     const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
     rateRecords_.assign(all * rateFields, Real(0));
+    const auto stressFields = static_cast<std::size_t>(stressFields_);
     stressRecords_.assign(all * stressFields, Real(0));
     for (std::size_t i = 0; i < n; ++i) {
         Real *rate = rateRecords_.data() + rateFields * i, *stress = stressRecords_.data() + stressFields * i;
@@ -113,45 +122,68 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
         rate[volumeAt] = static_cast<Real>((wall_[i] ? -1 : 1) * volume_[i] / unitVolume_);
         rate[scaleAt] = static_cast<Real>(scale_[i]);
         for (std::size_t k = 0; k < 6; ++k) rate[correctionAt + k] = static_cast<Real>(correction_[i][k]);
-        if (varyingViscosity_) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
         stress[3] = rate[volumeAt];
     }
     const double scale = 1 / system.support();
     particles::Halo& halo = system.halo();
     halo.begin(rateRecords_.data(), system.owned(), rateFields, scale);
     halo.finish(rateRecords_.data(), system.owned(), rateFields);
-    halo.begin(stressRecords_.data(), system.owned(), stressFields, scale);
-    halo.finish(stressRecords_.data(), system.owned(), stressFields);
+    halo.begin(stressRecords_.data(), system.owned(), stressFields_, scale);
+    halo.finish(stressRecords_.data(), system.owned(), stressFields_);
 }
 
 template <class Real>
 template <class Kernel>
 void Operators<Real>::sum(ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
-                          particles::Halo::Part part) {
+                          particles::Halo::Part part, particles::RealArray& sums, int count) {
     using particles::PairList;
     system.forEachPair(records.data(), fields, part, [&](PairList::Group group) {
         const std::vector<int>& blocks = system.list().blocks(group);
         const bool wall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
         (wall ? atWall : away)
             .run(walls_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
-                 sums_.data());
+                 sums.data());
     });
-    system.halo().foldImages(sums_.data(), system.owned());
+    system.halo().foldImages(sums.data(), system.owned(), count);
 }
 
 template <class Real>
 void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
-    const std::size_t n = volume_.size();
+    const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
     for (std::size_t i = 0; i < n; ++i) std::copy_n(u.data() + width * i, 3, rateRecords_.data() + rateFields * i + 3);
-    sums_.assign((n + static_cast<std::size_t>(system.ghosts())) * width, 0.0);
-    sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart);
+    sums_.assign(all * width, 0.0);
+    if (varyingViscosity_) {
+        gradientSums_.assign(all * gradientSums, 0.0);
+        sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart, gradientSums_,
+            gradientSums);
+        takeGradients(system);
+        return;
+    }
+    sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart, sums_, width);
     for (std::size_t i = 0; i < n; ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
+}
+
+template <class Real>
+void Operators<Real>::takeGradients(const ParticleSystem& system) {
+    stress_.resize(volume_.size());
+    for (std::size_t i = 0; i < volume_.size(); ++i) {
+        const double* s = gradientSums_.data() + gradientSums * i;
+        std::copy_n(s, 3, sums_.data() + width * i);
+        const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> products(s + gradientAt);
+        const Mat3 gradient = rateUnit_ / volume_[i] * (matrix(correction_[i]) * products);
+        divergence_[i] = gradient.trace();
+        stress_[i] = excessViscosity(system, i) * (gradient + gradient.transpose());
+    }
 }
 
 template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
     findRates(system, u);
-    takeForces();
+    if (varyingViscosity_) {
+        for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, 0);
+        addStress(system);
+    } else
+        takeForces();
 }
 
 template <class Real>
@@ -165,16 +197,22 @@ void Operators<Real>::takeForces() {
 // The stress is in units that let both passes share one sum.
 template <class Real>
 void Operators<Real>::setPressure(std::size_t i, double pressure) {
-    const double p = pressure * rateUnit_ / viscousUnit_;
-    Real* stress = stressRecords_.data() + stressFields * i + stressPart.first;
-    for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
+    const double unit = rateUnit_ / viscousUnit_, p = pressure * unit;
+    Real* stress = stressRecords_.data() + static_cast<std::size_t>(stressFields_) * i + stressAt;
+    if (!varyingViscosity_) {
+        for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
+        return;
+    }
+    const Mat3 T = (p * Mat3::Identity() - unit * stress_[i]) * matrix(correction_[i]);
+    for (int k = 0; k < 9; ++k) stress[k] = static_cast<Real>(T(k / 3, k % 3));
 }
 
 template <class Real>
 void Operators<Real>::addStress(ParticleSystem& system) {
     const std::size_t n = volume_.size();
     std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // ghosts': folded already
-    sum(system, kernels_.stress, kernels_.stressAtWall, stressRecords_, stressFields, stressPart);
+    sum(system, kernels_.stress, kernels_.stressAtWall, stressRecords_, stressFields_, {stressAt, stressFields_}, sums_,
+        width);
     takeForces();
 }
 

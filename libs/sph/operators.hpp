@@ -3,7 +3,11 @@
 //     B_i = (sum_j V_j F d d^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
 //     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields
 //     (D^T V p)_i = -V_i sum_j V_j F (p_i B_i + p_j B_j) d                        force of the pressure p
-//     (L u)_i     = sum_j V_i V_j mu_ij F (1/S2_i + 1/S2_j) beta (u_i - u_j)      Morris' viscosity, with unit second moment
+//     (L u)_i     = sum_j V_i V_j mu F (1/S2_i + 1/S2_j) beta (u_i - u_j)         Morris' viscosity, with unit second moment
+// Morris' form is the divergence of mu grad u, which is that of 2 mu e, e the symmetric part of the gradient, only where mu is uniform: at a jump it would put a
+// torque on what turns rigidly. Where viscosity varies, L has the fluid's mu, and the rest is a stress by the corrected gradient and its transpose,
+//     tau_i = 2 (mu_i - mu) e_i,   (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,   force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
+// so that mu_i belongs to the particle's side and no mean is taken across a jump.
 // D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite, and no force is left over in the
 // sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
 //
@@ -31,14 +35,14 @@ class Operators {
     // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
     void build(particles::ParticleSystem& system);
 
-    // force_i = -(L u)_i + (D^T V p)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa]. Collective.
+    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa]. Collective.
     template <class Pressure>
     void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
         findRates(system, u);
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
         addStress(system);
     }
-    // force_i = -(L u)_i [N]. Collective.
+    // The same without pressure. Collective.
     void applyViscosity(particles::ParticleSystem& system, const Field& u);
     particles::RealArray& force() { return force_; }  // what else acts may be added, until the next application
     const particles::RealArray& force() const { return force_; }
@@ -56,25 +60,32 @@ class Operators {
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
 
   private:
+    double excessViscosity(const particles::ParticleSystem& system, std::size_t i) const {
+        return system.store().viscosity[i] - model_.viscosity;
+    }
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
     void findRates(particles::ParticleSystem& system, const Field& u);
     void setPressure(std::size_t i, double pressure);
     void addStress(particles::ParticleSystem& system);
-    void takeForces();  // force_ of sums_
+    void takeForces();                                            // force_ of sums_
+    void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ of gradientSums_
     template <class Kernel>
     void sum(particles::ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
-             particles::Halo::Part part);
+             particles::Halo::Part part, particles::RealArray& sums, int count);
 
     FluidModel model_;
     OperatorForm form_;
     bool varyingViscosity_;
+    int stressFields_;
     PairKernels::Operators<Real> kernels_;
     MomentConstants moments_;
     WallPlanes walls_;
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
     Field momentRecords_, rateRecords_, stressRecords_;
     particles::RealArray sums_, force_, divergence_;
+    particles::RealArray gradientSums_;  // where viscosity varies
+    std::vector<Mat3> stress_;           // tau there
     std::array<particles::RealArray, Moments::count> moment_;
     std::vector<double> volume_, viscous_, bulk_;
     std::vector<std::array<double, 6>> correction_;  // B: xx yy zz xy xz yz

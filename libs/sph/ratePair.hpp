@@ -1,29 +1,28 @@
-// Viscous force and divergence of a velocity (operators.hpp):
-//     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j mu_ij F (s_i + s_j) beta
+// Viscous force and divergence of a velocity (operators.hpp), where viscosity is uniform:
+//     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta
 //     V_i (D u)_i = sum_j V_i V_j F (B_i d).(u_j - u_i),   d = x_j - x_i,  F = -W'(r)/r
-// beta is that of plane walls (wallPlanes.hpp); across a jump mu_ij is the harmonic mean, 1 where mu is uniform. Two wall particles do
-// not act on each other.
+// beta is that of plane walls (wallPlanes.hpp). Two wall particles do not act on each other.
 //
-// record | x y z in supports | u (3) | V in units of `volume`, negative for wall particles | s | B (xx yy zz xy xz yz) | mu, where it varies
+// record | x y z in supports | u (3) | V in units of `volume`, negative for wall particles | s | B (xx yy zz xy xz yz)
 // sums   | -(L u) (3), V D u
 #pragma once
 #include "sph/wallPlanes.hpp"
 
 namespace corpuscle::sph {
 
-template <class Kernel, bool varyingViscosity, bool atWall>
+template <class Kernel, bool atWall>
 struct RatePair {
-    static constexpr int velocity = 3, volume = 6, scale = 7, correction = 8, viscosity = 14;
-    static constexpr int fields = 16;  // one cache line of floats; without `viscosity` the last two are not used
+    static constexpr int velocity = 3, volume = 6, scale = 7, correction = 8;
+    static constexpr int fields = 16;  // one cache line of floats; the last two are not used
     static constexpr bool distinct = true;
     WallPlanes walls;
 
+    // V_i V_j F and w_ij.
     template <class V, class J>
-    CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[5]) const {
-        V F = Kernel::template slope<V>(q) * (i[volume] * V(j[volume]));
-        V w = F * (i[scale] + V(j[scale]));
-        if constexpr (varyingViscosity)
-            w = w * (i[viscosity] * V(J(2) * j[viscosity])) / (i[viscosity] + V(j[viscosity]));
+    static CORPUSCLE_INLINE void weights(const WallPlanes& walls, const V (&i)[fields], const J* j, const V& q, V& F,
+                                         V& w) {
+        F = Kernel::template slope<V>(q) * (i[volume] * V(j[volume]));
+        w = F * (i[scale] + V(j[scale]));
         if constexpr (atWall) {
             const V gapI = walls.gap(i);
             const J gapJ = walls.gap(j);
@@ -34,6 +33,12 @@ struct RatePair {
                 w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * walls.beta(gapI, gapJ);
             }
         }
+    }
+
+    template <class V, class J>
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[5]) const {
+        V F, w;
+        weights(walls, i, j, q, F, w);
         V du[3];
         for (int k = 0; k < 3; ++k) {
             du[k] = V(j[velocity + k]) - i[velocity + k];

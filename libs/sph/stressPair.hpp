@@ -1,17 +1,18 @@
-// The transpose of the divergence of ratePair.hpp, for a scalar p per particle:
-//     (D^T V p)_i = - sum_j V_i V_j F (p_i B_i + p_j B_j) d,   d = x_j - x_i,  F = -W'(r)/r
-// the force of the pressure p. Two wall particles do not act on each other.
+// The transposes of the divergence and the gradient of ratePair.hpp and gradientPair.hpp:
+//     f_i = - sum_j V_i V_j F (T_i + T_j) d,   d = x_j - x_i,  F = -W'(r)/r
+// With T = p B it is D^T V p, the force of the pressure p; with T = -tau B that of a stress tau, 3 x 3 and not symmetric. Two wall particles do not act
+// on each other.
 //
-// record | x y z in supports | V in units of `volume`, negative for wall particles | p B (xx yy zz xy xz yz)
-// sums   | D^T V p (3), nothing
+// record | x y z in supports | V in units of `volume`, negative for wall particles | T: xx yy zz xy xz yz, or row by row
+// sums   | f (3), nothing
 #pragma once
 #include "sph/wallPlanes.hpp"
 
 namespace corpuscle::sph {
 
-template <class Kernel, bool atWall>
+template <class Kernel, bool symmetric, bool atWall>
 struct StressPair {
-    static constexpr int volume = 3, stress = 4, fields = 10;
+    static constexpr int volume = 3, stress = 4, numbers = symmetric ? 6 : 9, fields = stress + numbers;
     WallPlanes walls;  // the constants of ratePair.hpp; not used here
 
     template <class V, class J>
@@ -21,11 +22,12 @@ struct StressPair {
             const V both = max(i[volume], V(j[volume]));
             F = whereNegative(both, V(0.0), max(F, V(0.0) - F));
         }
-        V s[6];
-        for (int k = 0; k < 6; ++k) s[k] = i[stress + k] + V(j[stress + k]);
-        p[0] = F * (s[0] * d[0] + s[3] * d[1] + s[4] * d[2]);
-        p[1] = F * (s[3] * d[0] + s[1] * d[1] + s[5] * d[2]);
-        p[2] = F * (s[4] * d[0] + s[5] * d[1] + s[2] * d[2]);
+        V s[numbers];
+        for (int k = 0; k < numbers; ++k) s[k] = i[stress + k] + V(j[stress + k]);
+        constexpr int at[3][3] = {{0, symmetric ? 3 : 1, symmetric ? 4 : 2},
+                                  {3, symmetric ? 1 : 4, 5},
+                                  {symmetric ? 4 : 6, symmetric ? 5 : 7, symmetric ? 2 : 8}};
+        for (int k = 0; k < 3; ++k) p[k] = F * (s[at[k][0]] * d[0] + s[at[k][1]] * d[1] + s[at[k][2]] * d[2]);
         p[3] = V(0.0);
     }
 };

@@ -17,10 +17,10 @@ struct FluidScene {
     Scene scene;
 
     FluidScene(const std::vector<sph::testing::Particle>& all, const Index3& size, const sph::FluidModel& model,
-               double rate, double skin, MPI_Comm comm, particles::Precision precision) {
+               double rate, double skin, MPI_Comm comm, particles::Precision precision,
+               particles::ParticleStore::Optional fields = {}) {
         scene.system = std::make_unique<particles::ParticleSystem>(comm, sph::testing::cube(size, model.walls.exist()),
-                                                                   particles::ParticleStore::Optional{}, fluidSupport,
-                                                                   skin, 1.0, precision);
+                                                                   fields, fluidSupport, skin, 1.0, precision);
         sph::testing::deal(all, *scene.system);
         scene.fluidBox = scene.system->box();
         scene.spacing = 1;

@@ -120,9 +120,16 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         }
     }
 
-    double viscosity(std::size_t i, std::size_t j) const {
-        if (!GetParam().varying) return fluid.viscosity;
-        return 2 * all[i].viscosity * all[j].viscosity / (all[i].viscosity + all[j].viscosity);
+    // tau B: what a viscosity that differs from the fluid's adds.
+    std::vector<Mat3> stress(const std::vector<Vec3>& u) const {
+        std::vector<Mat3> T(all.size(), Mat3::Zero());
+        if (!GetParam().varying) return T;
+        for (const Pair& p : pairs) T[p.i] += volume[p.j] * p.F * (B[p.i] * p.d) * (u[p.j] - u[p.i]).transpose();
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const Mat3 twice = T[i] + T[i].transpose();
+            T[i] = (all[i].viscosity - fluid.viscosity) * twice * B[i];
+        }
+        return T;
     }
     std::vector<double> divergence(const std::vector<Vec3>& u) const {
         std::vector<double> D(all.size(), 0.0);
@@ -131,10 +138,11 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
     }
     std::vector<Vec3> force(const std::vector<Vec3>& u, const std::vector<double>& pressure) const {
         std::vector<Vec3> f(all.size(), Vec3::Zero());
+        const std::vector<Mat3> T = stress(u);
         for (const Pair& p : pairs) {
             const double both = volume[p.i] * volume[p.j] * p.F;
-            f[p.i] -= both * (pressure[p.i] * B[p.i] + pressure[p.j] * B[p.j]) * p.d;
-            f[p.i] -= both * viscosity(p.i, p.j) * (scale[p.i] + scale[p.j]) * p.beta * (u[p.i] - u[p.j]);
+            f[p.i] -= both * (pressure[p.i] * B[p.i] + pressure[p.j] * B[p.j] - T[p.i] - T[p.j]) * p.d;
+            f[p.i] -= both * fluid.viscosity * (scale[p.i] + scale[p.j]) * p.beta * (u[p.i] - u[p.j]);
         }
         return f;
     }

@@ -1,0 +1,32 @@
+// Viscous force and gradient of a velocity (operators.hpp), where viscosity varies:
+//     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta,   of the lowest viscosity
+//     V_i sum_j V_j F d (u_j - u_i)^T,    d = x_j - x_i,  F = -W'(r)/r;  B_i before it makes it the gradient
+// beta is that of plane walls (wallPlanes.hpp). Two wall particles do not act on each other.
+//
+// record | that of ratePair.hpp
+// sums   | -(L u) (3), nothing, d_x du (3), d_y du (3), d_z du (3), nothing (3)
+#pragma once
+#include "sph/ratePair.hpp"
+
+namespace corpuscle::sph {
+
+template <class Kernel, bool atWall>
+struct GradientPair {
+    using Rate = RatePair<Kernel, atWall>;
+    static constexpr int fields = Rate::fields, gradient = 4, sums = 16;
+    WallPlanes walls;
+
+    template <class V, class J>
+    CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[sums]) const {
+        V F, w;
+        Rate::weights(walls, i, j, q, F, w);
+        for (V& sum : p) sum = V(0.0);
+        for (int l = 0; l < 3; ++l) {
+            const V du = V(j[Rate::velocity + l]) - i[Rate::velocity + l];
+            p[l] = V(0.0) - w * du;
+            for (int k = 0; k < 3; ++k) p[gradient + 3 * k + l] = F * d[k] * du;
+        }
+    }
+};
+
+}  // namespace corpuscle::sph

@@ -1,0 +1,93 @@
+// A ball of another viscosity, without membrane or tension, in shear flow: inside, the strain rate is uniform,
+//
+//     E_in = 5/(2 lambda + 3) E,    lambda = mu_in/mu_out
+// and the rotation that of the flow: Eshelby's inclusion (Proc. R. Soc. A 241 (1957) 376) for incompressible viscous media, also the inside of
+// Taylor's drop (Proc. R. Soc. A 138 (1932) 41) with the tension left out. Lengths in spacings, density and viscosity outside 1.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "coupling/fluidScene.hpp"
+#include "implicit/implicitStep.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::implicit;
+using coupling::testing::FluidScene;
+using particles::ParticleStore;
+using sph::testing::Particle;
+
+namespace {
+
+constexpr double rate = 1e-6, stepStrain = 0.02, jitter = 0.1;  // Re below 1e-4
+constexpr int layers = 3;
+
+struct Inclusion {
+    double strain, rotation;  // of the inside over those of the flow
+};
+
+// Periodic along the flow and the vorticity, walls six radii apart.
+Inclusion measure(int radius, double lambda) {
+    const int length = 6 * radius;
+    const Index3 size{length, length, length + 2 * layers};
+    const Vec3 centre(0.5 * length, 0.5 * length, layers + 0.5 * length);
+    const auto flow = [&](const Vec3& x) { return Vec3(rate * (x[2] - centre[2]), 0, 0); };
+    sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
+    model.viscosity = 1,
+    model.soundSpeed = std::sqrt(2e4 * rate);  // what the first step compresses is below 1 % of the strain
+    const double low = layers, high = layers + length;
+    model.walls = {2, low, high, {flow({0, 0, low}), flow({0, 0, high})}};
+
+    std::vector<Particle> all = sph::testing::lattice(size, jitter), places = sph::testing::lattice(size, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double z = places[i].x[2];
+        all[i].wall = z < low || z > high;
+        if (all[i].wall) all[i].x = places[i].x;
+        all[i].u = all[i].wall ? model.walls.velocity[model.walls.isUpper(all[i].x)] : flow(all[i].x);
+        all[i].density = all[i].mass = 1;
+        all[i].viscosity = (all[i].x - centre).norm() < radius ? lambda : 1;
+    }
+    ParticleStore::Optional fields;
+    fields.viscosity = true;
+    FluidScene f(all, size, model, rate, 0, MPI_COMM_WORLD, particles::Precision::full, fields);
+    f.scene.fluidBox.low[2] = low, f.scene.fluidBox.high[2] = high;
+    f.scene.flow.shearRate = rate;
+    f.scene.flow.velocity = flow;
+    ImplicitStep::Options options;
+    options.settings.step = stepStrain, options.settings.tolerance = 1e-4;
+    options.shifting = 1;
+    ImplicitStep::make(f.scene, options)->advance(stepStrain / rate);
+
+    // Least squares of a linear velocity over what is well inside.
+    Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 4, 3> b = Eigen::Matrix<double, 4, 3>::Zero();
+    const ParticleStore& s = f.scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 d = s.position(i) - centre;
+        if (d.norm() > 0.7 * radius) continue;
+        const Eigen::Vector4d row(1, d[0], d[1], d[2]);
+        A += row * row.transpose(), b += row * s.velocity(i).transpose();
+    }
+    MPI_Allreduce(MPI_IN_PLACE, A.data(), 16, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, b.data(), 12, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    const Mat3 slope = (A.ldlt().solve(b)).bottomRows<3>();  // of component j along axis i
+    return {(slope(2, 0) + slope(0, 2)) / rate, (slope(2, 0) - slope(0, 2)) / rate};
+}
+
+// Errors are fractions of the flow's strain rate, or of the inside's where that is larger. What is left at eight spacings is the box: its walls and images change the
+// rotation by the same 1 %, which does not depend on the resolution.
+void compare(double lambda) {
+    const double exact = 5 / (2 * lambda + 3), allowed = 0.03 * std::max(1.0, exact);
+    for (const int radius : {4, 8}) {
+        const Inclusion inside = measure(radius, lambda);
+        std::printf("lambda %g, radius %d: strain rate %.4f (%.4f), rotation %.4f\n", lambda, radius, inside.strain,
+                    exact, inside.rotation);
+        EXPECT_NEAR(inside.strain, exact, allowed);
+        EXPECT_NEAR(inside.rotation, 1, 0.025);
+    }
+}
+
+TEST(ViscousInclusion, strainsAsItsViscosityLetsIt) {
+    for (const double lambda : {1.0, 0.2, 5.0, 50.0}) compare(lambda);
+}
+
+}  // namespace
