@@ -9,7 +9,9 @@
 #include "core/error.hpp"
 #include "coupling/transport.hpp"
 #include "implicit/coarseGrid.hpp"
+#include "implicit/fluidTerm.hpp"
 #include "implicit/membraneCorrection.hpp"
+#include "implicit/membraneTerm.hpp"
 #include "implicit/rigidUnknowns.hpp"
 #include "implicit/stepControl.hpp"
 
@@ -30,14 +32,23 @@ class Step final : public ImplicitStep {
         : scene_(scene),
           options_(options),
           backward_(options.settings.method == "backwardEuler"),
-          operators_(scene.model(), *scene.system, options.form),
+          fluid_(scene, options.form),
           transport_(scene, options.shifting) {
         if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
-        if (scene.bodies) rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, grid_ != nullptr);
-        if (scene.cells.empty()) return;
-        immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
-        noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
+        terms_.push_back(&fluid_);
+        if (!scene.cells.empty()) {
+            immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
+            noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
+            membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(),
+                                                              options_.settings);
+            terms_.push_back(membranes_.get());
+        }
+        if (scene.bodies) {
+            rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, operators(), grid_ != nullptr);
+            terms_.push_back(rigid_.get());
+        }
+        isLinear_ = std::all_of(terms_.begin(), terms_.end(), [](const Term<Real>* term) { return term->isLinear(); });
     }
 
     Events advance(double dt) override { return advance(dt, backward_, 0); }
@@ -51,7 +62,9 @@ class Step final : public ImplicitStep {
 
     const ParticleStore& store() const { return scene_.store(); }
     double mass(std::size_t i) const { return scene_.mass(i); }
-    bool isFixed(std::size_t i) const { return operators_.isWall(i); }
+    sph::Operators<Real>& operators() { return fluid_.operators(); }
+    const sph::Operators<Real>& operators() const { return fluid_.operators(); }
+    bool isFixed(std::size_t i) const { return operators().isWall(i); }
 
     Events advance(double dt, bool backward, int halvings) {
         if (attempt(dt, backward)) {
@@ -86,7 +99,8 @@ class Step final : public ImplicitStep {
         }
         if (immersed_) {
             const bool extrapolated = state.steps > 1;  // with an acceleration
-            allowed_ = allowedSteps(options_.settings, scene_, dt, ends_, nodes_, extrapolated ? guessed_ : nodes_);
+            const Vectors& nodes = membranes_->velocities();
+            allowed_ = allowedSteps(options_.settings, scene_, dt, ends_, nodes, extrapolated ? guessed_ : nodes);
         }
         finish(dt, share);
         return true;
@@ -107,18 +121,12 @@ class Step final : public ImplicitStep {
     }
 
     void prepare() {
-        const ParticleStore& s = store();
-        const std::size_t n = s.size();
-        operators_.build(*scene_.system);
-        findPressures(scene_, pressure_);
-        bulk_.resize(n);
-        const sph::FluidModel& model = scene_.model();
-        for (std::size_t i = 0; i < n; ++i)
-            bulk_[i] = model.equationOfState->bulkModulus(s.density[i], model.density, model.soundSpeed);
-        if (rigid_) rigid_->find(operators_);
-        if (!immersed_) return;
-        immersed_->build(*scene_.system, operators_.volumes());
-        noFlux_->find(*scene_.system, immersed_->touched());
+        for (Term<Real>* term : terms_) term->prepare(time_);
+        if (noFlux_) noFlux_->find(*scene_.system, immersed_->touched());
+    }
+
+    void findForces(const Field& v) {
+        for (Term<Real>* term : terms_) term->addForces(v, forces_);
     }
 
     // Of the guess: residual_ = right-hand side - A guess. Along with it, where the preconditioner gives zero: the divergence as the fourth number,
@@ -134,28 +142,18 @@ class Step final : public ImplicitStep {
             put(guess_, i, u);
         }
         if (rigid_) rigid_->extrapolate(h_, guess_);
-        operators_.apply(*scene_.system, guess_,
-                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
-        RealArray& force = operators_.force();
-        if (immersed_) {
-            load_ = immersed_->force();
-            immersed_->addStiffness(time_, immersed_->velocities(), load_);  // of f(x) at x* + time (v - u_m)
-            Vectors f = load_;
-            guessed_ = immersed_->interpolate(guess_.data());
-            immersed_->addResistance(time_, guessed_, f);
-            immersed_->spread(std::move(f), force);
-        }
-        if (rigid_) rigid_->addContinuation(guess_, force);
+        findForces(guess_);
+        if (membranes_) guessed_ = membranes_->velocities();
         const Vec3& g = scene_.model().bodyForce;
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
-            const Vec3 f = vector(force, i) + mass(i) * (g + c2_ * a - c1_ * change);
-            put(residual_, i, isFixed(i) ? vector(force, i) : f, operators_.divergence(i));
+            const Vec3 f = vector(forces_, i) + mass(i) * (g + c2_ * a - c1_ * change);
+            put(residual_, i, isFixed(i) ? vector(forces_, i) : f, operators().divergence(i));
         }
-        if (rigid_) rigid_->putResidual(c1_, c2_, guess_, force, residual_);
+        if (rigid_) rigid_->putResidual(c1_, c2_, guess_, forces_, residual_);
     }
 
-    // The velocity of this step in guess_, that of the nodes in nodes_.
+    // The velocity of this step in guess_, that of the nodes in the membranes' term.
     bool solve(double dt) {
         const double reference = std::max(state.reference, leastReference());
         for (int refinement = 0;; ++refinement) {
@@ -170,14 +168,9 @@ class Step final : public ImplicitStep {
                 return false;
             }
             for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += correction_[k];
-            if (!immersed_) return true;
-            nodes_ = immersed_->interpolate(guess_.data());
-            if (const double change = largestBondRate(scene_.cells, nodes_) * dt;
-                change > options_.settings.bondStrain) {
-                fault_ =
-                    fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);
-                return false;
-            }
+            for (Term<Real>* term : terms_)
+                if (fault_ = term->refusal(guess_, dt); !fault_.empty()) return false;
+            if (isLinear_) return true;
             const double enough = linearisation * linearisation * std::max(reference, c.energy);
             if (refinement == mostRefinements || findDefect() <= enough) return true;
             takeDefect();
@@ -185,22 +178,14 @@ class Step final : public ImplicitStep {
         }
     }
 
-    // What the membranes' forces at the places found differ from the linear ones, as residual_ of what moves; the energy of the velocity that
+    // What the terms' forces at the places found differ from the linear ones, as residual_ of what moves; the energy of the velocity that
     // it makes, by the preconditioner.
     double findDefect() {
-        Vectors displacement = nodes_;
-        const Vectors before = immersed_->velocities();
-        for (std::size_t m = 0; m < nodes_.size(); ++m) displacement[m] = time_ * (nodes_[m] - before[m]);
-        defect_ = immersed_->forceAt(displacement);
-        Vectors linear = load_;
-        immersed_->addStiffness(-time_, nodes_, linear);
-        for (std::size_t m = 0; m < defect_.size(); ++m) defect_[m] -= linear[m];
-        RealArray& force = operators_.force();
-        std::fill(force.begin(), force.end(), 0.0);
-        immersed_->spread(defect_, force);
+        std::fill(forces_.begin(), forces_.end(), 0.0);
+        for (Term<Real>* term : terms_) term->addDefect(forces_);
         for (std::size_t i = 0; i < store().size(); ++i)
-            if (!isFixed(i)) put(residual_, i, vector(force, i), static_cast<double>(residual_[at(i) + 3]));
-        if (rigid_) rigid_->putForces(force, residual_);
+            if (!isFixed(i)) put(residual_, i, vector(forces_, i), static_cast<double>(residual_[at(i) + 3]));
+        if (rigid_) rigid_->putForces(forces_, residual_);
         precondition(residual_, correction_);
         double energy = 0;
         for (std::size_t k = 0; k < residual_.size(); ++k)
@@ -208,39 +193,35 @@ class Step final : public ImplicitStep {
         return coupling::sumOverRanks(energy, scene_.system->comm());
     }
 
-    // What is solved for then belongs to the membranes' load, and to the force on walls.
+    // What is solved for then belongs to the terms' load, and to the force on walls.
     void takeDefect() {
-        for (std::size_t m = 0; m < defect_.size(); ++m) load_[m] += defect_[m];
+        for (Term<Real>* term : terms_) term->takeDefect();
         for (std::size_t i = 0; i < store().size(); ++i)
             if (isFixed(i))
-                put(residual_, i, get(residual_, i) + vector(operators_.force(), i),
-                    static_cast<double>(residual_[at(i) + 3]));
+                put(residual_, i, get(residual_, i) + vector(forces_, i), static_cast<double>(residual_[at(i) + 3]));
     }
 
     void apply(const Field& z, Field& w) {
-        operators_.apply(*scene_.system, z, [&](std::size_t i, double rate) { return -time_ * bulk_[i] * rate; });
-        if (immersed_) {
-            Vectors f(load_.size(), Vec3::Zero());
-            immersed_->addResistance(time_, immersed_->interpolate(z.data()), f);
-            immersed_->spread(std::move(f), operators_.force());
-        }
-        if (rigid_) rigid_->addContinuation(z, operators_.force());
+        for (Term<Real>* term : terms_) term->addProduct(z, forces_);
         const std::size_t n = store().size();
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 inertia = isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i));
-            put(w, i, inertia - vector(operators_.force(), i), -operators_.divergence(i));
+            put(w, i, inertia - vector(forces_, i), -operators().divergence(i));
         }
-        if (rigid_) rigid_->putProduct(c1_, z, operators_.force(), w);
+        if (rigid_) rigid_->putProduct(c1_, z, forces_, w);
     }
 
-    // Diagonal blocks of the fluid, multiples of the unit matrix. Those of the membrane make it worse: near it they hold back all that is
-    // not smooth along it (docs/implicit.md, Figures).
     void factorise() {
         const std::size_t n = store().size();
         inverse_.resize(n);
-        for (std::size_t i = 0; i < n; ++i) inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / diagonal(i));
-        const auto withoutMass = [&](std::size_t i) { return diagonal(i) - c1_ * mass(i); };
-        if (rigid_) rigid_->factorise(c1_, withoutMass, inverse_);
+        const auto diagonal = [&](std::size_t i) {
+            double sum = 0;
+            for (const Term<Real>* term : terms_) sum += term->diagonal(i);
+            return sum;
+        };
+        for (std::size_t i = 0; i < n; ++i)
+            inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / (c1_ * mass(i) + diagonal(i)));
+        if (rigid_) rigid_->factorise(c1_, diagonal, inverse_);
         if (grid_) placeOnGrid();
         withMembrane_ = immersed_ && isMembraneStiff();
     }
@@ -257,9 +238,6 @@ class Step final : public ImplicitStep {
         grid_->begin(inverse_.size());
         for (std::size_t i = 0; i < inverse_.size(); ++i)
             if (!isFixed(i)) grid_->place(i, store().position(i));
-    }
-    double diagonal(std::size_t i) const {
-        return c1_ * mass(i) + operators_.viscousDiagonal(i) + time_ * bulk_[i] * operators_.bulkDiagonal(i);
     }
     void precondition(const Field& r, Field& z) {
         preconditionParticles(rigid_ ? rigid_->distribute(r) : r, z);
@@ -286,7 +264,7 @@ class Step final : public ImplicitStep {
         Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
         rate_.resize(n);
         for (std::size_t i = 0; i < n; ++i) {
-            rate_[i] = rigid_ ? operators_.divergence(i) : static_cast<double>(residual_[at(i) + 3]);
+            rate_[i] = rigid_ ? operators().divergence(i) : static_cast<double>(residual_[at(i) + 3]);
             if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += get(residual_, i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
@@ -301,24 +279,17 @@ class Step final : public ImplicitStep {
     // What the system has as their forces at the velocity found, so that they are what changes momentum. The solver does not carry them: rows of
     // particles of bodies are empty.
     void findForcesOnBodies() {
-        operators_.apply(*scene_.system, guess_,
-                         [&](std::size_t i, double rate) { return pressure_[i] - time_ * bulk_[i] * rate; });
-        if (immersed_) {
-            Vectors f = load_;
-            immersed_->addResistance(time_, nodes_, f);
-            immersed_->spread(std::move(f), operators_.force());
-        }
-        rigid_->addContinuation(guess_, operators_.force());
-        rigid_->findWrenches(operators_.force());
+        findForces(guess_);
+        rigid_->findWrenches(forces_);
     }
 
     void moveParticles(double dt, double share) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
-        transport_.shift(operators_, dt);
+        transport_.shift(operators(), dt);
         if (immersed_) {
             immersed_->move(-share * dt);
-            immersed_->setVelocities(nodes_);
+            immersed_->setVelocities(membranes_->velocities());
             transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) { return get(guess_, i); });
             immersed_->move(dt);
             immersed_->restoreVolume();
@@ -346,20 +317,15 @@ class Step final : public ImplicitStep {
             const Vec3 flow = affine(s.position(i)), w = isFixed(i) ? Vec3::Zero() : Vec3(get(guess_, i) - flow);
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
             if (rigid_ && rigid_->isMember(i))  // stress within the body resists what is not rigid
-                sum -= w.dot(vector(operators_.force(), i));
+                sum -= w.dot(vector(forces_, i));
             else
                 sum += mass(i) * w.dot(c1_ * (s.velocity(i) - flow) + c2_ * a + g);
-            sum += operators_.volume(i) * pressure_[i] * rate_[i];
+            sum += operators().volume(i) * fluid_.pressure(i) * rate_[i];
             put(disturbance, i, w);
             put(undisturbed, i, flow);
         }
         sum = coupling::sumOverRanks(sum, scene_.system->comm());
-        if (immersed_) {
-            const Vectors w = immersed_->interpolate(disturbance.data());
-            Vectors f = load_;
-            immersed_->addResistance(time_, immersed_->interpolate(undisturbed.data()), f);
-            for (std::size_t m = 0; m < w.size(); ++m) sum += w[m].dot(f[m]);
-        }
+        for (Term<Real>* term : terms_) sum += term->power(undisturbed, disturbance);
         state.reference = std::abs(sum);
     }
     Vec3 affine(const Vec3& x) const {
@@ -379,21 +345,21 @@ class Step final : public ImplicitStep {
 
     Scene& scene_;
     Options options_;
-    bool backward_, withMembrane_ = false, ends_ = false;  // ends_: everything at the end of this step
+    bool backward_, isLinear_, withMembrane_ = false, ends_ = false;  // ends_: everything at the end of this step
     std::string fault_;
-    sph::Operators<Real> operators_;
+    FluidTerm<Real> fluid_;
+    std::unique_ptr<MembraneTerm<Real>> membranes_;  // none without cells
+    std::unique_ptr<RigidUnknowns<Real>> rigid_;     // none without bodies
+    std::vector<Term<Real>*> terms_;                 // of these, the fluid's first
     std::unique_ptr<CoarseGrid> grid_;
-    std::unique_ptr<RigidUnknowns<Real>> rigid_;  // none without bodies
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
     Field guess_, residual_, correction_, inverse_;
-    RealArray pressure_;
-    std::vector<double> bulk_, rate_;  // bulk modulus; divergence of the velocity found
+    RealArray forces_;          // of the terms, at the velocity given to them last
+    std::vector<double> rate_;  // divergence of the velocity found
     coupling::Transport transport_;
-    Vectors load_;             // f(x*) + time k u_m, and what refinements have added
-    Vectors defect_;           // of the velocity found last
-    Vectors guessed_, nodes_;  // velocities of the nodes: extrapolated, and found
+    Vectors guessed_;  // velocities of the nodes, extrapolated
 };
 
 }  // namespace

@@ -13,6 +13,8 @@
 // x*           | x^n + dt/2 u with the velocity u of the middle of the last step; u_m likewise of nodes
 // a            | acceleration from the middle of the step before the last to that of the last
 //
+// Each of these but inertia is a Term (term.hpp); a scene has those of what is in it.
+//
 // dv/dt in the middle of the step is c1 (v - u) - c2 a, the backward difference of second order over the middles of three steps: with
 // h the time between the last two and w = h/h_before, c1 = (1 + 2w)/(h (1 + w)), c2 = w/(1 + w). It damps what is stiff, which the
 // midpoint rule u^(n+1) = 2v - u^n would leave ringing. Walls have prescribed velocities: their rows and columns are taken out, which

@@ -53,21 +53,21 @@ void RigidUnknowns<Real>::takeBack() {
 // L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1 within bodies has at
 // their particles the sum of l_ij over all others.
 template <class Real>
-void RigidUnknowns<Real>::find(sph::Operators<Real>& operators) {
+void RigidUnknowns<Real>::prepare(double) {
     scene_.bodies->moved(*scene_.system, 0, true);
     Field marks(behind(), Real(0));
     for (const auto& m : members()) {
         Real* mark = marks.data() + width * static_cast<std::size_t>(m.particle);
         mark[0] = static_cast<Real>(m.depth / scene_.spacing), mark[1] = Real(1);
     }
-    operators.applyViscosity(*scene_.system, marks);
+    operators_.applyViscosity(*scene_.system, marks);
     kappa_.clear(), outward_.clear();
     for (const auto& near : scene_.bodies->groups().near)
-        kappa_.push_back(vector(operators.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
+        kappa_.push_back(vector(operators_.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
                          near.inverseDistance);
     for (const auto& m : members()) {
         const auto i = static_cast<std::size_t>(m.particle);
-        outward_.push_back(std::clamp(-vector(operators.force(), i)[1] / operators.viscousDiagonal(i), 0.0, 1.0));
+        outward_.push_back(std::clamp(-vector(operators_.force(), i)[1] / operators_.viscousDiagonal(i), 0.0, 1.0));
     }
 }
 
@@ -81,7 +81,7 @@ void RigidUnknowns<Real>::extrapolate(double h, Field& u) const {
 }
 
 template <class Real>
-void RigidUnknowns<Real>::addContinuation(const Field& u, RealArray& force) {
+void RigidUnknowns<Real>::addProduct(const Field& u, Forces& force) {
     reaction_.assign(bodies().size(), {});
     const auto& near = scene_.bodies->groups().near;
     for (std::size_t k = 0; k < near.size(); ++k) {

@@ -31,30 +31,34 @@
 #include <Eigen/Cholesky>
 
 #include "coupling/scene.hpp"
+#include "implicit/term.hpp"
 #include "sph/operators.hpp"
 
 namespace corpuscle::implicit {
 
 template <class Real>
-class RigidUnknowns {
+class RigidUnknowns final : public Term<Real> {
   public:
-    using Field = particles::AlignedVector<Real>;
+    using typename Term<Real>::Field;
+    using typename Term<Real>::Forces;
 
-    // onGrid: the preconditioner has a part that acts on particles of bodies (coarseGrid.hpp).
-    RigidUnknowns(coupling::Scene& scene, bool onGrid) : scene_(scene), onGrid_(onGrid) {}
+    // operators: built at x* before prepare. onGrid: the preconditioner has a part that acts on particles of bodies (coarseGrid.hpp).
+    RigidUnknowns(coupling::Scene& scene, sph::Operators<Real>& operators, bool onGrid)
+        : scene_(scene), operators_(operators), onGrid_(onGrid) {}
 
     std::size_t length() const { return perBody * bodies().size(); }  // what stands behind the particles
 
     // Places of bodies and of their particles: `seconds` on from the beginning of the step; back to it.
     void depart(double seconds);
     void takeBack();
-    // At x*, where lists and operators have been built. Collective.
-    void find(sph::Operators<Real>& operators);
+
+    // As a term: the continuation. It adds -kappa_i w_i to the fluid's forces; bodies get theirs in the next rows.
+    void prepare(double time) override;
+    void addForces(const Field& u, Forces& forces) override { addProduct(u, forces); }
+    void addProduct(const Field& u, Forces& forces) override;
 
     // First guess: the velocity extrapolated over h.
     void extrapolate(double h, Field& u) const;
-    // Adds -kappa_i w_i to the fluid's forces; bodies get theirs in the next product or residual.
-    void addContinuation(const Field& u, particles::RealArray& force);
     // Rows of bodies in A u, and in the residual of u.
     void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
     void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual) const;
@@ -108,6 +112,7 @@ class RigidUnknowns {
     void addUp(std::vector<sph::Wrench>& wrenches) const;
 
     coupling::Scene& scene_;
+    sph::Operators<Real>& operators_;
     bool onGrid_;
     std::vector<bodies::RigidState> saved_;         // at the beginning of the step
     std::vector<double> kappa_;                     // of groups().near [N s/m]

@@ -13,6 +13,22 @@ inline std::vector<sph::testing::Particle> still(const Index3& size, double diso
     return all;
 }
 
+// Off its lattice between walls that are on theirs, moving with the walls and the flow.
+template <class Flow>
+std::vector<sph::testing::Particle> sheared(const Index3& size, double jitter, const sph::Walls& walls, Flow&& flow) {
+    std::vector<sph::testing::Particle> all = sph::testing::lattice(size, jitter),
+                                        places = sph::testing::lattice(size, 0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        sph::testing::Particle& p = all[i];
+        const double z = places[i].x[2];
+        p.wall = z < walls.low || z > walls.high;
+        if (p.wall) p.x = places[i].x;
+        p.u = p.wall ? walls.velocity[walls.isUpper(p.x)] : flow(p.x);
+        p.density = p.mass = p.viscosity = 1;
+    }
+    return all;
+}
+
 struct FluidScene {
     Scene scene;
 

@@ -35,9 +35,9 @@ struct System {
     explicit System(const char* behaviour, double disorder = 0.15, bool onGrid = true)
         : sphere(SphereInFluid({12, 12, 12}, Vec3(3, 6, 11), behaviour, 2.5, disorder), 1),
           operators(sphere.scene.model(), *sphere.scene.system, sph::OperatorForm::corrected),
-          rigid(sphere.scene, onGrid) {
+          rigid(sphere.scene, operators, onGrid) {
         operators.build(*sphere.scene.system);
-        rigid.find(operators);
+        rigid.prepare(time);
         const auto diagonal = [&](std::size_t i) {
             return operators.viscousDiagonal(i) + time * 9 * operators.bulkDiagonal(i);
         };
@@ -61,7 +61,7 @@ struct System {
     }
     Field times(const Field& u) {
         operators.apply(*sphere.scene.system, u, [](std::size_t, double rate) { return -time * 9 * rate; });
-        rigid.addContinuation(u, operators.force());
+        rigid.addProduct(u, operators.force());
         Field w(u.size(), 0.0);
         for (std::size_t k = 0; k < 4 * size(); ++k) w[k] = c1 * u[k] - operators.force()[k];
         rigid.putProduct(c1, u, operators.force(), w);

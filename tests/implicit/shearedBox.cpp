@@ -10,7 +10,6 @@ using namespace corpuscle;
 using namespace corpuscle::implicit;
 using coupling::testing::FluidScene;
 using particles::ParticleStore;
-using sph::testing::Particle;
 
 namespace {
 
@@ -30,21 +29,9 @@ struct ShearedBox : FluidScene {
         m.walls = {2, low, low + gap, {velocity({0, 0, low}), velocity({0, 0, low + gap})}};
         return m;
     }
-    // Fluid off its lattice, walls on theirs.
-    static std::vector<Particle> particles(const sph::Walls& walls) {
-        std::vector<Particle> all = sph::testing::lattice(size, jitter), places = sph::testing::lattice(size, 0);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const double z = places[i].x[2];
-            all[i].wall = z < low || z > low + gap;
-            if (all[i].wall) all[i].x = places[i].x;
-            all[i].u = all[i].wall ? walls.velocity[walls.isUpper(all[i].x)] : velocity(all[i].x);
-            all[i].density = all[i].mass = all[i].viscosity = 1;
-        }
-        return all;
-    }
-
     ShearedBox()
-        : FluidScene(particles(model().walls), size, model(), rate, 0, MPI_COMM_WORLD, particles::Precision::full) {
+        : FluidScene(coupling::testing::sheared(size, jitter, model().walls, velocity), size, model(), rate, 0,
+                     MPI_COMM_WORLD, particles::Precision::full) {
         scene.fluidBox.low[2] = low, scene.fluidBox.high[2] = low + gap;
         scene.flow.shearRate = rate;
         scene.flow.velocity = velocity;

@@ -14,7 +14,6 @@ using namespace corpuscle;
 using namespace corpuscle::implicit;
 using coupling::testing::FluidScene;
 using particles::ParticleStore;
-using sph::testing::Particle;
 
 namespace {
 
@@ -37,15 +36,8 @@ Inclusion measure(int radius, double lambda) {
     const double low = layers, high = layers + length;
     model.walls = {2, low, high, {flow({0, 0, low}), flow({0, 0, high})}};
 
-    std::vector<Particle> all = sph::testing::lattice(size, jitter), places = sph::testing::lattice(size, 0);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const double z = places[i].x[2];
-        all[i].wall = z < low || z > high;
-        if (all[i].wall) all[i].x = places[i].x;
-        all[i].u = all[i].wall ? model.walls.velocity[model.walls.isUpper(all[i].x)] : flow(all[i].x);
-        all[i].density = all[i].mass = 1;
-        all[i].viscosity = (all[i].x - centre).norm() < radius ? lambda : 1;
-    }
+    auto all = coupling::testing::sheared(size, jitter, model.walls, flow);
+    for (auto& p : all) p.viscosity = (p.x - centre).norm() < radius ? lambda : 1;
     ParticleStore::Optional fields;
     fields.viscosity = true;
     FluidScene f(all, size, model, rate, 0, MPI_COMM_WORLD, particles::Precision::full, fields);

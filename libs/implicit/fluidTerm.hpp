@@ -1,0 +1,60 @@
+// The fluid's term: viscosity, and pressure with the stiffness of the bulk.
+//
+//     load = D^T V p^n,   A = L + time D^T V K D,   K = rho c^2
+// By the operators of sph/operators.hpp, which see walls and bodies as well. It sets the forces that other terms add to.
+#pragma once
+#include "coupling/conjugate.hpp"
+#include "coupling/scene.hpp"
+#include "implicit/term.hpp"
+#include "sph/operators.hpp"
+
+namespace corpuscle::implicit {
+
+template <class Real>
+class FluidTerm final : public Term<Real> {
+  public:
+    using typename Term<Real>::Field;
+    using typename Term<Real>::Forces;
+
+    FluidTerm(const coupling::Scene& scene, sph::OperatorForm form)
+        : scene_(scene), operators_(scene.model(), *scene.system, form) {}
+
+    void prepare(double time) override {
+        operators_.build(*scene_.system);
+        coupling::findPressures(scene_, pressure_);
+        const sph::FluidModel& model = scene_.model();
+        stiffness_.resize(pressure_.size());
+        for (std::size_t i = 0; i < stiffness_.size(); ++i)
+            stiffness_[i] =
+                time * model.equationOfState->bulkModulus(scene_.store().density[i], model.density, model.soundSpeed);
+    }
+    void addForces(const Field& v, Forces& forces) override {
+        operators_.apply(*scene_.system, v,
+                         [&](std::size_t i, double rate) { return pressure_[i] - stiffness_[i] * rate; });
+        give(forces);
+    }
+    void addProduct(const Field& v, Forces& forces) override {
+        operators_.apply(*scene_.system, v, [&](std::size_t i, double rate) { return -stiffness_[i] * rate; });
+        give(forces);
+    }
+    double diagonal(std::size_t i) const override {
+        return operators_.viscousDiagonal(i) + stiffness_[i] * operators_.bulkDiagonal(i);
+    }
+
+    sph::Operators<Real>& operators() { return operators_; }
+    const sph::Operators<Real>& operators() const { return operators_; }
+    double pressure(std::size_t i) const { return pressure_[i]; }  // at the beginning of the step [Pa]
+
+  private:
+    void give(Forces& forces) {
+        forces.resize(operators_.force().size());  // what goes to the operators must be as long
+        forces.swap(operators_.force());
+    }
+
+    const coupling::Scene& scene_;
+    sph::Operators<Real> operators_;
+    particles::RealArray pressure_;
+    std::vector<double> stiffness_;  // time K [Pa s]
+};
+
+}  // namespace corpuscle::implicit

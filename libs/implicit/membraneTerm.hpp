@@ -1,0 +1,56 @@
+// The membranes' term, through the immersed coupling (coupling/immersed.hpp):
+//
+//     load = S^T P (f(x*) + time k u_m),   A = S^T P (time k + C) P S
+//
+// symbol | meaning
+// S, P   | interpolation to the nodes, with the volume of closed cells kept
+// f, k   | elastic force of the membranes, and its stiffness
+// C      | damping by the membrane's own viscosity
+// u_m    | velocity of the nodes with which they came to x*
+//
+// Its diagonal is left out: blocks of the membrane make the preconditioner worse, because near it they hold back all that is not smooth
+// along it (docs/implicit.md, Figures); membraneCorrection.hpp has it in full.
+#pragma once
+#include "coupling/immersed.hpp"
+#include "implicit/implicitSettings.hpp"
+#include "implicit/term.hpp"
+
+namespace corpuscle::implicit {
+
+template <class Real>
+class MembraneTerm final : public Term<Real> {
+  public:
+    using typename Term<Real>::Field;
+    using typename Term<Real>::Forces;
+    using Vectors = coupling::Immersed::Vectors;
+
+    // volumes: of the particles, as they are at x*. All must stay where they are.
+    MembraneTerm(coupling::Immersed& immersed, const particles::ParticleSystem& system,
+                 const std::vector<double>& volumes, const ImplicitSettings& settings)
+        : immersed_(immersed), system_(system), volumes_(volumes), settings_(settings) {}
+
+    void prepare(double time) override;
+    void addForces(const Field& v, Forces& forces) override;
+    void addProduct(const Field& v, Forces& forces) override;
+    std::string refusal(const Field& v, double dt) override;  // a bond would change by more than the settings allow
+    bool isLinear() const override { return false; }
+    void addDefect(Forces& forces) override;
+    void takeDefect() override;
+    double power(const Field& v, const Field& w) override;
+
+    // Of all nodes, for the velocity last given to addForces or refusal.
+    const Vectors& velocities() const { return nodes_; }
+
+  private:
+    coupling::Immersed& immersed_;
+    const particles::ParticleSystem& system_;
+    const std::vector<double>& volumes_;
+    const ImplicitSettings& settings_;
+    double time_ = 0;
+    Vectors load_, defect_, nodes_;
+};
+
+extern template class MembraneTerm<double>;
+extern template class MembraneTerm<float>;
+
+}  // namespace corpuscle::implicit

@@ -1,0 +1,45 @@
+// What acts on the fluid, as one term of the implicit system (implicitStep.hpp). At the places x* in the middle of the step its force on the
+// particles is linear in their velocity,
+//
+//     force(v) = load - A v,      A symmetric and positive semi-definite
+// and the step asks of it no more than these, and the diagonal of A for the preconditioner. What is not linear is looked at again with the
+// velocity found: the defect is its force at the places that this velocity leads to, less the linear one.
+//
+// A scene has the terms of what is in it, and none of what is not. The first is that of the fluid, which sets the forces; others add to
+// them. Walls and bodies with given motions need none: their rows and columns are taken out, and what acts on them is read off there.
+//
+// To add one: derive from Term, with a test that A is symmetric and semi-definite, and put it into Step's list.
+#pragma once
+#include <string>
+
+#include "particles/particleStore.hpp"
+
+namespace corpuscle::implicit {
+
+template <class Real>
+class Term {
+  public:
+    using Field = particles::AlignedVector<Real>;  // four numbers a particle
+    using Forces = particles::RealArray;           // the same [N]
+
+    virtual ~Term() = default;
+
+    // At x*, where lists are up to date; time: dt/2, or dt where the step is of backward Euler [s]. Collective.
+    virtual void prepare(double time) = 0;
+    // forces += load - A v, and forces -= A v. Collective.
+    virtual void addForces(const Field& v, Forces& forces) = 0;
+    virtual void addProduct(const Field& v, Forces& forces) = 0;
+    // Of A [N s/m], as a multiple of the unit matrix. 0 leaves it to the preconditioner to know better.
+    virtual double diagonal(std::size_t) const { return 0; }
+
+    // Of the velocity found: why a step of dt with it is too long; empty where it is not. The same on all ranks. Collective.
+    virtual std::string refusal(const Field&, double /*dt*/) { return {}; }
+    // Terms that are not linear: forces += defect; what is solved for then belongs to the load. Collective.
+    virtual bool isLinear() const { return true; }
+    virtual void addDefect(Forces&) {}
+    virtual void takeDefect() {}
+    // w.(load - A v) [W] where it is not in the fluid's account: energy that the flow v gives to the disturbance w. The same on all ranks.
+    virtual double power(const Field& /*v*/, const Field& /*w*/) { return 0; }
+};
+
+}  // namespace corpuscle::implicit

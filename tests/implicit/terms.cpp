@@ -1,0 +1,132 @@
+// Terms of the implicit system: symmetric and semi-definite, linear about their load; the defect of the membranes, and the step they refuse.
+// Lengths in spacings, density 1.
+#include <gtest/gtest.h>
+
+#include "coupling/fluidScene.hpp"
+#include "coupling/sphereScene.hpp"
+#include "implicit/fluidTerm.hpp"
+#include "implicit/membraneTerm.hpp"
+
+using namespace corpuscle;
+using namespace corpuscle::implicit;
+using particles::ParticleStore;
+using particles::RealArray;
+
+namespace {
+
+constexpr double duration = 0.2;
+using Field = Term<double>::Field;
+
+// Numbers that do not depend on ranks.
+Field field(const ParticleStore& s, unsigned seed, double size) {
+    Field v(4 * s.size(), 0.0);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        std::mt19937_64 random(seed + 7919 * static_cast<unsigned>(s.id[i]));
+        std::uniform_real_distribution<double> d(-size, size);
+        for (std::size_t k = 0; k < 3; ++k) v[4 * i + k] = d(random);
+    }
+    return v;
+}
+
+double product(const Field& a, const RealArray& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    return sph::testing::sumOverRanks(sum);
+}
+
+RealArray times(Term<double>& term, const Field& v) {  // -A v
+    RealArray forces(v.size(), 0.0);
+    term.addProduct(v, forces);
+    return forces;
+}
+
+void expectSymmetricAndLinear(Term<double>& term, const ParticleStore& s) {
+    const Field v = field(s, 1, 1e-3), w = field(s, 2, 1e-3), none(v.size(), 0.0);
+    const RealArray Av = times(term, v), Aw = times(term, w);
+    const double cross = product(w, Av), own = product(v, Av);
+    EXPECT_NEAR(product(v, Aw), cross, 1e-12 * std::abs(own));
+    EXPECT_LT(own, 0);
+    EXPECT_GT(std::abs(cross), 1e-6 * std::abs(own)) << "a sum that vanishes shows nothing";
+    RealArray load(v.size(), 0.0), forces(v.size(), 0.0);
+    term.addForces(none, load), term.addForces(v, forces);
+    double worst = 0, largest = 0;
+    for (std::size_t k = 0; k < v.size(); ++k)
+        worst = std::max(worst, std::abs(forces[k] - load[k] - Av[k])), largest = std::max(largest, std::abs(Av[k]));
+    EXPECT_LE(worst, 1e-11 * largest);
+}
+
+struct Membranes : coupling::testing::SphereScene {
+    coupling::Immersed immersed;
+    std::vector<double> volumes;
+    ImplicitSettings settings;
+    MembraneTerm<double> term;
+
+    Membranes()
+        : SphereScene({10, 10, 10}, {Vec3(5, 5, 5)}, true),
+          immersed(cells, 1),
+          volumes(system->store().size(), 1.0),
+          term(immersed, *system, volumes, settings) {
+        for (Vec3& x : cells[0].membrane.position) x[0] += 0.05 * (x[0] - 5);
+        cells[0].initialVolume = cells[0].membrane.volume();
+        term.prepare(duration);
+    }
+    Field stretching(double rate) const {
+        const ParticleStore& s = system->store();
+        Field v(4 * s.size(), 0.0);
+        for (std::size_t i = 0; i < s.size(); ++i) v[4 * i] = rate * (s.x[i] - 5), v[4 * i + 2] = -rate * (s.z[i] - 5);
+        return v;
+    }
+    // Largest force of the defect when nodes have moved by `strain`, of the velocity `strain/duration`.
+    double defect(double strain) {
+        EXPECT_EQ(term.refusal(stretching(strain / duration), 0), "");
+        RealArray forces(4 * system->store().size(), 0.0);
+        term.addDefect(forces);
+        double largest = 0;
+        for (const double f : forces) largest = std::max(largest, std::abs(f));
+        MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+        return largest;
+    }
+};
+
+}  // namespace
+
+TEST(Terms, fluidIsSymmetricAndLinear) {
+    const Index3 size{8, 8, 10};
+    coupling::testing::FluidScene f(coupling::testing::still(size, 0.2), size,
+                                    sph::testing::model("wendlandC2", "linear"), 1e-4, 0, MPI_COMM_WORLD,
+                                    particles::Precision::full);
+    FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
+    term.prepare(duration);
+    expectSymmetricAndLinear(term, f.scene.store());
+    EXPECT_TRUE(term.isLinear());
+    for (std::size_t i = 0; i < f.scene.store().size(); ++i) EXPECT_GT(term.diagonal(i), 0);
+}
+
+TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
+    Membranes m;
+    expectSymmetricAndLinear(m.term, m.system->store());
+    EXPECT_FALSE(m.term.isLinear());
+    const Field v = m.stretching(0.01), w = field(m.system->store(), 3, 1e-3);
+    RealArray forces(v.size(), 0.0);
+    m.term.addForces(v, forces);
+    EXPECT_NEAR(m.term.power(v, w), product(w, forces), 1e-10 * std::abs(product(w, forces)));
+}
+
+// What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise stiffness leaves out
+// parts that are not definite, so the defect has a part of first order too (membrane/stiffness.hpp), small beside the force.
+TEST(Terms, defectOfMembranesGoesWithTheDisplacement) {
+    Membranes m;
+    const double small = m.defect(0.001), large = m.defect(0.1);
+    EXPECT_GT(small, 0);
+    EXPECT_GT(large, 100 * small);
+    m.defect(0.1);
+    m.term.takeDefect();
+    EXPECT_LT(m.defect(0.1), 1e-12) << "what has been taken into the load is no defect any more";
+}
+
+TEST(Terms, membranesRefuseAStepThatStretchesABondTooFar) {
+    Membranes m;
+    const Field v = m.stretching(1);
+    EXPECT_EQ(m.term.refusal(v, 0.05), "");
+    EXPECT_NE(m.term.refusal(v, 0.2).find("bondStrain"), std::string::npos);
+}
