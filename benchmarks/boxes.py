@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How box and resolution matter: the capsule and the red cell of the tutorials in boxes of several sizes, against boundary elements.
+"""How box, resolution and coupling matter: the capsule and the red cell of the tutorials in boxes of several sizes, against boundary elements.
 
     boxes.py BIN DIRECTORY [NAME ...] [-np 2]     BIN: directory of the programs; NAME: rows to run, all without
 
@@ -22,7 +22,10 @@ from summary import series, strainOfTurn
 CAPSULE = ("capsuleShear", "capsule", "/implicit/step=0.05")
 RED02 = ("rbcShear/Ca0.02", "rbc", "/implicit/step=0.1")
 RED002 = ("rbcShear/Ca0.002", "rbc", "/implicit/step=0.1")
-RUNS = {  # tutorial; spacings in a radius, box, strain
+FASTER = "constant/flow.yaml:/inertia={Re: 0.1}"  # what velocity Verlet can afford
+VERLET, PLAIN = "system/numerics.yaml:/integrator=velocityVerlet", "system/numerics.yaml:/operators=plain"
+DUAL = ("system/numerics.yaml:/coupling=dualIdentity", "system/numerics.yaml:/kernel/support=3 dx")
+RUNS = {  # tutorial, cell, step; spacings in a radius, box, strain, other settings
     "capsule8box5": (*CAPSULE, 8, (5, 5, 5), 5),
     "capsule8box8": (*CAPSULE, 8, (6, 6, 8), 5),
     "capsule8box12": (*CAPSULE, 8, (6, 6, 12), 5),
@@ -31,6 +34,10 @@ RUNS = {  # tutorial; spacings in a radius, box, strain
     "capsule12box12": (*CAPSULE, 12, (6, 6, 12), 5),
     "capsule16box5": (*CAPSULE, 16, (5, 5, 5), 5),
     "capsule8box5to30": (*CAPSULE, 8, (5, 5, 5), 30),
+    "capsule8box5implicit": (*CAPSULE, 8, (5, 5, 5), 3, FASTER),
+    "capsule8box5plain": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, PLAIN),
+    "capsule8box5verlet": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, VERLET),
+    "capsule8box5dualIdentity": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, VERLET, PLAIN, *DUAL),
     "red8box4": (*RED02, 8, (5, 4, 4), 22),
     "red8box8": (*RED02, 8, (6, 6, 8), 22),
     "red8box12": (*RED02, 8, (6, 6, 12), 22),
@@ -43,10 +50,10 @@ REFERENCES = {"capsuleShear": "capsuleShear/reference.csv", "rbcShear/Ca0.02": "
               "rbcShear/Ca0.002": "rbcShear/reference/Ca0.002.csv"}
 
 
-def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain):
+def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain, *settings):
     options = prepare(case, binaries, tutorial, [
         *sized([length * RADIUS for length in box], RADIUS / perRadius), "system/numerics.yaml:" + step,
-        f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}"])
+        f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}", *settings])
     subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, *options], check=True,
                    env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
 
@@ -63,7 +70,7 @@ def at(table, strain, key):
     return math.nan
 
 
-def describe(name, case, tutorial, cell, step, perRadius, box, strain):
+def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings):
     record = json.loads((case / "run.json").read_text())
     shape, balance = series(case, "deformation", "*.csv"), series(case, "balance", "conservation.csv")
     reference = rows(TUTORIALS / REFERENCES[tutorial])
@@ -77,9 +84,10 @@ def describe(name, case, tutorial, cell, step, perRadius, box, strain):
         error = f"{max(abs(row['D12_inertia'] - at(reference, row['strain'], 'D12_inertia')) for row in shape if row['strain'] <= reference[-1]['strain']):.4f}"
     volume = max(abs(row[f"{cell}_volumeChange"]) for row in balance)
     density = max(abs(row["density_mean"] / balance[0]["density_mean"] - 1) for row in balance)
-    crossed = max(row["changedSide"] for row in balance)
+    crossed = max(row["changedSide"] for row in balance) + balance[-1]["guardMoves"]
+    stress = [row["effectiveViscosity"] for row in series(case, "wall", "wallStress.csv") if row["strain"] > strain - 1]
     particles = record["parameters"]["particles"]
-    return (f"| {name} | {perRadius} | {' x '.join(map(str, box))} | {particles} | {result} | {error} | {crossed:.0f} | {volume:.0e} | {density:.0e} | "
+    return (f"| {name} | {perRadius} | {' x '.join(map(str, box))} | {particles} | {result} | {error} | {crossed:.0f} | {volume:.0e} | {density:.0e} | {sum(stress) / len(stress):.4f} | "
             f"{performance['iterationsPerStep']:.1f} | {performance['processorSeconds'] / shape[-1]['strain']:.1f} |")
 
 
@@ -92,8 +100,8 @@ if __name__ == "__main__":
             sys.exit(f"boxes.py: no row '{name}'; there are {', '.join(RUNS)}")
     directory = pathlib.Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    print("| row | spacings in a radius | box | particles | D12 by inertia | against boundary elements | crossed | volume | mean density | iterations a step | core-seconds a strain |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| row | spacings in a radius | box | particles | D12 by inertia | against boundary elements | crossed or put back | volume | mean density | wall stress, mu gammadot | iterations a step | core-seconds a strain |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for name, row in RUNS.items():
         case = directory / name
         ended = (case / "run.json").exists() and json.loads((case / "run.json").read_text())["status"] == "done"
