@@ -85,7 +85,6 @@ Case Case::read(const Application& app) {
     c.throwIfAny(problems);
     c.written = c.numerics;
     c.numerics = schemeOf(c, c.written.integrator);
-    c.mesh.fill.jitter = jitterOf(c);
     checkTogether(c, problems);
     c.throwIfAny(problems);
 
@@ -109,6 +108,7 @@ Case Case::read(const Application& app) {
         c.numerics = schemeOf(c, cheapest(predictCosts(c)));
         c.integratorChosen = true;
     }
+    c.mesh.fill.jitter = jitterOf(c);
     for (auto& [file, table] : c.effective)
         if (file == "system/numerics.yaml")
             table = write(c.numerics);

@@ -101,7 +101,7 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                   {.fallback = "automatic"})
             .word("coupling", &NumericsSettings::coupling, {"automatic", "dualIdentity", "immersed"},
                   "coupling of fluid and membrane: nodes are particles, or lie in the fluid between them; automatic: "
-                  "immersed, dualIdentity beside rigid bodies",
+                  "immersed; beside rigid bodies dualIdentity where the integrator is not implicit",
                   {.fallback = "automatic"})
             .word("operators", &NumericsSettings::operators, {"automatic", "plain", "corrected"},
                   "form of the pair operators: of the kernel alone, or exact for linear fields; automatic: corrected "

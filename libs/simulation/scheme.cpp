@@ -4,8 +4,7 @@ namespace corpuscle::simulation {
 
 namespace {
 
-std::string couplingOf(const Case& c) {
-    const NumericsSettings& n = c.written;
+std::string couplingOf(const Case& c, const NumericsSettings& n) {
     if (n.coupling != "automatic") return n.coupling;
     return c.mesh.bodies.empty() || n.isImplicit() ? "immersed" : "dualIdentity";
 }
@@ -15,7 +14,7 @@ std::string couplingOf(const Case& c) {
 NumericsSettings schemeOf(const Case& c, const std::string& integrator) {
     NumericsSettings n = c.written;
     n.integrator = integrator;
-    n.coupling = couplingOf(c);
+    n.coupling = couplingOf(c, n);
     const bool immersed = n.isImmersed() && !c.mesh.cells.empty() && c.mesh.bodies.empty();
     if (n.operators == "automatic") n.operators = n.isImplicit() || (immersed && !n.isRkl2()) ? "corrected" : "plain";
     const auto file = c.files.find("system/numerics.yaml");

@@ -1,7 +1,7 @@
 // What `automatic` and absent keys of system/numerics.yaml and system/mesh.yaml stand for.
 //
 // key        | stands for
-// coupling   | immersed; dualIdentity beside rigid bodies, unless the integrator is named implicit
+// coupling   | immersed; beside rigid bodies dualIdentity unless the integrator, named or chosen, is implicit
 // integrator | the cheapest of those that can do the case (cost.hpp)
 // operators  | corrected with immersed membranes (not beside rigid bodies) and with the implicit step, plain otherwise
 // shifting   | absent: {coefficient: 1} with corrected operators, none otherwise

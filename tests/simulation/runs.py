@@ -499,7 +499,7 @@ def test_automatic(folder):
     said = predicted(make(folder / "immersed", IMPLICIT_CASE), *automatic)
     assert said["integrator"] == "implicit", said
     # A case that names no scheme: at low Reynolds number one implicit step on corrected operators with immersed membranes; beside rigid
-    # bodies membranes of particles.
+    # bodies velocity Verlet has membranes of particles.
     def settled(name, files, application, numerics, **changes):
         case = prepared(folder / name, files, **{"system/numerics.yaml": numerics}, **changes)
         run(case, application, "-steps", "1")
@@ -512,6 +512,10 @@ def test_automatic(folder):
     assert {"integrator: velocityVerlet", "coupling: immersed", "operators: corrected", "coefficient: 1"} <= set(used), used
     used = settled("bodies", BODY_CASE, "dmpFlow", "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\n")
     assert {"integrator: velocityVerlet", "coupling: dualIdentity", "operators: plain", "shifting: none"} <= set(used), used
+    used = settled("inclusion", INCLUSION_CASE, "dmpFlow", "spacing: 0.6 um\n")
+    assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1", "jitter: 0.1"} <= set(used), used
+    used = settled("inclusionByVerlet", INCLUSION_CASE, "dmpFlow", "spacing: 0.6 um\nintegrator: velocityVerlet\n")
+    assert {"integrator: velocityVerlet", "coupling: dualIdentity", "operators: plain", "jitter: 0"} <= set(used), used
     used = settled("fluid", FLUID_CASE, "sphFlow", "spacing: 62.5 um\nintegrator: implicit\n")
     assert {"operators: corrected", "coefficient: 1"} <= set(used), used
 
