@@ -88,7 +88,7 @@ def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings
     stress = [row["effectiveViscosity"] for row in series(case, "wall", "wallStress.csv") if row["strain"] > strain - 1]
     particles = record["parameters"]["particles"]
     return (f"| {name} | {perRadius} | {' x '.join(map(str, box))} | {particles} | {result} | {error} | {crossed:.0f} | {volume:.0e} | {density:.0e} | {sum(stress) / len(stress):.4f} | "
-            f"{performance['iterationsPerStep']:.1f} | {performance['processorSeconds'] / shape[-1]['strain']:.1f} |")
+            f"{performance.get('iterationsPerStep', 0):.1f} | {performance['processorSeconds'] / shape[-1]['strain']:.1f} |")
 
 
 if __name__ == "__main__":

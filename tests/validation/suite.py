@@ -1,0 +1,244 @@
+"""What cases of validation share: runs, figures, curves, records, tables and plots.
+
+A case is a folder with case.py, README.md (the page) and references. case.py has
+    TITLE, ACROSS        a line for tables; what a resolution counts ("particles across the gap")
+    RESOLUTIONS          coarse to fine; ./Alltest runs the first
+    runs(n)              list of Run: what is run at n
+    figures(done, n)     list of Figure, from the folders of these runs, by their names
+    curves(done)         Plot of the finest resolution that has been run; done as for figures
+"""
+import csv
+import datetime
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+from dataclasses import asdict, dataclass, field
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+TUTORIALS = ROOT / "tutorials"
+sys.path.insert(0, str(TUTORIALS))
+MARKS = ("<!-- results: written by validate -record -->", "<!-- end of results -->")
+
+
+@dataclass
+class Run:
+    """A case: copied from `source` (a folder with system and constant), changed by `settings` (FILE:/path=value), run by `programs`."""
+    name: str
+    source: pathlib.Path
+    settings: list
+    programs: tuple  # the last one is the solver, run on several ranks; others may be functions of the folder
+
+
+@dataclass
+class Figure:
+    """One comparison: |error| must be within `allowed`, both in `unit`. Value and reference are shown where there is one of each."""
+    name: str
+    error: float
+    allowed: float
+    unit: str = "%"
+    value: float | None = None
+    reference: float | None = None
+    order: bool = False  # an error that should fall with the resolution: its observed order is shown
+
+    def holds(self):
+        return abs(self.error) <= self.allowed  # false of nan
+
+
+def relative(name, value, reference, allowed, **more):
+    """Figure of a value in per cent of its reference."""
+    return Figure(name, 100 * (value / reference - 1), allowed, "%", value, reference, **more)
+
+
+@dataclass
+class Plot:
+    xlabel: str
+    ylabel: str
+    ours: list  # (title, xs, ys), drawn as points
+    theirs: list  # the same, drawn as lines
+    extra: list = field(default_factory=list)  # commands of gnuplot
+
+
+def rows(path):
+    """Of a table with a header; lines that open with # are left out."""
+    with open(path) as text:
+        lines = (line for line in text if not line.startswith("#"))
+        return [{key: float(value) if value else math.nan for key, value in row.items()} for row in csv.DictReader(lines)]
+
+
+def at(table, x, value, key="strain"):
+    """Column `value` between the rows around key = x, or the function `value` of a row; nan outside."""
+    of = value if callable(value) else lambda row: row[value]
+    for a, b in zip(table, table[1:]):
+        if a[key] - 1e-9 <= x <= b[key] + 1e-9:
+            return of(a) + (x - a[key]) / (b[key] - a[key]) * (of(b) - of(a))
+    return math.nan
+
+
+def module(path, name):
+    """A Python file by its path: the compare.py of a tutorial."""
+    import importlib.util
+
+    spec = importlib.util.spec_from_file_location(name, path)
+    loaded = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(loaded)
+    return loaded
+
+
+def names():
+    return sorted(path.parent.name for path in HERE.glob("*/case.py"))
+
+
+def load(name):
+    return module(HERE / name / "case.py", name)
+
+
+def execute(run, folder, binaries, ranks):
+    """Runs what has not ended yet; a stopped run goes on. Other settings start afresh. Returns run.json."""
+    wanted = json.dumps([run.settings, [getattr(program, "__name__", program) for program in run.programs], str(run.source)])
+    note, record = folder / "settings.json", folder / "run.json"
+    if folder.exists() and (not note.exists() or note.read_text() != wanted):
+        shutil.rmtree(folder)
+    options = ["-quiet", "-case", str(folder), *(word for setting in run.settings for word in ("-set", setting))]
+    environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                   "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+    if not note.exists():
+        for part in ("system", "constant"):
+            shutil.copytree(run.source / part, folder / part, dirs_exist_ok=True)
+        for program in run.programs[:-1]:
+            if callable(program):
+                program(folder)
+            else:
+                subprocess.run([binaries / program, *options], check=True, stdout=subprocess.DEVNULL)
+        note.write_text(wanted)
+    if not record.exists() or json.loads(record.read_text())["status"] != "done":
+        subprocess.run(["mpirun", "-np", str(ranks), binaries / run.programs[-1], *options], check=True, env=environment)
+    return json.loads(record.read_text())
+
+
+def validate(name, n, binaries, ranks, work, settings=()):
+    """Runs a case at a resolution, with settings of its own if need be. Returns its record and the folders of its runs."""
+    case, done, particles, seconds = load(name), {}, 0, 0.0
+    for run in case.runs(n):
+        run.settings = [*run.settings, *settings]
+        done[run.name] = work / name / str(n) / run.name
+        record = execute(run, done[run.name], binaries, ranks)
+        particles = max(particles, record["parameters"]["particles"])
+        seconds += record["performance"]["processorSeconds"]
+    found = case.figures(done, n)
+    return {"resolution": n, "particles": particles, "coreSeconds": round(seconds, 1), "ranks": ranks, "machine": machine(),
+            "date": datetime.date.today().isoformat(), "figures": [asdict(figure) for figure in found]}, done
+
+
+def machine():
+    command = f'. "{ROOT}/etc/functions.sh"; machine'
+    return subprocess.run(["bash", "-c", f"root={ROOT}; {command}"], check=True, capture_output=True, text=True).stdout.strip()
+
+
+def holds(figure):
+    return Figure(**figure).holds()
+
+
+def shown(value, digits=4):
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+def error(figure):
+    unit = figure["unit"]
+    space = "" if unit in ("", "degrees") else " "
+    return f"{figure['error']:+.2g}{space}{'' if unit == 'degrees' else unit}{' deg' if unit == 'degrees' else ''}"
+
+
+def report(record):
+    """For the terminal."""
+    for figure in record["figures"]:
+        pair = f"{shown(figure['value'])} against {shown(figure['reference'])}" if figure["reference"] is not None else ""
+        word = "within" if holds(figure) else "OUTSIDE"
+        print(f"  {figure['name']:58s} {pair:26s} {error(figure):>12s}  {word} {figure['allowed']:.3g} {figure['unit']}")
+    print(f"  {record['particles']:.0f} particles, {record['coreSeconds']:g} core-seconds")
+
+
+def orders(records):
+    """Observed order between neighbouring resolutions of figures that have one, by name: the list of them."""
+    found = {}
+    for one, two in zip(records, records[1:]):
+        finer = {figure["name"]: figure for figure in two["figures"]}
+        for figure in one["figures"]:
+            other = finer.get(figure["name"])
+            if figure["order"] and other and other["error"]:
+                ratio = two["resolution"] / one["resolution"]
+                found.setdefault(figure["name"], []).append(math.log(abs(figure["error"] / other["error"])) / math.log(ratio))
+    return found
+
+
+def recorded(name):
+    path = HERE / name / "results.json"
+    return json.loads(path.read_text()) if path.exists() else []
+
+
+def table(case, records):
+    """Errors of every figure over the resolutions, with order and cost."""
+    head = [f"{case.ACROSS}", *(str(r["resolution"]) for r in records)]
+    lines = ["| " + " | ".join([*head, "order", "allowed at the finest"]) + " |", "|" + "---|" * (len(head) + 2)]
+    observed = orders(records)
+    names_ = list(dict.fromkeys(figure["name"] for record in records for figure in record["figures"]))
+    for name in names_:
+        cells, last = [], None
+        for record in records:
+            here = [figure for figure in record["figures"] if figure["name"] == name]
+            cells.append(error(here[0]) + ("" if holds(here[0]) else " **outside**") if here else "")
+            last = here[0] if here else last
+        order = ", ".join(f"{value:.1f}" for value in observed.get(name, []))
+        reference = f" ({shown(last['reference'])})" if last["reference"] is not None else ""
+        lines.append("| " + " | ".join([name + reference, *cells, order, f"{last['allowed']:.3g} {last['unit']}"]) + " |")
+    lines.append("| " + " | ".join(["particles", *(f"{r['particles']:.0f}" for r in records), "", ""]) + " |")
+    lines.append("| " + " | ".join(["core-seconds", *(f"{r['coreSeconds']:g}" for r in records), "", ""]) + " |")
+    return "\n".join(lines)
+
+
+def keep(name, record, plot):
+    """Puts a record into the case's results.json, its page and its plot, and writes RESULTS.md anew."""
+    records = [other for other in recorded(name) if other["resolution"] != record["resolution"]] + [record]
+    records.sort(key=lambda other: other["resolution"])
+    (HERE / name / "results.json").write_text(json.dumps(records, indent=1) + "\n")
+    if record is records[-1]:
+        draw(plot, HERE / name / "plot.png")
+    page = HERE / name / "README.md"
+    before, rest = page.read_text().split(MARKS[0])
+    after = rest.split(MARKS[1])[1]
+    runs = "; ".join(sorted({f"{r['machine']}, {r['ranks']} rank{'s' if r['ranks'] > 1 else ''}, {r['date']}" for r in records}))
+    page.write_text(f"{before}{MARKS[0]}\n\n{table(load(name), records)}\n\n`validate {name} -resolution n`; {runs}.\n\n{MARKS[1]}{after}")
+    results()
+
+
+def results():
+    lines = ["# Validation: what has been run", "",
+             "Each case has a page in its folder. Errors at the finest resolution run; written by `validate CASE -record`.", "",
+             "| case | resolution | figure | error | allowed | core-seconds | date, machine |", "|---|---|---|---|---|---|---|"]
+    for name in names():
+        records, case = recorded(name), load(name)
+        if not records:
+            continue
+        last = records[-1]
+        for k, figure in enumerate(last["figures"]):
+            first = [f"[{case.TITLE}]({name}/README.md)", f"{last['resolution']} {case.ACROSS}"] if k == 0 else ["", ""]
+            end = [f"{last['coreSeconds']:g}", f"{last['date']}, {last['machine']}"] if k == 0 else ["", ""]
+            word = "" if holds(figure) else " **outside**"
+            lines.append("| " + " | ".join([*first, figure["name"], error(figure) + word, f"{figure['allowed']:.3g} {figure['unit']}", *end]) + " |")
+    (HERE / "RESULTS.md").write_text("\n".join(lines) + "\n")
+
+
+def draw(plot, path):
+    """Ours as points, theirs as lines, by gnuplot."""
+    blocks, parts = [], []
+    for k, (title, xs, ys, style) in enumerate([(*c, "lines lw 2") for c in plot.theirs] + [(*c, "points pt 7 ps 0.6") for c in plot.ours]):
+        blocks.append(f"$d{k} << E\n" + "\n".join(f"{x:.8g} {y:.8g}" for x, y in zip(xs, ys)) + "\nE")
+        colour = k % len(plot.theirs) + 1 if len(plot.theirs) == len(plot.ours) else k + 1
+        parts.append(f"$d{k} with {style} lc {colour} " + (f"title '{title}'" if title else "notitle"))
+    script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'",
+                        f"set xlabel '{plot.xlabel}'", f"set ylabel '{plot.ylabel}'", *plot.extra, *blocks, "plot " + ", ".join(parts)])
+    subprocess.run(["gnuplot"], input=script + "\n", text=True, check=True)
