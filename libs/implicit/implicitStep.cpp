@@ -51,7 +51,12 @@ class Step final : public ImplicitStep {
         isLinear_ = std::all_of(terms_.begin(), terms_.end(), [](const Term<Real>* term) { return term->isLinear(); });
     }
 
-    Events advance(double dt) override { return advance(dt, backward_, 0); }
+    Events advance(double dt) override {
+        moveVelocities(-state.behind);
+        Events events = advance(dt, backward_, 0);
+        moveVelocities(state.behind);
+        return events;
+    }
     double largestDensityBalance() const override { return options_.largestBalance(); }
 
   private:
@@ -112,6 +117,14 @@ class Step final : public ImplicitStep {
         h_ = time_ + state.behind;
         const double w = ends_ || state.lastSpacing == 0 ? 0 : h_ / state.lastSpacing;
         c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
+    }
+
+    // Along the acceleration: between the middle of a step and its end.
+    void moveVelocities(double seconds) {
+        ParticleStore& s = scene_.store();
+        for (std::size_t i = 0; i < s.size(); ++i)
+            s.setVelocity(i, s.velocity(i) + seconds * Vec3(s.fx[i], s.fy[i], s.fz[i]));
+        if (rigid_) rigid_->moveVelocities(seconds);
     }
 
     void moveBy(double seconds) {

@@ -25,8 +25,9 @@
 // while it is above `linearisation` of the disturbance in the norm of energy, and at most `mostRefinements` times. Where the solver does not
 // converge, or a bond would change by more than the case allows, the step is taken back and made in two halves by backward Euler.
 //
-// The state between steps: places at t^n; u and a of the middle of the last step in the store's velocity and acceleration; nodes have
-// the velocity of the middle too.
+// The state between steps: places at t^n, and in the store the acceleration a and the velocity there, u + (t^n - t_middle) a, of second
+// order as all else; the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
+// bodies are those of the middle.
 #pragma once
 #include <memory>
 

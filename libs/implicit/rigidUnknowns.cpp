@@ -34,6 +34,14 @@ void add(Wrench& sum, const Vec3& arm, const Vec3& force) {
 }  // namespace
 
 template <class Real>
+void RigidUnknowns<Real>::moveVelocities(double seconds) {
+    for (Body& body : bodies()) {
+        body.state.motion.linear += seconds * body.acceleration.linear;
+        body.state.motion.angular += seconds * body.acceleration.angular;
+    }
+}
+
+template <class Real>
 void RigidUnknowns<Real>::depart(double seconds) {
     saved_.clear();
     for (Body& body : bodies()) {

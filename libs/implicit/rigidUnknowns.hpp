@@ -48,6 +48,7 @@ class RigidUnknowns final : public Term<Real> {
 
     std::size_t length() const { return perBody * bodies().size(); }  // what stands behind the particles
 
+    void moveVelocities(double seconds);  // along their accelerations
     // Places of bodies and of their particles: `seconds` on from the beginning of the step; back to it.
     void depart(double seconds);
     void takeBack();

@@ -14,6 +14,8 @@ using coupling::Scene;
 
 namespace {
 
+constexpr double atTheEnd = 1;  // of a step: where the velocities of the implicit step belong
+
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
     std::vector<double> values;
     for (const Vec3& v : vectors) values.insert(values.end(), v.data(), v.data() + 3);
@@ -80,8 +82,8 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     file.attribute("springRate2", state.integrator.springRate2);
     if (input.numerics.isImplicit()) {
         const implicit::ImplicitStep::State& s = state.integrator.implicit;
-        file.writeReplicated("implicit",
-                             std::vector<double>{s.behind, s.lastSpacing, s.reference, static_cast<double>(s.steps)});
+        file.writeReplicated("implicit", std::vector<double>{s.behind, s.lastSpacing, s.reference,
+                                                             static_cast<double>(s.steps), atTheEnd});
     }
     if (!input.numerics.isImplicit() && input.isConjugate())
         file.writeReplicated("conjugate",
@@ -146,7 +148,11 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
                 "in system/numerics.yaml");
     if (isImplicit) {
         const std::vector<double> s = file.readReplicated<double>("implicit");
-        state.integrator.implicit = {s.at(0), s.at(1), s.at(2), std::lround(s.at(3))};
+        if (s.size() != 5 || s[4] != atTheEnd)
+            throw Failure(ExitCode::io, path.string() +
+                                            " has velocities of the middle of the step, as an earlier version "
+                                            "wrote them; start from firstTime");
+        state.integrator.implicit = {s[0], s[1], s[2], std::lround(s[3])};
     }
     if (!isImplicit && file.has("conjugate") != input.isConjugate()) {
         const char* const was = scene.cells.empty() ? input.isConjugate() ? "operators: plain" : "operators: corrected"
