@@ -141,11 +141,10 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
                         {}};
     const bool isImplicit = input.numerics.isImplicit();
     if (file.has("implicit") != isImplicit)
-        throw Failure(
-            ExitCode::io,
-            path.string() + " was written by 'integrator: " + (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
-                ", whose velocities belong to another moment of the step; start from firstTime, or write that "
-                "in system/numerics.yaml");
+        throw Failure(ExitCode::io, path.string() + " was written by 'integrator: " +
+                                        (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
+                                        ", whose state between steps is another; start from firstTime, or write that "
+                                        "in system/numerics.yaml");
     if (isImplicit) {
         const std::vector<double> s = file.readReplicated<double>("implicit");
         if (s.size() != 5 || s[4] != atTheEnd)
