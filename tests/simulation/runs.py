@@ -573,14 +573,17 @@ def test_implicitBodies(folder):
     whole = copied(start, folder / "mixed")
     run(whole, "dmpFlow", "-set", "system/numerics.yaml:/precision=mixed", ranks=2)
     same_in_parts(whole, start, "dmpFlow", 5, "-set", "system/numerics.yaml:/precision=mixed", ranks=2)
-    explicit = prepared(folder / "explicit", BODY_CASE)
-    run(explicit, "dmpFlow", ranks=2)
-    a, b = table(explicit, "motion"), table(whole, "motion")
+    # Past the start, in which the body is slowed down from half the curl of the flow by fluid that does not yet know of it.
+    on = ("-set", "system/control.yaml:/endStrain=0.4")
+    explicit, implicit = prepared(folder / "explicit", BODY_CASE), copied(start, folder / "on")
+    for case in (explicit, implicit):
+        run(case, "dmpFlow", *on, ranks=2)
+    a, b = table(explicit, "motion"), table(implicit, "motion")
     turned = b[-1]["rotation_y"] / a[-1]["rotation_y"] - 1
-    settled = [[row["angularVelocity_y_1_s"] for row in rows if row["strain"] > 0.06] for rows in (a, b)]
+    settled = [[row["angularVelocity_y_1_s"] for row in rows if row["strain"] > 0.2] for rows in (a, b)]
     rate = statistics.mean(settled[1]) / statistics.mean(settled[0]) - 1
     print(f"implicit against velocity Verlet, 4 particles across: rotation {turned:+.4f}, rate {rate:+.4f}")
-    assert abs(turned) < 0.03 and abs(rate) < 0.05, (turned, rate)
+    assert abs(turned) < 0.015 and abs(rate) < 0.025, (turned, rate)
     case = prepared(folder / "inclusion", INCLUSION_CASE, **{
         "system/numerics.yaml": "spacing: 0.6 um\n" + scheme.replace("step: 0.01, tolerance: 1e-6", "step: 0.05, tolerance: 1e-3")})
     run(case, "dmpFlow", ranks=2)
