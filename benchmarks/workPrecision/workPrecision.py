@@ -85,7 +85,7 @@ def draw(name):
     for terminal, ending in (("pngcairo size 900,600 font ',11'", "png"), ("svg size 900,600 font ',11'", "svg")):
         script = [f"set terminal {terminal}", f"set output '{HERE / name}.{ending}'", "set logscale xy", "set grid lc rgb '#dddddd'",
                   "set xlabel 'core-seconds'", "set ylabel 'error, %'", f"set title '{suite.load(name).TITLE} (numbers: {across})'",
-                  "set key outside right", *blocks, f"plot {lines}"]
+                  "set key outside right", "set linetype 5 lc rgb '#8b4513'", *blocks, f"plot {lines}"]
         subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
 
 
