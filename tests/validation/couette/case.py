@@ -1,34 +1,13 @@
-"""Start-up of plane Couette flow against its series: the case, series and norm of tutorials/couette."""
-from suite import TUTORIALS, Figure, Plot, Run, module, rows
+"""Start-up of plane Couette flow against its series."""
+from plates import Plates
 
 TITLE = "start-up of Couette flow"
 ACROSS = "particles across the gap"
 RESOLUTIONS = (16, 32, 64)
-ALLOWED = {16: 1.5, 32: 0.4, 64: 0.1}  # %, at the earliest time; 0.1 % at 64 is the aim
 
-tutorial = module(TUTORIALS / "couette" / "compare.py", "couette")
-
-
-def runs(n):
-    dx, width = 1000 / n, 8 / n  # um, mm: the slice is 8 dx thick
-    return [Run("flow", TUTORIALS / "couette", [
-        f"system/numerics.yaml:/spacing={dx} um", f"system/mesh.yaml:/domain/size=[{width}, {width}, 1] mm",
-        f"system/observers.yaml:/profile/bins={n}"], ("particleFill", "sphFlow"))]
-
-
-def figures(done, n):
-    allowed = ALLOWED.get(n, 1.5 * (16 / n) ** 2)
-    return [Figure(f"L2 of u at nu t/L^2 = {tutorial.NU * t / tutorial.L**2:g}", 100 * error, allowed, order=error > 1e-4)
-            for t, error in zip(tutorial.TIMES, tutorial.errors(str(done["flow"])))]
+plates = Plates("couette", {16: 1.5, 32: 0.4, 64: 0.1}, lambda flow: flow.U)  # 0.1 % at 64 is the aim
+runs, figures = plates.runs, plates.figures
 
 
 def curves(done):
-    (path,) = done["flow"].glob("postProcessing/profile/*/profile.csv")
-    table, ours, theirs = rows(path), [], []
-    for time in tutorial.TIMES:
-        t = min(row["time_s"] for row in table if row["time_s"] >= time)
-        look = [row for row in table if row["time_s"] == t]
-        z = [row["position_m"] for row in look]
-        ours.append((f"t = {time:g} s", [row["u_m_s"] / tutorial.U for row in look], [x / tutorial.L for x in z]))
-        theirs.append(("", [tutorial.series(x, t) / tutorial.U for x in z], [x / tutorial.L for x in z]))
-    return Plot("u/U", "z/L", ours, theirs, ["set key left top"])
+    return plates.curves(done, "u/U")
