@@ -88,7 +88,11 @@ Case Case::read(const Application& app) {
     checkTogether(c, problems);
     c.throwIfAny(problems);
 
-    sph::FlowContext context{c.fluidBox(), c.fluid.viscosity, c.fluid.density, 0, 0};
+    sph::FlowContext context{.box = c.fluidBox(),
+                             .viscosity = c.fluid.viscosity,
+                             .density = c.fluid.density,
+                             .layered = !c.fluid.layers.empty(),
+                             .leastViscosity = c.leastViscosity()};
     if (!c.mesh.cells.empty()) {
         const CellSettings& first = c.mesh.cells.front();
         context.radius = first.shape->radius();
@@ -142,7 +146,7 @@ Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.doma
 
 double Case::soundSpeed() const {
     if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;
-    const double nu = fluid.viscosity / flow.density;
+    const double nu = largestViscosity() / flow.density;
     if (isConjugate())  // volumes are kept exactly: the membrane's stiffness does not count
         return std::sqrt(std::max({100 * flow.speed * flow.speed, conjugateBulk * nu * flow.rate,
                                    100 * flow.bodyForce.norm() * flow.length}));
@@ -163,10 +167,15 @@ double Case::soundSpeed() const {
 }
 
 sph::FluidModel Case::fluidModel() const {
-    return {numerics.kernel.model, fluid.equationOfState.model,
-            flow.density,          fluid.viscosity,
-            soundSpeed(),          particleMass(),
-            flow.bodyForce,        flow.walls};
+    return {numerics.kernel.model,
+            fluid.equationOfState.model,
+            flow.density,
+            fluid.viscosity,
+            soundSpeed(),
+            particleMass(),
+            flow.bodyForce,
+            flow.walls,
+            fluid.layers.empty() ? 0 : leastViscosity()};
 }
 
 bool Case::isConjugate() const {
@@ -178,8 +187,28 @@ particles::Precision Case::precision() const {
 }
 
 bool Case::varyingViscosity() const {
-    return std::any_of(mesh.cells.begin(), mesh.cells.end(),
-                       [&](const CellSettings& cell) { return membraneOf(cell).interior.viscosityRatio != 1; });
+    return !fluid.layers.empty() || std::any_of(mesh.cells.begin(), mesh.cells.end(), [&](const CellSettings& cell) {
+        return membraneOf(cell).interior.viscosityRatio != 1;
+    });
+}
+
+double Case::viscosityAt(const Vec3& x) const {
+    double viscosity = fluid.viscosity;
+    for (const LayerSettings& layer : fluid.layers)
+        if (x[flowModel->wallAxis()] > layer.above) viscosity = layer.viscosity;
+    return viscosity;
+}
+
+double Case::leastViscosity() const {
+    double least = fluid.viscosity;
+    for (const LayerSettings& layer : fluid.layers) least = std::min(least, layer.viscosity);
+    return least;
+}
+
+double Case::largestViscosity() const {
+    double largest = fluid.viscosity;
+    for (const LayerSettings& layer : fluid.layers) largest = std::max(largest, layer.viscosity);
+    return largest;
 }
 
 }  // namespace corpuscle::simulation

@@ -45,6 +45,10 @@ struct Case {
     const bodies::BodySettings& bodyOf(const BodyPlaceSettings& place) const { return bodies.types.at(place.type()); }
     double densityOf(const BodyPlaceSettings& place) const { return bodyOf(place).density.value_or(flow.density); }
     bool varyingViscosity() const;
+    // Of the fluid outside cells, by its layers [Pa s].
+    double viscosityAt(const Vec3& x) const;
+    double leastViscosity() const;
+    double largestViscosity() const;
     // Whether fluid and membranes are discretised by the conjugate operators of sph/operators.hpp: the implicit step, corrected
     // operators, immersed membranes.
     bool isConjugate() const;

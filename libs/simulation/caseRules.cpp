@@ -184,6 +184,46 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
     }
 }
 
+// Layers of other viscosities lie between two walls, each at least a spacing thick, without cells or bodies.
+void checkLayers(const Case& c, Problems& problems) {
+    const Mark fluid{"constant/fluid.yaml", 0, 0};
+    const std::vector<LayerSettings>& layers = c.fluid.layers;
+    if (layers.empty()) return;
+    const int wall = c.flowModel->wallAxis();
+    if (wall < 0) {
+        problems.add(fluid, "layers",
+                     "found layers, but the flow '" + c.flowModel.name +
+                         "' has no walls for them to lie between; remove them, or take a flow with walls in "
+                         "constant/flow.yaml");
+        return;
+    }
+    if (!c.mesh.cells.empty() || !c.mesh.bodies.empty())
+        problems.add(fluid, "layers",
+                     std::string("found layers, which are for a fluid alone, but system/mesh.yaml has ") +
+                         (c.mesh.cells.empty() ? "bodies; remove these, or the layers"
+                                               : "cells; remove these, or the layers (the fluid inside a cell has "
+                                                 "'interior: {viscosityRatio}' in constant/membranes.yaml)"));
+    const double half = 0.5 * c.mesh.domain.size[wall], dx = c.spacing();
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const double below = i > 0 ? layers[i - 1].above : -half, above = layers[i].above;
+        const std::string key = "layers[" + std::to_string(i) + "].above", found = formatQuantity(above, unit::metre);
+        if (std::abs(above) >= half)
+            problems.add(fluid, key,
+                         "found " + found + ", which is not between the walls, at " +
+                             formatQuantity(-half, unit::metre) + " and " + formatQuantity(half, unit::metre) +
+                             " along " + axisName(wall));
+        else if (i > 0 && above <= below)
+            problems.add(fluid, key,
+                         "found " + found + ", but the layer before it begins at " +
+                             formatQuantity(below, unit::metre) + "; write the layers from the lowest up");
+        else if (std::min(above - below, half - above) < (1 - 1e-6) * dx)
+            problems.add(fluid, key,
+                         "found " + found + ", which leaves a layer thinner than a spacing, " +
+                             formatQuantity(dx, unit::metre) + "; nearest that fit: " +
+                             formatQuantity(below + dx, unit::metre) + " to " + formatQuantity(half - dx, unit::metre));
+    }
+}
+
 }  // namespace
 
 std::string obstacle(const Case& c, const std::string& integrator) {
@@ -252,6 +292,7 @@ void checkTogether(const Case& c, Problems& problems) {
     if (c.numerics.isImmersed())
         for (std::size_t i = 0; i < c.mesh.cells.size(); ++i)
             if (c.mesh.cells[i].shape) checkImmersed(c, c.mesh.cells[i], "cells[" + std::to_string(i) + "]", problems);
+    checkLayers(c, problems);
     checkScheme(c, problems);
     checkUnused(c, problems);
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {

@@ -199,13 +199,26 @@ const Schema<MeshSettings>& MeshSettings::schema() {
     return s;
 }
 
+const Schema<LayerSettings>& LayerSettings::schema() {
+    static const Schema<LayerSettings> s =
+        Schema<LayerSettings>("layer", "fluid of another viscosity, as far as the next layer or the upper wall")
+            .quantity("above", &LayerSettings::above, unit::metre,
+                      "coordinate along the walls' normal at which it begins; the box is centred on 0")
+            .quantity("viscosity", &LayerSettings::viscosity, unit::pascalSecond, "its dynamic viscosity",
+                      {.range = positive});
+    return s;
+}
+
 const Schema<FluidSettings>& FluidSettings::schema() {
     static const Schema<FluidSettings> s =
         Schema<FluidSettings>("fluid", "constant/fluid.yaml: the fluid outside the cells")
             .quantity("density", &FluidSettings::density, unit::kilogramPerMetre3, "rest density rho0",
                       {.range = positive})
-            .quantity("viscosity", &FluidSettings::viscosity, unit::pascalSecond, "dynamic viscosity mu",
-                      {.range = positive})
+            .quantity("viscosity", &FluidSettings::viscosity, unit::pascalSecond,
+                      "dynamic viscosity mu; with layers, that beside the lower wall", {.range = positive})
+            .list("layers", &FluidSettings::layers,
+                  "layers of other viscosities between two walls, from the lowest up, at t = 0; for a fluid alone",
+                  {.fallback = "[]"})
             .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"});
     return s;
 }

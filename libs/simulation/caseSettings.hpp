@@ -105,8 +105,14 @@ struct MeshSettings {
 };
 
 // constant/fluid.yaml
+struct LayerSettings {
+    double above = 0;  // coordinate along the walls' normal at which it begins [m]
+    double viscosity = 0;
+    static const Schema<LayerSettings>& schema();
+};
 struct FluidSettings {
     double density = 0, viscosity = 0;
+    std::vector<LayerSettings> layers;  // from the lowest up
     Choice<sph::EquationOfState> equationOfState;
     static const Schema<FluidSettings>& schema();
 };

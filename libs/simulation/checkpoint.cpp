@@ -41,7 +41,7 @@ struct Fixed {
 };
 std::vector<Fixed> fixedSettings(const Case& input) {
     const Vec3& size = input.mesh.domain.size;
-    return {
+    std::vector<Fixed> fixed{
         {"system/numerics.yaml", "spacing", input.spacing(), unit::metre},
         {"system/mesh.yaml", "domain.size", size[0], unit::metre},
         {"system/mesh.yaml", "domain.size", size[1], unit::metre},
@@ -49,6 +49,11 @@ std::vector<Fixed> fixedSettings(const Case& input) {
         input.flow.densityFromRe ? Fixed{"constant/flow.yaml", "inertia", input.flow.density, unit::kilogramPerMetre3}
                                  : Fixed{"constant/fluid.yaml", "density", input.flow.density, unit::kilogramPerMetre3},
         {"constant/fluid.yaml", "viscosity", input.varyingViscosity() ? input.fluid.viscosity : 0, unit::pascalSecond}};
+    for (const LayerSettings& layer : input.fluid.layers) {
+        fixed.push_back({"constant/fluid.yaml", "layers", layer.above, unit::metre});
+        fixed.push_back({"constant/fluid.yaml", "layers", layer.viscosity, unit::pascalSecond});
+    }
+    return fixed;
 }
 
 void checkFixed(const std::filesystem::path& path, const Case& input, const std::vector<double>& written) {

@@ -57,6 +57,9 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
         add("a/dx", a / c.spacing(), "particles per radius of the body");
     } else
         add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
+    if (!c.fluid.layers.empty())
+        add("mu_max/mu_min", c.largestViscosity() / c.leastViscosity(),
+            fmt::format("of {} layers; Re has the viscosity of the lowest", c.fluid.layers.size() + 1));
     add("H_s/dx", c.support() / c.spacing(),
         fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",
                     c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),

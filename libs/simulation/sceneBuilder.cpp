@@ -154,7 +154,7 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
         s.id[i] = id;
         s.kind[i] = static_cast<std::int64_t>(kind);
         if (s.optional().mass) s.mass[i] = model.mass;
-        if (s.optional().viscosity) s.viscosity[i] = model.viscosity;
+        if (s.optional().viscosity) s.viscosity[i] = input.viscosityAt(x);
         if (s.optional().node) s.node[i] = -1;
         if (s.optional().member) s.member[i] = -1;
         return i;

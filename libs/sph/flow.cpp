@@ -1,6 +1,27 @@
 #include "sph/flow.hpp"
 
+#include <cmath>
+
 namespace corpuscle::sph {
+
+bool equallyLong(const std::string& flow, const particles::Box& box, const std::string& axes, const Mark& mark,
+                 Problems& problems) {
+    const Vec3 size = box.size();
+    const double first = size[axes[0] - 'x'];
+    bool equal = true;
+    std::vector<std::string> others, lengths;
+    for (const char axis : axes) {
+        const double length = size[axis - 'x'];
+        equal = equal && std::abs(length - first) <= 1e-9 * first;
+        lengths.push_back(formatQuantity(length, unit::metre));
+        if (axis != axes[0]) others.emplace_back(1, axis);
+    }
+    if (!equal)
+        problems.add(mark, "type",
+                     flow + " needs a box as long along " + axes[0] + " as along " + joinWords(others, " and ") +
+                         "; system/mesh.yaml has " + joinWords(lengths));
+    return equal;
+}
 
 const Schema<WallSettings>& WallSettings::schema() {
     static const Schema<WallSettings> s = Schema<WallSettings>("walls", "two parallel walls at the ends of the box")

@@ -15,11 +15,13 @@ namespace corpuscle::sph {
 
 // What a flow may refer to.
 struct FlowContext {
-    particles::Box box;       // of the fluid, walls' layers not included
-    double viscosity = 0;     // mu, outer [Pa s]
-    double density = 0;       // as given in fluid.yaml [kg/m^3]
-    double radius = 0;        // a of the first cell, else of the first rigid body [m]; 0: neither
-    double shearModulus = 0;  // Gs [N/m]; 0: no cells
+    particles::Box box;         // of the fluid, walls' layers not included
+    double viscosity = 0;       // mu, outer [Pa s]
+    double density = 0;         // as given in fluid.yaml [kg/m^3]
+    double radius = 0;          // a of the first cell, else of the first rigid body [m]; 0: neither
+    double shearModulus = 0;    // Gs [N/m]; 0: no cells
+    bool layered = false;       // the viscosity differs from layer to layer between the walls
+    double leastViscosity = 0;  // of the layers; mu where there are none [Pa s]
 };
 
 // What follows from it, SI.
@@ -47,6 +49,10 @@ class Flow {
     // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
     virtual FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const = 0;
 };
+
+// Whether the box is equally long along these axes ("xz"); a problem of the key `type` where it is not.
+bool equallyLong(const std::string& flow, const particles::Box& box, const std::string& axes, const Mark& mark,
+                 Problems& problems);
 
 // walls: {normal: z}
 struct WallSettings {

@@ -23,6 +23,7 @@ struct FluidModel {
     double mass = 0;                // of one fluid particle, rho0 dx^3 [kg]
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
     Walls walls;
+    double lowestLayer = 0;  // lowest viscosity of the fluid's layers [Pa s]; 0: no layers
 };
 
 class FluidForces {

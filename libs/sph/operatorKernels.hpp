@@ -13,36 +13,40 @@ namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
 
 template <class Real, particles::Precision precision>
 struct OperatorKernels {
-    static PairKernels::Operators<Real> choose(KernelKind kernel, bool varyingViscosity) {
+    static PairKernels::Operators<Real> choose(KernelKind kernel, ViscosityKind viscosity) {
         switch (kernel) {
             case KernelKind::lucy:
-                return of<Lucy>(varyingViscosity);
+                return of<Lucy>(viscosity);
             case KernelKind::quintic:
-                return of<Quintic>(varyingViscosity);
+                return of<Quintic>(viscosity);
             default:
-                return of<WendlandC2>(varyingViscosity);
+                return of<WendlandC2>(viscosity);
         }
     }
 
   private:
     template <class Kernel>
-    static PairKernels::Operators<Real> of(bool varyingViscosity) {
-        return varyingViscosity ? of<Kernel, true>() : of<Kernel, false>();
+    static PairKernels::Operators<Real> of(ViscosityKind viscosity) {
+        switch (viscosity) {
+            case ViscosityKind::sides:
+                return of<Kernel, GradientPair<Kernel, false, false>, GradientPair<Kernel, false, true>, false>();
+            case ViscosityKind::layers:
+                return of<Kernel, GradientPair<Kernel, true, false>, GradientPair<Kernel, true, true>, false>();
+            default:
+                return of<Kernel, RatePair<Kernel, false>, RatePair<Kernel, true>, true>();
+        }
     }
-    template <class Kernel, bool varying>
+    template <class Kernel, class Rates, class RatesAtWall, bool symmetricStress>
     static PairKernels::Operators<Real> of() {
-        return {build<MomentPair<Kernel>, MomentConstants>, rates<Kernel, varying, false>, rates<Kernel, varying, true>,
-                build<StressPair<Kernel, !varying, false>, WallPlanes>,
-                build<StressPair<Kernel, !varying, true>, WallPlanes>};
+        return {build<MomentPair<Kernel>, MomentConstants>, build<Rates, WallPlanes>, build<RatesAtWall, WallPlanes>,
+                build<StressPair<Kernel, symmetricStress, false>, WallPlanes>,
+                build<StressPair<Kernel, symmetricStress, true>, WallPlanes>};
     }
     template <class Law, class Constants>
     static constexpr particles::PairKernel<Constants, Real> build = PairBuild<Law, Constants, Real, precision>::kernel;
-    template <class Kernel, bool varying, bool atWall>
-    static constexpr particles::PairKernel<WallPlanes, Real> rates =
-        build<std::conditional_t<varying, GradientPair<Kernel, atWall>, RatePair<Kernel, atWall>>, WallPlanes>;
 };
 
-PairKernels::Operators<double> operatorsDouble(KernelKind kernel, bool varyingViscosity);
-PairKernels::Operators<float> operatorsFloat(KernelKind kernel, bool varyingViscosity);
+PairKernels::Operators<double> operatorsDouble(KernelKind kernel, ViscosityKind viscosity);
+PairKernels::Operators<float> operatorsFloat(KernelKind kernel, ViscosityKind viscosity);
 
 }  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

@@ -16,7 +16,7 @@ using particles::ParticleSystem;
 namespace {
 constexpr int rateFields = 16, momentFields = 4, stressAt = 4;
 constexpr particles::Halo::Part velocityPart{3, 6};
-constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8;
+constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14;
 constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
 constexpr double leastMoment = 0.05;              // of the smallest direction, 1 on an ideal set
 
@@ -27,11 +27,11 @@ Mat3 matrix(const std::array<double, 6>& s) {
 }
 
 template <class Real>
-PairKernels::Operators<Real> kernelsOf(KernelKind kernel, bool varyingViscosity) {
+PairKernels::Operators<Real> kernelsOf(KernelKind kernel, ViscosityKind viscosity) {
     if constexpr (std::is_same_v<Real, double>)
-        return pairKernels().operators(kernel, varyingViscosity);
+        return pairKernels().operators(kernel, viscosity);
     else
-        return pairKernels().operatorsFloat(kernel, varyingViscosity);
+        return pairKernels().operatorsFloat(kernel, viscosity);
 }
 }  // namespace
 
@@ -40,8 +40,11 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
     : model_(model),
       form_(form),
       varyingViscosity_(system.store().optional().viscosity),
+      layered_(varyingViscosity_ && model.lowestLayer > 0),
       stressFields_(stressAt + (varyingViscosity_ ? 9 : 6)),
-      kernels_(kernelsOf<Real>(model.kernel->kind(), varyingViscosity_)) {
+      kernels_(kernelsOf<Real>(model.kernel->kind(), layered_            ? ViscosityKind::layers
+                                                     : varyingViscosity_ ? ViscosityKind::sides
+                                                                         : ViscosityKind::uniform)) {
     const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
     unitVolume_ = model.mass / model.density;
     const double atSpacing = model.kernel->value(system.spacing() / H);
@@ -103,9 +106,10 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
             correction_[i] = {B(0, 0), B(1, 1), B(2, 2), B(0, 1), B(0, 2), B(1, 2)};
             scale_[i] = 1 / scale;
         }
-        viscous_[i] = 2 * model_.viscosity * volume_[i] * scale_[i] * m(Moments::strength);
+        const double mu = layered_ ? system.store().viscosity[i] : model_.viscosity;
+        viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(Moments::strength);
         bulk_[i] = m(Moments::square) * volume_[i] / 3;
-        if (varyingViscosity_) viscous_[i] += 4 * excessViscosity(system, i) * bulk_[i];
+        if (varyingViscosity_) viscous_[i] += (layered_ ? 1 : 4) * excessViscosity(system, i) * bulk_[i];
     }
 }
 
@@ -122,6 +126,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
         rate[volumeAt] = static_cast<Real>((wall_[i] ? -1 : 1) * volume_[i] / unitVolume_);
         rate[scaleAt] = static_cast<Real>(scale_[i]);
         for (std::size_t k = 0; k < 6; ++k) rate[correctionAt + k] = static_cast<Real>(correction_[i][k]);
+        if (layered_) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
         stress[3] = rate[volumeAt];
     }
     const double scale = 1 / system.support();
@@ -172,7 +177,12 @@ void Operators<Real>::takeGradients(const ParticleSystem& system) {
         const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> products(s + gradientAt);
         const Mat3 gradient = rateUnit_ / volume_[i] * (matrix(correction_[i]) * products);
         divergence_[i] = gradient.trace();
-        stress_[i] = excessViscosity(system, i) * (gradient + gradient.transpose());
+        if (!layered_)
+            stress_[i] = excessViscosity(system, i) * (gradient + gradient.transpose());
+        else if (wall_[i])
+            stress_[i].setZero();
+        else
+            stress_[i] = excessViscosity(system, i) * gradient;
     }
 }
 

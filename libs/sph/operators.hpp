@@ -8,6 +8,9 @@
 // torque on what turns rigidly. Where viscosity varies, L has the fluid's mu, and the rest is a stress by the corrected gradient and its transpose,
 //     tau_i = 2 (mu_i - mu) e_i,   (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,   force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
 // so that mu_i belongs to the particle's side and no mean is taken across a jump.
+// In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so that the layer beside a wall meets it
+// by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i - mu_low) (grad u)_i^T, force by first index: nothing in a plane shear
+// flow along the layers. mu_low, their lowest viscosity, may be any constant, as the divergence vanishes; with it no mode gains power.
 // D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite, and no force is left over in the
 // sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
 //
@@ -60,8 +63,9 @@ class Operators {
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
 
   private:
+    // Over that of the fluid, or of the lowest layer [Pa s].
     double excessViscosity(const particles::ParticleSystem& system, std::size_t i) const {
-        return system.store().viscosity[i] - model_.viscosity;
+        return system.store().viscosity[i] - (layered_ ? model_.lowestLayer : model_.viscosity);
     }
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
@@ -76,7 +80,7 @@ class Operators {
 
     FluidModel model_;
     OperatorForm form_;
-    bool varyingViscosity_;
+    bool varyingViscosity_, layered_;
     int stressFields_;
     PairKernels::Operators<Real> kernels_;
     MomentConstants moments_;

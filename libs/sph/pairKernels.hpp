@@ -9,6 +9,9 @@ namespace corpuscle::sph {
 
 enum class KernelKind { lucy, wendlandC2, quintic };
 
+// How viscosity varies in operators.hpp.
+enum class ViscosityKind { uniform, sides, layers };
+
 struct FluidVariant {
     KernelKind kernel = KernelKind::wendlandC2;
     bool varyingMass = false, varyingViscosity = false;
@@ -30,8 +33,8 @@ struct PairKernels {
         particles::PairKernel<WallPlanes, Real> rates, ratesAtWall;    // sums only
         particles::PairKernel<WallPlanes, Real> stress, stressAtWall;  // sums only
     };
-    Operators<double> (*operators)(KernelKind, bool varyingViscosity);      // Precision::full
-    Operators<float> (*operatorsFloat)(KernelKind, bool varyingViscosity);  // Precision::mixed
+    Operators<double> (*operators)(KernelKind, ViscosityKind);      // Precision::full
+    Operators<float> (*operatorsFloat)(KernelKind, ViscosityKind);  // Precision::mixed
 };
 
 const PairKernels& pairKernels();

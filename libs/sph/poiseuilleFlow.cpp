@@ -23,13 +23,16 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
         return flow;
     }
     const double low = context.box.low[axis], high = context.box.high[axis], gap = high - low;
-    const double curvature = bodyForce * context.density / (2 * context.viscosity);
+    const double curvature = bodyForce * context.density / (2 * context.viscosity),
+                 largest =
+                     bodyForce * context.density / (2 * context.leastViscosity);  // if all were the thinnest layer
     flow.density = context.density;
-    flow.speed = 0.25 * curvature * gap * gap;
+    flow.speed = 0.25 * largest * gap * gap;
     flow.length = gap;
     flow.rate = flow.speed / gap;
     flow.settles = true;
-    if (start == "rest") flow.transient = std::pow(gap / std::numbers::pi, 2) * context.density / context.viscosity;
+    if (start == "rest" || context.layered)
+        flow.transient = std::pow(gap / std::numbers::pi, 2) * context.density / context.leastViscosity;
     flow.bodyForce = Vec3(bodyForce, 0, 0);
     flow.walls.axis = axis;
     flow.walls.low = low;

@@ -13,7 +13,7 @@ namespace corpuscle::sph {
 template <class Kernel, bool atWall>
 struct RatePair {
     static constexpr int velocity = 3, volume = 6, scale = 7, correction = 8;
-    static constexpr int fields = 16;  // one cache line of floats; the last two are not used
+    static constexpr int fields = 16;  // one cache line of floats; the last two are not used here
     static constexpr bool distinct = true;
     WallPlanes walls;
 

@@ -44,7 +44,8 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
     flow.length = gap;
     flow.rate = flow.shearRate;
     flow.settles = true;
-    if (start == "rest") flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.viscosity;
+    if (start == "rest" || context.layered)
+        flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.leastViscosity;
     flow.walls.axis = axis;
     flow.walls.low = context.box.low[axis];
     flow.walls.high = context.box.high[axis];

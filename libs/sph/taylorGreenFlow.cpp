@@ -7,34 +7,35 @@ namespace corpuscle::sph {
 
 const Schema<TaylorGreenFlow>& TaylorGreenFlow::schema() {
     static const Schema<TaylorGreenFlow> s =
-        Schema<TaylorGreenFlow>("taylorGreen", "decaying vortices in the x-z plane")
+        Schema<TaylorGreenFlow>("taylorGreen", "decaying vortices in the x-z plane, or in a cube")
             .quantity("speed", &TaylorGreenFlow::speed, unit::metrePerSecond, "largest speed U at t = 0",
-                      {.range = positive});
+                      {.range = positive})
+            .integer("dimensions", &TaylorGreenFlow::dimensions,
+                     "2: vortices in the x-z plane, the same all along y; 3: in a cube",
+                     {.fallback = "2", .range = between(2, 3)});
     return s;
 }
 
 FlowState TaylorGreenFlow::resolve(const FlowContext& context, const Mark& mark, Problems& problems) const {
     FlowState flow;
-    const Vec3 size = context.box.size();
-    if (std::abs(size[0] - size[2]) > 1e-9 * size[0]) {
-        problems.add(mark, "type",
-                     "taylorGreen needs a box as long along x as along z; system/mesh.yaml has " +
-                         formatQuantity(size[0], unit::metre) + " and " + formatQuantity(size[2], unit::metre));
-        return flow;
-    }
-    const double k = 2 * std::numbers::pi / size[0], U = speed, rho = context.density;
+    const bool cube = dimensions == 3;
+    if (!equallyLong("taylorGreen", context.box, cube ? "xyz" : "xz", mark, problems)) return flow;
+    const double k = 2 * std::numbers::pi / context.box.size()[0], U = speed, rho = context.density;
     const Vec3 low = context.box.low;
     flow.density = rho;
     flow.speed = U;
     flow.length = 1 / k;
     flow.rate = U * k;
-    flow.transient = rho / (2 * context.viscosity * k * k);
+    flow.transient = rho / (static_cast<double>(dimensions) * context.viscosity * k * k);
     flow.velocity = [=](const Vec3& p) {
-        const double x = k * (p[0] - low[0]), z = k * (p[2] - low[2]);
+        const double x = k * (p[0] - low[0]), y = k * (p[1] - low[1]), z = k * (p[2] - low[2]);
+        if (cube)
+            return Vec3(U * std::sin(x) * std::cos(y) * std::cos(z), -U * std::cos(x) * std::sin(y) * std::cos(z), 0);
         return Vec3(U * std::sin(x) * std::cos(z), 0, -U * std::cos(x) * std::sin(z));
     };
     flow.pressure = [=](const Vec3& p) {
-        const double x = k * (p[0] - low[0]), z = k * (p[2] - low[2]);
+        const double x = k * (p[0] - low[0]), y = k * (p[1] - low[1]), z = k * (p[2] - low[2]);
+        if (cube) return rho * U * U / 16 * (std::cos(2 * x) + std::cos(2 * y)) * (std::cos(2 * z) + 2);
         return 0.25 * rho * U * U * (std::cos(2 * x) + std::cos(2 * z));
     };
     return flow;

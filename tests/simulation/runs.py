@@ -468,6 +468,48 @@ def test_rkl2(folder):
     assert "'integrator: velocityVerlet' or rkl2" in run(other, "sphFlow", *implicit, code=4).stderr
 
 
+def test_layers(folder):
+    """Couette flow of three layers, viscosities 1, 5 and 2, becomes the exact one, whatever steps it and in whatever form; the same on two ranks; the
+    layers lie across the walls' normal; a checkpoint of other layers is refused."""
+    mu, U, end = (1e-3, 5e-3, 2e-3), 6.25e-6, (-0.5e-3, -0.125e-3, 0.25e-3, 0.5e-3)
+    layers = "layers: [{above: -0.125 mm, viscosity: 5 mPa s}, {above: 0.25 mm, viscosity: 2 mPa s}]\n"
+    stress = 2 * U / sum((high - low) / m for m, low, high in zip(mu, end, end[1:]))
+    def exact(z):
+        return -U + stress * sum(max(0, min(z, high) - low) / m for m, low, high in zip(mu, end, end[1:]))
+    files = {**COUETTE, "system/control.yaml": "application: sphFlow\nendTime: 0.35 s\ncheckpoint: {wallClock: never}\n",
+             "system/numerics.yaml": "spacing: 62.5 um\nintegrator: velocityVerlet\n",
+             "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
+             "system/observers.yaml": "profile: {type: profile, every: 0.35 s, bins: 16}\nwall: {type: wallStress, every: 0.35 s}\n",
+             "constant/fluid.yaml": COUETTE["constant/fluid.yaml"] + layers}
+    def compare(case):
+        rows = [row for row in table(case, "profile") if row["time_s"] > 0.1]
+        error = math.sqrt(sum((row["u_m_s"] - exact(row["position_m"])) ** 2 for row in rows) / sum(exact(row["position_m"]) ** 2 for row in rows))
+        felt = table(case, "wall")[-1]["effectiveViscosity"] * mu[0] * 0.0125
+        print(case.name, error, felt / stress)
+        assert len(rows) == 16 and error < 0.01 and abs(felt / stress - 1) < 0.015, (case.name, error, felt / stress)
+        return rows
+    start = prepared(folder / "start", files)
+    corrected, implicit = {"operators": "corrected", "shifting": "{coefficient: 1}"}, {"integrator": "implicit", "implicit": "{step: 1e-4, tolerance: 1e-6}"}
+    for name, words in (("verlet", {}), ("verletCorrected", corrected), ("rkl2", {"integrator": "rkl2"}), ("implicit", {**implicit, **corrected}),
+                        ("implicitPlain", {**implicit, "operators": "plain"})):
+        case = copied(start, folder / name)
+        terms = [option for key, value in words.items() for option in ("-set", f"system/numerics.yaml:/{key}={value}")]
+        run(case, "sphFlow", *terms)
+        rows = compare(case)
+        if "Corrected" in name or name == "rkl2":
+            other = copied(start, folder / f"{name}2")
+            run(other, "sphFlow", *terms, ranks=2)
+            assert all(abs(a["u_m_s"] - b["u_m_s"]) < 1e-9 * U for a, b in zip(rows, compare(other)))
+    across = prepared(folder / "across", {**files, "system/mesh.yaml": "domain: {size: [0.5, 1, 0.5] mm, periodic: [true, false, true]}\n",
+                                          "system/observers.yaml": files["system/observers.yaml"].replace("profile,", "profile, axis: y,"),
+                                          "constant/flow.yaml": files["constant/flow.yaml"] + "walls: {normal: y}\n"})
+    run(across, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
+    compare(across)
+    changed = "constant/fluid.yaml:/layers=[{above: -0.125 mm, viscosity: 5 mPa s}, {above: 0.25 mm, viscosity: 3 mPa s}]"
+    said = run(folder / "verlet", "sphFlow", "-set", changed, "-set", "system/control.yaml:/endTime=0.4 s", code=2).stderr
+    assert "layers" in said and "start from firstTime" in said, said
+
+
 def test_automatic(folder):
     """`integrator: automatic` takes what the printed prediction says is cheapest; obstacles are said in words; a named one wins."""
     automatic = ("-set", "system/numerics.yaml:/integrator=automatic")

@@ -17,6 +17,7 @@ struct OperatorCase {
     OperatorForm form;
     bool varying, walls;  // masses and viscosities
     Index3 size;
+    bool layers = false;  // viscosity as that of layers, though it varies from particle to particle
 };
 inline constexpr auto plain = OperatorForm::plain, corrected = OperatorForm::corrected;
 
@@ -30,6 +31,9 @@ inline const OperatorCase operatorCases[] = {
     {"wendlandWalls", "wendlandC2", corrected, false, true, {7, 7, 11}},
     {"quinticWallsPlain", "quintic", plain, true, true, {7, 7, 11}},
     {"wendlandLarge", "wendlandC2", corrected, true, false, {9, 8, 9}},
+    {"wendlandLayers", "wendlandC2", corrected, true, true, {7, 7, 11}, true},
+    {"lucyLayersPlain", "lucy", plain, true, true, {7, 7, 11}, true},
+    {"quinticLayersPeriodic", "quintic", corrected, true, false, {7, 6, 8}, true},
 };
 
 // Random numbers in [-1, 1], the same on every rank.
@@ -65,6 +69,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
     void SetUp() override {
         const OperatorCase& c = GetParam();
         fluid = model(c.kernel);
+        if (c.layers) fluid.lowestLayer = 0.5;  // of the viscosities of lattice()
         all = lattice(c.size, 0.25, 5);
         if (c.walls) {
             fluid.walls = {2, layers, c.size[2] - layers, {Vec3::Zero(), Vec3::Zero()}};
@@ -127,9 +132,19 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         for (const Pair& p : pairs) T[p.i] += volume[p.j] * p.F * (B[p.i] * p.d) * (u[p.j] - u[p.i]).transpose();
         for (std::size_t i = 0; i < all.size(); ++i) {
             const Mat3 twice = T[i] + T[i].transpose();
-            T[i] = (all[i].viscosity - fluid.viscosity) * twice * B[i];
+            if (!GetParam().layers)
+                T[i] = (all[i].viscosity - fluid.viscosity) * twice * B[i];
+            else if (all[i].wall)
+                T[i].setZero();
+            else
+                T[i] = (all[i].viscosity - fluid.lowestLayer) * T[i] * B[i];
         }
         return T;
+    }
+    // Of L, between two particles.
+    double mean(std::size_t i, std::size_t j) const {
+        const double a = all[i].viscosity, b = all[j].viscosity;
+        return GetParam().layers ? 2 * a * b / (a + b) : fluid.viscosity;
     }
     std::vector<double> divergence(const std::vector<Vec3>& u) const {
         std::vector<double> D(all.size(), 0.0);
@@ -142,7 +157,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         for (const Pair& p : pairs) {
             const double both = volume[p.i] * volume[p.j] * p.F;
             f[p.i] -= both * (pressure[p.i] * B[p.i] + pressure[p.j] * B[p.j] - T[p.i] - T[p.j]) * p.d;
-            f[p.i] -= both * fluid.viscosity * (scale[p.i] + scale[p.j]) * p.beta * (u[p.i] - u[p.j]);
+            f[p.i] -= both * mean(p.i, p.j) * (scale[p.i] + scale[p.j]) * p.beta * (u[p.i] - u[p.j]);
         }
         return f;
     }

@@ -46,11 +46,13 @@ TEST_P(OperatorTest, momentsEqualThePlainDoubleLoop) {
     for (const Pair& p : pairs) {
         evenness[p.i] += volume[p.j] * W(p.d.norm());
         disorder[p.i] -= volume[p.j] * p.F * (1 + 0.2 * std::pow(W(p.d.norm()) / W(system->spacing()), 4)) * p.d;
-        viscous[p.i] += 2 * fluid.viscosity * volume[p.i] * volume[p.j] * p.F * scale[p.i];
+        const double mu = GetParam().layers ? all[p.i].viscosity : fluid.viscosity;
+        viscous[p.i] += 2 * mu * volume[p.i] * volume[p.j] * p.F * scale[p.i];
         bulk[p.i] += volume[p.i] * volume[p.i] * volume[p.j] * p.F * p.F * p.d.squaredNorm() / 3;
     }
     for (std::size_t i = 0; i < all.size() && GetParam().varying; ++i)
-        viscous[i] += 4 * (all[i].viscosity - fluid.viscosity) * bulk[i];
+        viscous[i] += GetParam().layers ? (all[i].viscosity - fluid.lowestLayer) * bulk[i]
+                                        : 4 * (all[i].viscosity - fluid.viscosity) * bulk[i];
     forOwned([&](std::size_t id, std::size_t k) {
         if (all[id].wall) return;
         EXPECT_LT((operators.disorder(k) - disorder[id]).norm(), 1e-12);
@@ -176,6 +178,43 @@ TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
             }
         }
     }
+}
+
+// Two layers on a lattice: the force on a column of particles across the jump, over its area. What turns rigidly feels none, though Morris' sum alone
+// would hold it back with that of a velocity of the same gradient along the jump only; nor does a shear flow of one stress.
+TEST(TwoLayers, keepRigidRotationAndShearStress) {
+    const Index3 size{12, 12, 20};
+    const double low = 0.7, high = 3.5, jump = 10;
+    ParticleSystem system(MPI_COMM_WORLD, cube(size), {.viscosity = true}, support, 0, 1.0);
+    std::vector<Particle> all = lattice(size, 0);
+    for (Particle& p : all) p.viscosity = p.x[2] > jump ? high : low;
+    deal(all, system);
+    FluidModel fluid = model("wendlandC2");
+    fluid.viscosity = low, fluid.lowestLayer = low;
+    const ParticleStore& s = system.store();
+    const auto force = [&](const auto& velocity) {
+        Operators<double> operators(fluid, system, corrected);
+        operators.build(system);
+        typename Operators<double>::Field u(4 * s.size(), 0.0);
+        for (std::size_t i = 0; i < s.size(); ++i)
+            for (int a = 0; a < 3; ++a) u[4 * i + static_cast<std::size_t>(a)] = velocity(s.position(i))[a];
+        operators.apply(system, u, [](std::size_t, double) { return 0.0; });
+        Vec3 sum = Vec3::Zero();
+        const auto& f = operators.force();
+        for (std::size_t i = 0; i < s.size(); ++i)  // the four columns that the box's faces do not reach
+            if (const Vec3 x = s.position(i);
+                std::max(std::abs(x[0] - 6), std::abs(x[1] - 6)) < 1 && std::abs(x[2] - jump) < 5)
+                sum += 0.25 * Vec3(f[4 * i], f[4 * i + 1], f[4 * i + 2]);
+        MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+        return sum;
+    };
+    const Vec3 middle(6, 6, jump);
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, -0.5, 1)})
+        EXPECT_LT(force([&](const Vec3& x) -> Vec3 { return axis.cross(x - middle); }).norm(), 1e-12);
+    const auto shear = [&](const Vec3& x) { return Vec3((x[2] - jump) / (x[2] > jump ? high : low), 0, 0); };
+    EXPECT_LT(force(shear).norm(), 1e-12);
+    const auto along = [&](const Vec3& x) { return Vec3(x[2] - jump, 0, 0); };
+    EXPECT_LT((force(along) - Vec3(high - low, 0, 0)).norm(), 1e-12);
 }
 
 TEST(LoneParticle, hasNoGradientAndIsNamed) {

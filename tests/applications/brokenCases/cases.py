@@ -72,6 +72,9 @@ VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), repl
                        rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
                        replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
 
+# A fluid alone between walls.
+LAYERED = NO_CELLS + [rewrite(FLOW, "{type: shear, shearRate: 10 1/s}\n"), remove(OBSERVERS)]
+
 IMMERSED = replace(NUMERICS, "dualIdentity", "immersed")
 IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), IMMERSED]
 
@@ -224,7 +227,25 @@ CASES = [
     Case("endStrainWithoutShear", VORTICES + [replace(CONTROL, "endTime: 1 ms", "endStrain: 6")],
          [Problem(CONTROL, "endStrain", "6", ["taylorGreen", "no shear rate", "endTime"])]),
     Case("vorticesInLongBox", VORTICES + [replace(MESH, "[16, 16, 16] um", "[20, 16, 16] um")],
-         [Problem(FLOW, "type", "taylorGreen", ["as long along x as along z", "20 um", "16 um"])]),
+         [Problem(FLOW, "type", "taylorGreen", ["as long along x as along z", "20 um, 16 um"])]),
+    Case("abcInLongBox", VORTICES + [rewrite(FLOW, "{type: abc, A: 1 mm/s, B: 1 mm/s, C: 1 mm/s}\n"), replace(MESH, "[16, 16, 16] um", "[20, 16, 16] um")],
+         [Problem(FLOW, "type", "abc", ["as long along x as along y and z", "20 um, 16 um, 16 um"])]),
+    Case("abcAtRest", VORTICES + [rewrite(FLOW, "{type: abc, A: 0 m/s, B: 0 m/s, C: 0 m/s}\n")],
+         [Problem(FLOW, "A", "0 m/s", ["all zero"])]),
+    Case("vorticesInFourDimensions", VORTICES + [rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s, dimensions: 4}\n")],
+         [Problem(FLOW, "dimensions", "4", ["2", "3"])]),
+    Case("layersWithoutWalls", VORTICES + [append(FLUID, "layers: [{above: 0 um, viscosity: 2e-3 Pa s}]\n")],
+         [Problem(FLUID, "layers", "[{above", ["taylorGreen", "no walls"])]),
+    Case("layersAroundCells", [append(FLUID, "layers: [{above: 0 um, viscosity: 2e-3 Pa s}]\n")],
+         [Problem(FLUID, "layers", "[{above", ["fluid alone", "has cells", "viscosityRatio"])]),
+    Case("layerBeyondWall", LAYERED + [append(FLUID, "layers: [{above: 9 um, viscosity: 2e-3 Pa s}]\n")],
+         [Problem(FLUID, "layers[0].above", "9 um", ["not between the walls", "-8 um and 8 um", "along z"])]),
+    Case("layersUnordered", LAYERED + [append(FLUID, "layers: [{above: 2 um, viscosity: 2e-3 Pa s}, {above: 1 um, viscosity: 3e-3 Pa s}]\n")],
+         [Problem(FLUID, "layers[1].above", "1 um", ["the layer before it begins at 2 um", "from the lowest up"])]),
+    Case("layerTooThin", LAYERED + [append(FLUID, "layers: [{above: 7.9 um, viscosity: 2e-3 Pa s}]\n")],
+         [Problem(FLUID, "layers[0].above", "7.9 um", ["thinner than a spacing"])]),
+    Case("layerWithoutViscosity", LAYERED + [append(FLUID, "layers: [{above: 1 um}]\n")],
+         [Problem(FLUID, "layers[0].viscosity", "{above", ["missing: its dynamic viscosity"])]),
     Case("observerOfCellsWithoutCells", VORTICES + [rewrite(OBSERVERS, "deformation: {type: shape, every: 10 steps}\n")],
          [Problem(OBSERVERS, "deformation", "deformation", ["shape", "the case has none", "system/mesh.yaml"])]),
     Case("observerOfWallsWithoutWalls", VORTICES + [rewrite(OBSERVERS, "drag: {type: wallStress, every: 10 steps}\n")],

@@ -1,0 +1,56 @@
+"""Decay of Taylor-Green vortices in three dimensions against a spectral simulation: kinetic energy."""
+import math
+
+from suite import HERE, Figure, Plot, Run, rows
+
+TITLE = "Taylor-Green vortices, three dimensions"
+ACROSS = "particles in a wavelength"
+RESOLUTIONS = (16, 32, 64)
+ALLOWED = {16: 2, 32: 0.6, 64: 0.5}  # % of E(0); 0.5 % at 64 is the aim
+NU, L = 1.0e-6, 1.0e-3  # constant/fluid.yaml, system/mesh.yaml
+K = 2 * math.pi / L
+REYNOLDS = (1, 10)
+
+reference = [row for row in rows(HERE / "taylorGreen3D" / "dns.csv") if row["time"] <= 0.2 * row["Re"]]
+
+
+def runs(n):
+    return [Run(f"Re{Re}", HERE / "taylorGreen3D", [
+        f"system/numerics.yaml:/spacing={1000 / n} um", f"constant/flow.yaml:/speed={Re * NU * K:.16g} m/s"], ("particleFill", "sphFlow"))
+        for Re in REYNOLDS]
+
+
+def decay(folder, Re):
+    """Times in 1/(k U) and kinetic energies over the first."""
+    (path,) = folder.glob("postProcessing/balance/*/conservation.csv")
+    table = rows(path)
+    return [(row["time_s"] * K * K * NU * Re, row["kineticEnergy_J"] / table[0]["kineticEnergy_J"]) for row in table]
+
+
+def at(points, time):
+    for (t0, e0), (t1, e1) in zip(points, points[1:]):
+        if t0 <= time <= t1:
+            return e0 * (e1 / e0) ** ((time - t0) / (t1 - t0))
+    return math.nan
+
+
+def figures(done, n):
+    allowed, found = ALLOWED.get(n, 2 * 16 / n), []
+    for Re in REYNOLDS:
+        points = decay(done[f"Re{Re}"], Re)
+        for row in reference:
+            if row["Re"] == Re and row["time"] > 0:
+                energy, exact = at(points, row["time"]), row["energy"] / 0.125
+                found.append(Figure(f"Re {Re}, E/E(0) at k U t = {row['time']:g}", 100 * (energy - exact), allowed, "%", energy, exact,
+                                    order=True))
+    return found
+
+
+def curves(done):
+    ours, theirs = [], []
+    for Re in REYNOLDS:
+        points = decay(done[f"Re{Re}"], Re)[::4]
+        table = [row for row in reference if row["Re"] == Re]
+        ours.append((f"particles, Re = {Re}", [t / Re for t, _ in points], [e for _, e in points]))
+        theirs.append((f"spectral, Re = {Re}", [row["time"] / Re for row in table], [row["energy"] / 0.125 for row in table]))
+    return Plot("nu k^2 t", "E/E(0)", ours, theirs, ["set logscale y"])
