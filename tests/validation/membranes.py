@@ -1,0 +1,111 @@
+"""What cases with one membrane in shear flow share: sizes, the course of a run, period of a tank-treading membrane, meshes of others."""
+import math
+import re
+import xml.etree.ElementTree as ElementTree
+
+import vtp
+from suite import Figure, at, rows
+from summary import axisTurned, series, strainOfTurn
+
+RADIUS = 4  # um
+
+
+def settings(n, box, strain, more=(), edge=1.0):
+    """n particles along the radius, in a box in radii (flow, vorticity, gradient), the mesh's edge in spacings; three results before the end."""
+    spacing = RADIUS / n
+    sides = ", ".join(f"{length * RADIUS:g} um" for length in box)
+    return [f"system/mesh.yaml:/domain/size=[{sides}]", f"system/numerics.yaml:/spacing={spacing:.8g} um",
+            f"system/mesh.yaml:/cells/0/edge={edge * spacing:.8g} um", f"system/control.yaml:/endStrain={strain}",
+            "system/control.yaml:/write/strain=0.25", "system/control.yaml:/write/fields=[velocity]", "system/control.yaml:/write/keep=3", *more]
+
+
+class Course:
+    """Of a run that has ended: shape, angle of the main axis with the flow, area and volume."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.shape = series(folder, "deformation", "*.csv")
+        self.balance = series(folder, "balance", "conservation.csv")
+        for row, turned in zip(self.shape, axisTurned(self.shape)):
+            row["angle_deg"] = turned
+        (self.cell,) = (name[: -len("_volumeChange")] for name in self.balance[0] if name.endswith("_volumeChange"))
+        self.end = self.shape[-1]["strain"]
+
+    def at(self, strain, key):
+        return at(self.shape, strain, key)
+
+    def curve(self, key, every):
+        """Strains and values, for a plot."""
+        strains = [every * k for k in range(int(self.end / every + 1e-6) + 1)]
+        return strains, [self.at(t, key) for t in strains]
+
+    def turn(self, degrees):
+        return strainOfTurn(self.shape, degrees)
+
+    def kept(self, label):
+        """Figures of what must be kept."""
+        volume = max((row[f"{self.cell}_volumeChange"] for row in self.balance), key=abs)
+        return [Figure(f"{label}: volume, at most", 100 * volume, 1e-3),
+                Figure(f"{label}: particles that changed side, at most", max(row["changedSide"] for row in self.balance), 0, "")]
+
+    def area(self, strain):
+        return at(self.balance, strain, f"{self.cell}_areaChange")
+
+
+def worst(course, reference, key, strains, scale=1.0):
+    """Largest difference from the reference over these strains, of the sign that it has."""
+    found = [scale * (course.at(t, key) - at(reference, t, key)) for t in strains if t <= course.end + 1e-9]
+    return max(found, key=abs)
+
+
+def snapshots(folder, cell):
+    """(strain, file) of the results of a membrane that are on disk, in order. Times of the collection are strains' times: read from each file."""
+    found = []
+    for entry in ElementTree.parse(folder / "results" / f"{cell}.pvd").getroot().iter("DataSet"):
+        path = folder / "results" / entry.get("file")
+        if path.suffix == ".pvtp":
+            (piece,) = ElementTree.parse(path).getroot().iter("Piece")
+            path = path.parent / piece.get("Source")
+        found.append((float(entry.get("timestep")), path))
+    return sorted(found)
+
+
+def treadPeriod(course):
+    """Time in which the membrane goes once round, in units of 1/gammadot, from two results of a steady shape.
+
+    Nodes near the shear plane (within 0.15 radii) pass each polar angle about the centroid at a speed of their own place, w(phi); the integral of
+    dphi/w over a turn is the period. Between two results a node's mean speed belongs to the middle of its way.
+    """
+    (t1, one), (t2, two) = snapshots(course.folder, course.cell)[-2:]
+    ratio = course.shape[-1]["strain"] / course.shape[-1]["time_s"]
+    before, after = vtp.File(one).points, vtp.File(two).points
+    centre = [sum(p[k] for p in after) / len(after) for k in range(3)]
+    half = 0.15 * RADIUS * 1e-6
+    marks = []
+    for p, q in zip(before, after):
+        if abs(q[1] - centre[1]) > half:
+            continue
+        a, b = (math.atan2(x[0] - centre[0], x[2] - centre[2]) for x in (p, q))  # with the flow
+        way = (b - a + math.pi) % (2 * math.pi) - math.pi
+        marks.append(((a + way / 2) % (2 * math.pi), (t2 - t1) * ratio / way))
+    marks.sort()
+    marks.append((marks[0][0] + 2 * math.pi, marks[0][1]))
+    return sum(0.5 * (s + r) * (b - a) for (a, s), (b, r) in zip(marks, marks[1:]))
+
+
+def otherMesh(path, cell):
+    """A step of preparation: puts the surface of an OFF file, lengths in radii, axis along its y, in the place of the mesh that membraneMesh made."""
+    def replace(folder):
+        words = re.sub(r"#.*", "", path.read_text()).split()[1:]
+        count, triangles = int(words[0]), int(words[1])
+        numbers = list(map(float, words[3 : 3 + 3 * count]))
+        scale = RADIUS * 1e-6
+        points = [(scale * x, -scale * z, scale * y) for x, y, z in zip(*(numbers[k::3] for k in range(3)))]  # its gradient is y, here z
+        corners = list(map(int, words[3 + 3 * count :]))
+        file = folder / "0" / f"{cell}.vtp"
+        made = vtp.File(file)
+        vtp.write(file, points, [tuple(corners[4 * k + 1 : 4 * k + 4]) for k in range(triangles)], list(range(count)),
+                  made.arrays["spacing"][0], made.texts)
+
+    replace.__name__ = f"otherMesh {path.name}"
+    return replace

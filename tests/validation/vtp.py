@@ -1,0 +1,97 @@
+"""Reads VTK XML PolyData as the programs write them: appended raw data, blocks compressed by LZ4. Gives points, arrays, triangles and texts."""
+import pathlib
+import re
+import struct
+import xml.etree.ElementTree as ElementTree
+
+
+def lz4(block, size):
+    """A block of LZ4, decoded: literals, then a match within the last 64 KiB of what has been decoded, and so on."""
+    out, i = bytearray(), 0
+    while True:
+        token = block[i]
+        i += 1
+        length = token >> 4
+        if length == 15:
+            while block[i] == 255:
+                length, i = length + 255, i + 1
+            length, i = length + block[i], i + 1
+        out += block[i : i + length]
+        i += length
+        if i >= len(block):
+            break
+        back = block[i] | block[i + 1] << 8
+        i, length = i + 2, token & 15
+        if length == 15:
+            while block[i] == 255:
+                length, i = length + 255, i + 1
+            length, i = length + block[i], i + 1
+        start = len(out) - back
+        for k in range(0, length + 4, back):  # a match may reach into itself
+            out += out[start : start + min(back, length + 4 - k)]
+    if len(out) != size:
+        raise ValueError(f"a block of {size} bytes came to {len(out)}")
+    return bytes(out)
+
+
+class File:
+    """points: list of (x, y, z); triangles; arrays: point arrays by name; texts: field strings by name."""
+
+    TYPES = {"Float64": "d", "Float32": "f", "Int64": "q", "Int32": "i", "UInt8": "B", "Int8": "b"}
+
+    def __init__(self, path):
+        data = pathlib.Path(path).read_bytes()
+        mark = re.search(rb'<AppendedData encoding="raw">\s*_', data)
+        self.appended = memoryview(data)[mark.end() :]
+        root = ElementTree.fromstring(data[: mark.start()] + b"</VTKFile>")
+        self.compressed = "compressor" in root.attrib
+        piece = root.find("PolyData/Piece")
+        self.points = self.tuples(piece.find("Points/DataArray"))
+        self.arrays = {a.get("Name"): self.tuples(a) for a in piece.findall("PointData/DataArray")}
+        corners = {a.get("Name"): self.values(a) for a in piece.findall("Polys/DataArray")}
+        corners = corners.get("connectivity", ())
+        self.triangles = [tuple(corners[i : i + 3]) for i in range(0, len(corners), 3)]
+        self.texts = {a.get("Name"): self.decoded(a).split(b"\0")[0].decode()
+                      for a in root.findall("PolyData/FieldData/*") if a.get("type") == "String"}
+
+    def decoded(self, array):
+        at = int(array.get("offset"))
+        if not self.compressed:
+            (size,) = struct.unpack_from("<Q", self.appended, at)
+            return bytes(self.appended[at + 8 : at + 8 + size])
+        blocks, size, last = struct.unpack_from("<3Q", self.appended, at)
+        lengths = struct.unpack_from(f"<{blocks}Q", self.appended, at + 24)
+        at, out = at + 24 + 8 * blocks, b""
+        for k, length in enumerate(lengths):
+            out += lz4(bytes(self.appended[at : at + length]), last if k == blocks - 1 and last else size)
+            at += length
+        return out
+
+    def values(self, array):
+        data, kind = self.decoded(array), self.TYPES[array.get("type")]
+        return struct.unpack(f"<{len(data) // struct.calcsize(kind)}{kind}", data)
+
+    def tuples(self, array):
+        flat, width = self.values(array), int(array.get("NumberOfComponents", 1))
+        return list(flat) if width == 1 else [flat[i : i + width] for i in range(0, len(flat), width)]
+
+
+def write(path, points, triangles, ids, spacing, texts):
+    """A closed surface as membraneMesh writes it, in plain text."""
+    def array(kind, name, values, width=1):
+        words = " ".join(repr(v) if isinstance(v, float) else str(v) for v in values)
+        return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="ascii">{words}</DataArray>'
+
+    strings = "".join(f'<Array type="String" Name="{name}" NumberOfTuples="1" format="ascii">'
+                      f'{" ".join(str(b) for b in text.encode())} 0</Array>' for name, text in texts.items())
+    numbers = "".join(f'<DataArray type="Float64" Name="{name}" NumberOfTuples="1" format="ascii">0</DataArray>' for name in ("TimeValue", "strain"))
+    lines = [
+        '<?xml version="1.0"?>', '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">', "<PolyData>",
+        f"<FieldData>{numbers}{strings}</FieldData>",
+        f'<Piece NumberOfPoints="{len(points)}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{len(triangles)}">',
+        f'<PointData>{array("Int64", "id", ids)}{array("Float64", "spacing", [spacing] * len(points))}</PointData>',
+        f'<Points>{array("Float64", "Points", [x for p in points for x in p], 3)}</Points>',
+        f'<Polys>{array("Int64", "connectivity", [n for t in triangles for n in t])}'
+        f'{array("Int64", "offsets", [3 * (k + 1) for k in range(len(triangles))])}</Polys>',
+        "</Piece>", "</PolyData>", "</VTKFile>"]
+    pathlib.Path(path).write_text("\n".join(lines) + "\n")
