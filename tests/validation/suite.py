@@ -237,8 +237,9 @@ def draw(plot, path):
     blocks, parts = [], []
     for k, (title, xs, ys, style) in enumerate([(*c, "lines lw 2") for c in plot.theirs] + [(*c, "points pt 7 ps 0.6") for c in plot.ours]):
         blocks.append(f"$d{k} << E\n" + "\n".join(f"{x:.8g} {y:.8g}" for x, y in zip(xs, ys)) + "\nE")
-        colour = k % len(plot.theirs) + 1 if len(plot.theirs) == len(plot.ours) else k + 1
+        number = (k if k < len(plot.theirs) else k - len(plot.theirs)) + 1
+        colour = "rgb '#aaaaaa'" if k < len(plot.theirs) != len(plot.ours) else number  # several references to a curve: all in grey
         parts.append(f"$d{k} with {style} lc {colour} " + (f"title '{title}'" if title else "notitle"))
-    script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'",
+    script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'", "set linetype 5 lc rgb '#8b4513'",
                         f"set xlabel '{plot.xlabel}'", f"set ylabel '{plot.ylabel}'", *plot.extra, *blocks, "plot " + ", ".join(parts)])
     subprocess.run(["gnuplot"], input=script + "\n", text=True, check=True)

@@ -64,9 +64,9 @@ def curves(done):
     ours, theirs = [], []
     for name, folder in done.items():
         ours.append((f"Ca {name[2:]}", *Course(folder).curve("D12_inertia", 0.2)))
-        for source, table in published(name[2:]).items():
+        for table in published(name[2:]).values():
             table = [row for row in table if row["strain"] <= STRAIN]
-            theirs.append((source if name == "Ca0.3" else "", [row["strain"] for row in table], [row["D"] for row in table]))
+            theirs.append(("", [row["strain"] for row in table], [row["D"] for row in table]))
         table = [row for row in rows(HERE / f"reference_Ca{name[2:]}.csv") if row["strain"] <= STRAIN]
-        theirs.append(("own boundary elements" if name == "Ca0.3" else "", [row["strain"] for row in table], [row["D12_inertia"] for row in table]))
-    return Plot("strain", "D12", ours, theirs, ["set key right bottom", "set xrange [0:]", "set yrange [0:0.6]"])
+        theirs.append(("", [row["strain"] for row in table], [row["D12_inertia"] for row in table]))
+    return Plot("strain", "D12", ours, theirs, ["set key at 4.8, 0.28", "set xrange [0:]", "set yrange [0:0.6]"])
