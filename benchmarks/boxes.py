@@ -6,9 +6,7 @@
 Runs what DIRECTORY does not hold yet, one folder for each row, and prints the table of all that have ended. A stopped run goes on.
 Boxes are along the flow, the vorticity and across the gap, in radii.
 """
-import csv
 import json
-import math
 import os
 import pathlib
 import subprocess
@@ -16,7 +14,8 @@ import sys
 
 from tutorialCase import RADIUS, TUTORIALS, prepare, sized
 
-sys.path.insert(0, str(TUTORIALS))
+sys.path[:0] = [str(TUTORIALS), str(TUTORIALS.parent / "tests" / "validation")]
+from suite import at, rows
 from summary import series, strainOfTurn
 
 CAPSULE = ("capsuleShear", "capsule", "/implicit/step=0.05")
@@ -56,18 +55,6 @@ def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain, *se
         f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}", *settings])
     subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, *options], check=True,
                    env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
-
-
-def rows(path):
-    with open(path) as text:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(line for line in text if not line.startswith("#"))]
-
-
-def at(table, strain, key):
-    for a, b in zip(table, table[1:]):
-        if a["strain"] - 1e-9 <= strain <= b["strain"] + 1e-9:
-            return a[key] + (strain - a["strain"]) / (b["strain"] - a["strain"]) * (b[key] - a[key])
-    return math.nan
 
 
 def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings):
