@@ -52,9 +52,9 @@ class Step final : public ImplicitStep {
     }
 
     Events advance(double dt) override {
-        moveVelocities(-state.behind);
+        moveVelocities(-ahead());
         Events events = advance(dt, backward_, 0);
-        moveVelocities(state.behind);
+        moveVelocities(ahead());
         return events;
     }
     double largestDensityBalance() const override { return options_.largestBalance(); }
@@ -119,6 +119,9 @@ class Step final : public ImplicitStep {
         c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
     }
 
+    // By how much the store's velocity is later than the middle of the last step. After the first step not at all: its acceleration may
+    // be the jump from a velocity that did not know of the forces, which does not go on.
+    double ahead() const { return state.steps > 1 ? state.behind : 0; }
     // Along the acceleration: between the middle of a step and its end.
     void moveVelocities(double seconds) {
         ParticleStore& s = scene_.store();
