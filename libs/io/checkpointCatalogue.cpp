@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/communicator.hpp"
+#include "core/together.hpp"
 #include "io/checkpointAccess.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/publish.hpp"
-#include "io/together.hpp"
 
 namespace corpuscle::io {
 namespace {

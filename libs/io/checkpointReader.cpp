@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/together.hpp"
 #include "io/checkpointAccess.hpp"
 #include "io/checkpointFile.hpp"
-#include "io/together.hpp"
 
 namespace corpuscle::io {
 

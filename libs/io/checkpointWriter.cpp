@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "core/communicator.hpp"
+#include "core/together.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/checksum.hpp"
 #include "io/hdf5Handle.hpp"
 #include "io/publish.hpp"
-#include "io/together.hpp"
 
 namespace corpuscle::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
+#include "core/together.hpp"
 #include "particles/isa.hpp"
 
 namespace corpuscle::particles {
@@ -64,13 +64,14 @@ bool ParticleSystem::mustRebuild(double largestDisplacement2) const {
 }
 
 void ParticleSystem::rebuild() {
+    std::string fault;
     for (std::size_t i = 0; i < store_.size(); ++i) {
-        const Vec3 p = box_.wrap(store_.position(i));
+        const Vec3 p = store_.position(i);
         if (!p.allFinite())
-            throw Failure(ExitCode::numerics,
-                          "particle " + std::to_string(store_.id[i]) + " has no finite position: the run has diverged");
-        store_.setPosition(i, p);
+            fault = "particle " + std::to_string(store_.id[i]) + " has no finite position: the run has diverged";
+        store_.setPosition(i, box_.wrap(p));
     }
+    throwTogether(comm(), !fault.empty(), fault, ExitCode::numerics);
     if (rebuilds_ % rebuildsPerBalance == rebuildsPerBalance - 1 &&
         decomposition_.imbalance(store_.size()) > tolerableImbalance)
         decomposition_.balance(store_);

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "core/error.hpp"
+#include "core/together.hpp"
 
 namespace corpuscle::sph {
 
@@ -20,10 +20,16 @@ constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14;
 constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
 constexpr double leastMoment = 0.05;              // of the smallest direction, 1 on an ideal set
 
+// Symmetric, of xx yy zz xy xz yz.
 Mat3 matrix(const std::array<double, 6>& s) {
     Mat3 m;
     m << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
     return m;
+}
+
+ViscosityKind kindOf(const FluidModel& model, const ParticleSystem& system) {
+    if (!system.store().optional().viscosity) return ViscosityKind::uniform;
+    return model.lowestLayer > 0 ? ViscosityKind::layers : ViscosityKind::sides;
 }
 
 template <class Real>
@@ -39,12 +45,9 @@ template <class Real>
 Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system, OperatorForm form)
     : model_(model),
       form_(form),
-      varyingViscosity_(system.store().optional().viscosity),
-      layered_(varyingViscosity_ && model.lowestLayer > 0),
-      stressFields_(stressAt + (varyingViscosity_ ? 9 : 6)),
-      kernels_(kernelsOf<Real>(model.kernel->kind(), layered_            ? ViscosityKind::layers
-                                                     : varyingViscosity_ ? ViscosityKind::sides
-                                                                         : ViscosityKind::uniform)) {
+      viscosity_(kindOf(model, system)),
+      stressFields_(stressAt + (isVarying() ? 9 : 6)),
+      kernels_(kernelsOf<Real>(model.kernel->kind(), viscosity_)) {
     const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
     unitVolume_ = model.mass / model.density;
     const double atSpacing = model.kernel->value(system.spacing() / H);
@@ -85,32 +88,33 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
 
     disorder_.resize(n), viscous_.resize(n), bulk_.resize(n), correction_.resize(n);
     scale_.assign(n, wallScale_);
+    std::string fault;
     for (std::size_t i = 0; i < n; ++i) {
         const auto m = [&](std::size_t k) { return moment_[k][i]; };
         const auto second = [&](std::size_t k) { return m(Moments::second + k); };
         disorder_[i] = Vec3(m(Moments::shift), m(Moments::shift + 1), m(Moments::shift + 2));
         correction_[i] = {1, 1, 1, 0, 0, 0};
         if (!wall_[i] && form_ == OperatorForm::corrected) {
-            Mat3 M;
-            M << second(0), second(3), second(4), second(3), second(1), second(5), second(4), second(5), second(2);
+            const Mat3 M = matrix({second(0), second(1), second(2), second(3), second(4), second(5)});
             const double scale = M.trace() / 3, determinant = M.determinant();
             if (!(scale > leastMoment && determinant > leastMoment * leastMoment * scale)) {
                 const Vec3 x = system.store().position(i);
-                throw Failure(ExitCode::numerics,
-                              fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has too few neighbours for a "
-                                          "gradient: the run has come apart. Start again from the last checkpoint with "
-                                          "a smaller step",
-                                          system.store().id[i], x[0], x[1], x[2]));
+                fault = fmt::format(
+                    "particle {} at ({:.4g}, {:.4g}, {:.4g}) m has too few neighbours for a gradient: the run has come "
+                    "apart and needs a smaller step",
+                    system.store().id[i], x[0], x[1], x[2]);
+                break;
             }
             const Mat3 B = M.inverse();
             correction_[i] = {B(0, 0), B(1, 1), B(2, 2), B(0, 1), B(0, 2), B(1, 2)};
             scale_[i] = 1 / scale;
         }
-        const double mu = layered_ ? system.store().viscosity[i] : model_.viscosity;
+        const double mu = isLayered() ? system.store().viscosity[i] : model_.viscosity;
         viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(Moments::strength);
         bulk_[i] = m(Moments::square) * volume_[i] / 3;
-        if (varyingViscosity_) viscous_[i] += (layered_ ? 1 : 4) * excessViscosity(system, i) * bulk_[i];
+        if (isVarying()) viscous_[i] += (isLayered() ? 1 : 4) * excessViscosity(system, i) * bulk_[i];
     }
+    throwTogether(system.comm(), !fault.empty(), fault, ExitCode::numerics);
 }
 
 template <class Real>
@@ -126,7 +130,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
         rate[volumeAt] = static_cast<Real>((wall_[i] ? -1 : 1) * volume_[i] / unitVolume_);
         rate[scaleAt] = static_cast<Real>(scale_[i]);
         for (std::size_t k = 0; k < 6; ++k) rate[correctionAt + k] = static_cast<Real>(correction_[i][k]);
-        if (layered_) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
+        if (isLayered()) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
         stress[3] = rate[volumeAt];
     }
     const double scale = 1 / system.support();
@@ -157,7 +161,7 @@ void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
     const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
     for (std::size_t i = 0; i < n; ++i) std::copy_n(u.data() + width * i, 3, rateRecords_.data() + rateFields * i + 3);
     sums_.assign(all * width, 0.0);
-    if (varyingViscosity_) {
+    if (isVarying()) {
         gradientSums_.assign(all * gradientSums, 0.0);
         sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart, gradientSums_,
             gradientSums);
@@ -177,7 +181,7 @@ void Operators<Real>::takeGradients(const ParticleSystem& system) {
         const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> products(s + gradientAt);
         const Mat3 gradient = rateUnit_ / volume_[i] * (matrix(correction_[i]) * products);
         divergence_[i] = gradient.trace();
-        if (!layered_)
+        if (!isLayered())
             stress_[i] = excessViscosity(system, i) * (gradient + gradient.transpose());
         else if (wall_[i])
             stress_[i].setZero();
@@ -189,7 +193,7 @@ void Operators<Real>::takeGradients(const ParticleSystem& system) {
 template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
     findRates(system, u);
-    if (varyingViscosity_) {
+    if (isVarying()) {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, 0);
         addStress(system);
     } else
@@ -209,7 +213,7 @@ template <class Real>
 void Operators<Real>::setPressure(std::size_t i, double pressure) {
     const double unit = rateUnit_ / viscousUnit_, p = pressure * unit;
     Real* stress = stressRecords_.data() + static_cast<std::size_t>(stressFields_) * i + stressAt;
-    if (!varyingViscosity_) {
+    if (!isVarying()) {
         for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
         return;
     }

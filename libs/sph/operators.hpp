@@ -63,9 +63,11 @@ class Operators {
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
 
   private:
+    bool isLayered() const { return viscosity_ == ViscosityKind::layers; }
+    bool isVarying() const { return viscosity_ != ViscosityKind::uniform; }
     // Over that of the fluid, or of the lowest layer [Pa s].
     double excessViscosity(const particles::ParticleSystem& system, std::size_t i) const {
-        return system.store().viscosity[i] - (layered_ ? model_.lowestLayer : model_.viscosity);
+        return system.store().viscosity[i] - (isLayered() ? model_.lowestLayer : model_.viscosity);
     }
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
@@ -80,7 +82,7 @@ class Operators {
 
     FluidModel model_;
     OperatorForm form_;
-    bool varyingViscosity_, layered_;
+    ViscosityKind viscosity_;
     int stressFields_;
     PairKernels::Operators<Real> kernels_;
     MomentConstants moments_;

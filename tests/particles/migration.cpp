@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <limits>
 
+#include "core/error.hpp"
 #include "particles/population.hpp"
 
 using namespace corpuscle;
@@ -138,5 +140,28 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
             shift[k] = std::round(lengths) * p.box.size()[k];
         }
         EXPECT_LT(distanceSquared(p.position[id] + shift, brick.low, brick.high), 2.3 * 2.3);
+    }
+}
+
+TEST(Rebuild, refusesAPositionThatIsNotFiniteOnAllRanks) {
+    const Population p(box({9, 8, 7}), 1500, 6);
+    ParticleSystem system(MPI_COMM_WORLD, p.box, {}, 2, 0.3, 1);
+    p.deal(system.store());
+    system.start();
+    for (int axis = 0; axis < 3; ++axis) {  // along a periodic one too, where the box wraps
+        ParticleStore& s = system.store();
+        const int last = system.decomposition().size() - 1;
+        const Vec3 sound = s.position(0);
+        Vec3 broken = sound;
+        broken[axis] = std::numeric_limits<double>::quiet_NaN();
+        if (system.decomposition().rank() == last) s.setPosition(0, broken);
+        try {
+            system.rebuild();
+            ADD_FAILURE() << "axis " << axis << ": no rank noticed";
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.code(), ExitCode::numerics);
+            EXPECT_NE(std::string(failure.what()).find("has no finite position"), std::string::npos) << failure.what();
+        }
+        if (system.decomposition().rank() == last) s.setPosition(0, sound);
     }
 }

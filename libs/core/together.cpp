@@ -1,6 +1,6 @@
-#include "io/together.hpp"
+#include "core/together.hpp"
 
-namespace corpuscle::io {
+namespace corpuscle {
 
 void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode code) {
     int rank = 0, size = 1;
@@ -18,4 +18,4 @@ void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode
     throw Failure(code, message);
 }
 
-}  // namespace corpuscle::io
+}  // namespace corpuscle

@@ -1,4 +1,4 @@
-// Failing together: file work that goes wrong on one rank must end on all of them, or the others wait for ever.
+// Failing together: what goes wrong on one rank must end on all of them, or the others wait for ever.
 #pragma once
 #include <mpi.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace corpuscle::io {
+namespace corpuscle {
 
 // Collective. If `failed` anywhere, every rank throws Failure(code) with the lowest failing rank's text.
 void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode code = ExitCode::io);
@@ -36,4 +36,4 @@ void onRoot(MPI_Comm comm, Work&& work) {
     });
 }
 
-}  // namespace corpuscle::io
+}  // namespace corpuscle
