@@ -53,7 +53,7 @@ class Step final : public ImplicitStep {
 
     Events advance(double dt) override {
         moveVelocities(-ahead());
-        Events events = advance(dt, backward_, 0);
+        Events events = advance(dt, backward_ || damped, 0);
         moveVelocities(ahead());
         return events;
     }

@@ -54,6 +54,8 @@ class ImplicitStep {
     // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help.
     virtual std::vector<coupling::RuptureEvent> advance(double dt) = 0;
 
+    bool damped = false;  // every step by backward Euler, whatever the case says
+
     // What a restart needs beside the scene.
     struct State {
         double behind = 0;  // how far the velocity is behind the places [s]

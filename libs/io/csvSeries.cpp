@@ -7,9 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/atomicFile.hpp"
 #include "core/error.hpp"
+#include "core/together.hpp"
 #include "io/publish.hpp"
-#include "io/together.hpp"
 
 namespace corpuscle::io {
 
@@ -40,6 +41,21 @@ void CsvSeries::row(std::span<const double> values) {
     for (const double value : values) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", value);
     file_ << line << '\n' << std::flush;
     if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check free space", path_.string()));
+}
+
+void CsvSeries::cutAfter(double time) {
+    if (!root_) return;
+    std::string kept, line;
+    {
+        std::ifstream written(path_);
+        std::getline(written, line);
+        kept = line + '\n';
+        while (std::getline(written, line) && std::strtod(line.c_str(), nullptr) <= time) kept += line + '\n';
+    }
+    file_.close();
+    writeFileAtomically(path_, kept);
+    file_.open(path_, std::ios::app);
+    if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check permissions", path_.string()));
 }
 
 std::vector<double> CsvTable::column(const std::string& name) const {

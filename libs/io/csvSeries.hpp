@@ -29,6 +29,8 @@ class CsvSeries {
     // Rank 0 writes, the others do nothing. Throws Failure(ExitCode::io) on rank 0, std::invalid_argument for a row of
     // the wrong length.
     void row(std::span<const double> values);
+    // Takes out the rows whose first number, the time, is greater. Throws as row().
+    void cutAfter(double time);
     const std::filesystem::path& path() const { return path_; }
 
   private:

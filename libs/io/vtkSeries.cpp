@@ -1,21 +1,24 @@
 #include "io/vtkSeries.hpp"
-#include "core/atomicFile.hpp"
-#include "core/communicator.hpp"
 
 #include <fmt/format.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "core/atomicFile.hpp"
+#include "core/communicator.hpp"
 #include "core/error.hpp"
+#include "core/together.hpp"
 #include "io/publish.hpp"
-#include "io/together.hpp"
 #include "io/vtkMessages.hpp"
 
 namespace corpuscle::io {
 namespace {
+
+constexpr double slack = 1e-9;  // of a time
 
 constexpr const char* headerText =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
@@ -85,15 +88,26 @@ void VtkSeries::start() {
     onRoot(comm_, [&] {
         const auto index = results_ / (stream_ + ".pvd");
         if (!std::filesystem::exists(index)) return;
-        const double limit = startTime_ - 1e-9 * std::abs(startTime_);
-        std::vector<SeriesEntry> dropped;
-        for (auto& entry : readPvd(index)) (entry.time < limit ? entries_ : dropped).push_back(entry);
-        writeIndex();
-        for (const auto& entry : dropped) removeFiles(entry);
-        if (!entries_.empty()) number_ = entryNumber(entries_.back().file) + 1;
+        entries_ = readPvd(index);
+        keepBefore(startTime_ - slack * std::abs(startTime_));
     });
     MPI_Bcast(&number_, 1, MPI_INT, 0, comm_);
     started_ = true;
+}
+
+void VtkSeries::goBack(double time) {
+    if (!started_) return;
+    onRoot(comm_, [&] { keepBefore(time + slack * std::abs(time)); });
+    MPI_Bcast(&number_, 1, MPI_INT, 0, comm_);
+}
+
+void VtkSeries::keepBefore(double limit) {
+    std::vector<SeriesEntry> kept, dropped;
+    for (SeriesEntry& entry : entries_) (entry.time < limit ? kept : dropped).push_back(std::move(entry));
+    entries_ = std::move(kept);
+    writeIndex();
+    for (const auto& entry : dropped) removeFiles(entry);
+    number_ = entries_.empty() ? 0 : entryNumber(entries_.back().file) + 1;
 }
 
 Cells VtkSeries::agreeOnCells(const PolyData& piece) const {

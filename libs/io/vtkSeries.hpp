@@ -29,7 +29,7 @@ std::vector<SeriesEntry> readPvd(const std::filesystem::path& path);
 
 class VtkSeries {
   public:
-    // keep: the number of times that stay, 0 for all. startTime: of this run [s]; a fresh run gives its first time.
+    // keep: the number of times that stay, 0 for all. startTime: the earliest that this run may write [s].
     VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime);
 
     // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws Failure(ExitCode::io) on all ranks.
@@ -37,8 +37,11 @@ class VtkSeries {
 
     // Collective. Removes what a run that went further left, as the first write does: for a stream that has nothing to write yet.
     void start();
+    // Collective. Removes what this run has written after `time`, to write it anew.
+    void goBack(double time);
 
   private:
+    void keepBefore(double limit);
     Cells agreeOnCells(const PolyData& piece) const;
     void writeIndex() const;
     void removeFiles(const SeriesEntry& entry) const;

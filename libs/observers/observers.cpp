@@ -41,7 +41,7 @@ Observers::Observers(const ObserversSettings& settings, const Scene& scene, cons
     : caseDir_(std::move(caseDir)), startTime_(start.t) {
     Problems problems;
     for (const auto& [name, choice] : settings.models) {
-        Running observer{name, choice.name, Ticker(choice->every, start), choice->begin(scene), {}};
+        Running observer{name, choice.name, choice, Ticker(choice->every, start), choice->begin(scene), {}};
         if (const std::string file = sharedFile(*observer.observation); !file.empty())
             problems.add({"system/observers.yaml", 0, 0}, name,
                          choice.name + ": two of its files would be called " + file +
@@ -119,6 +119,22 @@ void Observers::restore(const std::vector<double>& state) {
         for (Running& observer : running_)
             if (observer.key() == key) observer.observation->restore(numbers);
     }
+}
+
+Observers::Memory Observers::remember() const {
+    Memory memory{{}, state()};
+    for (const Running& observer : running_) memory.tickers.push_back(observer.ticker);
+    return memory;
+}
+
+void Observers::goBack(const Memory& memory, const Scene& scene, const Time& time) {
+    for (std::size_t k = 0; k < running_.size(); ++k) {
+        Running& observer = running_[k];
+        observer.ticker = memory.tickers[k];
+        observer.observation = observer.model->begin(scene);
+        for (io::CsvSeries& file : observer.files) file.cutAfter(time.t);
+    }
+    restore(memory.state);
 }
 
 }  // namespace corpuscle::observers

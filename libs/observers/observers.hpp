@@ -46,9 +46,18 @@ class Observers {
     std::vector<double> state() const;
     void restore(const std::vector<double>& state);
 
+    // To look at the same times again, from a state of this run kept in memory: rows after `time` are taken out of the files.
+    struct Memory {
+        std::vector<Ticker> tickers;
+        std::vector<double> state;
+    };
+    Memory remember() const;
+    void goBack(const Memory& memory, const Scene& scene, const Time& time);
+
   private:
     struct Running {
         std::string name, type;
+        Choice<Observer> model;
         Ticker ticker;
         std::unique_ptr<Observation> observation;
         std::vector<io::CsvSeries> files;  // one for each table

@@ -127,7 +127,11 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                 {.fallback = "auto", .range = nonNegative})
             .quantity("safety", &NumericsSettings::safety, unit::none,
                       "fraction of the viscous and the spring limit that a time step may take",
-                      {.fallback = "0.95", .range = between(0.01, 1)});
+                      {.fallback = "0.95", .range = between(0.01, 1)})
+            .integer("retreats", &NumericsSettings::retreats,
+                     "how often in a row a run that fails goes back to its last good state and on with half the step, "
+                     "before it ends; 0 for not at all",
+                     {.fallback = "4", .range = between(0, 20)});
     return s;
 }
 

@@ -57,6 +57,7 @@ struct NumericsSettings {
     long guard = 10;                       // steps between two looks of the leakage guard; 0: none
     std::optional<long> densityBalance{};  // as written
     double safety = 0.95;                  // fraction of each limit that the step takes
+    long retreats = 4;                     // in a row, to an earlier state with shorter steps
     // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the pressure.
     long balanceInterval() const { return densityBalance.value_or(isImplicit() ? 1 : 10); }
     bool isAutomatic() const { return integrator == "automatic"; }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/checkpointFile.hpp"
 #include "simulation/resultsWriter.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -73,11 +72,10 @@ void checkFixed(const std::filesystem::path& path, const Case& input, const std:
     input.throwIfAny(problems);
 }
 
-}  // namespace
-
-void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, const RunState& state) {
+// To a file, or to memory.
+template <class File>
+void save(File& file, const Case& input, const Scene& scene, const Time& time, const RunState& state) {
     const MPI_Comm comm = scene.system->comm();
-    io::CheckpointWriter file(comm, io::nextCheckpoint(comm, input.directory));
     file.attribute("time", time.t);
     file.attribute("strain", time.strain());
     file.attribute("step", static_cast<std::int64_t>(time.step));
@@ -129,31 +127,29 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             file.writeReplicated("bodies/" + body.name + "/state", body.saved());
-    file.finish();
-    io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
 }
 
-RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Scene& scene, Time& time) {
-    io::CheckpointReader file(scene.system->comm(), path);
-    checkFixed(path, input, file.readReplicated<double>("fixed"));
-    time.t = file.attribute<double>("time");
-    time.step = file.attribute<std::int64_t>("step");
+// `where` is what errors name.
+template <class File>
+RunState load(File& file, const std::string& where, const Case& input, Scene& scene, Time& time) {
+    time.t = file.template attribute<double>("time");
+    time.step = file.template attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.attribute<double>("viscousRate"),
-                        file.attribute<double>("membraneRate"),
-                        file.attribute<double>("springRate2"),
-                        file.attribute<double>("dt"),
+    state.integrator = {file.template attribute<double>("viscousRate"),
+                        file.template attribute<double>("membraneRate"),
+                        file.template attribute<double>("springRate2"),
+                        file.template attribute<double>("dt"),
                         {}};
     const bool isImplicit = input.numerics.isImplicit();
     if (file.has("implicit") != isImplicit)
-        throw Failure(ExitCode::io, path.string() + " was written by 'integrator: " +
-                                        (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
-                                        ", whose state between steps is another; start from firstTime, or write that "
-                                        "in system/numerics.yaml");
+        throw Failure(ExitCode::io,
+                      where + " was written by 'integrator: " + (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
+                          ", whose state between steps is another; start from firstTime, or write that "
+                          "in system/numerics.yaml");
     if (isImplicit) {
-        const std::vector<double> s = file.readReplicated<double>("implicit");
+        const std::vector<double> s = file.template readReplicated<double>("implicit");
         if (s.size() != 5 || s[4] != atTheEnd)
-            throw Failure(ExitCode::io, path.string() +
+            throw Failure(ExitCode::io, where +
                                             " has velocities of the middle of the step, as an earlier version "
                                             "wrote them; start from firstTime");
         state.integrator.implicit = {s[0], s[1], s[2], std::lround(s[3])};
@@ -162,55 +158,83 @@ RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Sc
         const char* const was = scene.cells.empty() ? input.isConjugate() ? "operators: plain" : "operators: corrected"
                                 : input.isConjugate() ? "coupling: dualIdentity"
                                                       : "coupling: immersed";
-        throw Failure(ExitCode::io, path.string() + " was written with '" + was +
+        throw Failure(ExitCode::io, where + " was written with '" + was +
                                         "'; start from firstTime, or write that in system/numerics.yaml");
     }
     if (!isImplicit && file.has("conjugate"))
-        state.integrator.conjugateSteps = file.readReplicated<std::int64_t>("conjugate").at(0);
-    state.observers = file.readReplicated<double>("observers");
+        state.integrator.conjugateSteps = file.template readReplicated<std::int64_t>("conjugate").at(0);
+    if (!scene.cells.empty() && !input.isConjugate())
+        state.couplingSteps = file.template attribute<std::int64_t>("couplingSteps");
+    state.observers = file.template readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;
     s.forEachField([&](std::string_view name, auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
-        const std::vector<T> values = file.readDistributed<T>("particles/" + std::string(name));
+        const std::vector<T> values = file.template readDistributed<T>("particles/" + std::string(name));
         array.assign(values.begin(), values.end());
         count = values.size();
     });
     s.resize(count);
     for (Cell& cell : scene.cells) {
         const std::string group = "cells/" + cell.membrane.name + "/";
-        cell.membrane.position = vectors(file.readReplicated<double>(group + "position"));
-        cell.membrane.velocity = vectors(file.readReplicated<double>(group + "velocity"));
-        const auto alive = file.readReplicated<std::int64_t>(group + "aliveBonds");
+        cell.held = true;
+        cell.membrane.position = vectors(file.template readReplicated<double>(group + "position"));
+        cell.membrane.velocity = vectors(file.template readReplicated<double>(group + "velocity"));
+        const auto alive = file.template readReplicated<std::int64_t>(group + "aliveBonds");
         if (cell.membrane.position.size() != cell.membrane.network().nodeCount() ||
             alive.size() != cell.membrane.network().allBonds().size())
-            throw Failure(ExitCode::io, path.string() + " and 0/" + cell.membrane.name +
+            throw Failure(ExitCode::io, where + " and 0/" + cell.membrane.name +
                                             ".vtp hold different meshes; the case was meshed "
                                             "again after the checkpoint: start from firstTime");
         const std::string damage = group + "damage";
         cell.membrane.restore({alive.begin(), alive.end()},
-                              file.has(damage) ? file.readReplicated<double>(damage) : std::vector<double>{});
+                              file.has(damage) ? file.template readReplicated<double>(damage) : std::vector<double>{});
     }
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())
-            body.restore(file.readReplicated<double>("bodies/" + body.name + "/state"));
-    if (scene.shifting) scene.shifting->restore(file.attribute<std::int64_t>("shiftingSteps"));
+            body.restore(file.template readReplicated<double>("bodies/" + body.name + "/state"));
+    if (scene.shifting) scene.shifting->restore(file.template attribute<std::int64_t>("shiftingSteps"));
     if (!scene.cells.empty()) {
-        const auto moves = file.attribute<std::int64_t>("guardMoves");
+        const auto moves = file.template attribute<std::int64_t>("guardMoves");
         // The sum over ranks is what counts: rank 0 takes it up.
-        if (scene.system->decomposition().rank() == 0) scene.putBack = moves;
+        scene.putBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
     }
     if (file.sameRanks())
-        scene.system->resume(file.readReplicated<double>("bricks"), file.attribute<std::int64_t>("rebuilds"));
+        scene.system->resume(file.template readReplicated<double>("bricks"),
+                             file.template attribute<std::int64_t>("rebuilds"));
     else
         scene.system->start();
     return state;
 }
 
-void restoreCoupling(const std::filesystem::path& path, Scene& scene) {
-    if (!scene.coupling) return;
+}  // namespace
+
+void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, const RunState& state) {
+    const MPI_Comm comm = scene.system->comm();
+    io::CheckpointWriter file(comm, io::nextCheckpoint(comm, input.directory));
+    save(file, input, scene, time, state);
+    file.finish();
+    io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
+}
+
+RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Scene& scene, Time& time) {
     io::CheckpointReader file(scene.system->comm(), path);
-    scene.coupling->restore(file.attribute<std::int64_t>("couplingSteps"));
+    checkFixed(path, input, file.readReplicated<double>("fixed"));
+    return load(file, path.string(), input, scene, time);
+}
+
+void remember(io::MemoryCheckpoint& memory, const Case& input, const Scene& scene, const Time& time,
+              const RunState& state) {
+    save(memory, input, scene, time, state);
+}
+
+RunState recall(const io::MemoryCheckpoint& memory, const Case& input, Scene& scene, Time& time) {
+    return load(memory, "the state in memory", input, scene, time);
+}
+
+void restoreCoupling(const RunState& state, Scene& scene) {
+    if (!scene.coupling) return;
+    scene.coupling->restore(state.couplingSteps);
     scene.coupling->guard().restore(scene.putBack);
 }
 

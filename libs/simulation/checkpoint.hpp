@@ -7,6 +7,8 @@
 
 #include "core/time.hpp"
 #include "coupling/scene.hpp"
+#include "io/checkpointFile.hpp"
+#include "io/memoryCheckpoint.hpp"
 #include "simulation/integrator.hpp"
 
 namespace corpuscle::simulation {
@@ -14,6 +16,7 @@ namespace corpuscle::simulation {
 // What is not in the scene.
 struct RunState {
     Integrator::State integrator;
+    long couplingSteps = 0;  // of the dual identity
     std::vector<double> observers;
 };
 
@@ -22,10 +25,15 @@ void writeCheckpoint(const Case& input, const coupling::Scene& scene, const Time
 // Fills an empty scene. Collective.
 RunState readCheckpoint(const std::filesystem::path& path, const Case& input, coupling::Scene& scene, Time& time);
 
+// The same to memory and back into the scene of this run, which may have gone on or come apart since. Collective.
+void remember(io::MemoryCheckpoint& memory, const Case& input, const coupling::Scene& scene, const Time& time,
+              const RunState& state);
+RunState recall(const io::MemoryCheckpoint& memory, const Case& input, coupling::Scene& scene, Time& time);
+
 // The checkpoint that `startFrom` (latestTime, firstTime, a time) means; empty for the start in 0/. Warnings name what was passed over.
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log);
 
 // Parts of the scene that exist only once the integrator has been made.
-void restoreCoupling(const std::filesystem::path& path, coupling::Scene& scene);
+void restoreCoupling(const RunState& state, coupling::Scene& scene);
 
 }  // namespace corpuscle::simulation

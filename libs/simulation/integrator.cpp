@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/together.hpp"
-
 namespace corpuscle::simulation {
 
 using coupling::Scene;
@@ -13,7 +11,6 @@ namespace {
 constexpr int powerIterations = 25;
 constexpr double powerReserve = 1.03;  // power iterations approach the eigenvalue from below
 constexpr long stepsPerEstimate = 1000, rkl2StepsPerEstimate = 100;
-constexpr double largestDensityChange = 0.5;
 
 coupling::DensityBalance densityBalance(const Scene& scene) {
     double volume = scene.fluidBox.volume();
@@ -34,10 +31,12 @@ std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits) {
     return rows;
 }
 
-Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) {
-    if (input.numerics.isRkl2())
+Integrator::Integrator(const Case& input, Scene& scene) : input_(input), scene_(scene) { make(); }
+
+void Integrator::make() {
+    if (input_.numerics.isRkl2())
         makeRkl2();
-    else if (input.isConjugate())
+    else if (input_.isConjugate())
         makeConjugate();
     else
         makeExplicit();
@@ -104,12 +103,23 @@ void Integrator::resume(const State& state, Time& time) {
     time.dt = state.dt;
 }
 
+void Integrator::goBack(const State& state, Time& time) {
+    rkl2_ = nullptr;
+    scheme_.reset(), conjugate_.reset(), implicit_.reset(), scene_.coupling.reset();
+    make();
+    resume(state, time);
+}
+
+void Integrator::shorten(double longest, bool damped) {
+    longest_ = longest;
+    if (implicit_) implicit_->damped = damped;
+}
+
 void Integrator::advance(Scene& scene, Time& time) {
     if (implicit_) {
         scene.broken = implicit_->advance(time.dt);
         if (implicit_->noFlux()) scene.putBack = implicit_->noFlux()->crossings();
         time.advance(time.dt);
-        checkState(time);
         updateLimits(time);
         return;
     }
@@ -124,11 +134,7 @@ void Integrator::advance(Scene& scene, Time& time) {
     }
     time.advance(time.dt);
     if (time.step % (rkl2_ ? rkl2StepsPerEstimate : stepsPerEstimate) == 0) estimateRates();
-    if (scene.system->rebuilds() != rebuilds_) {
-        checkState(time);
-        updateLimits(time);
-    } else if (rkl2_)
-        updateLimits(time);
+    if (rkl2_ || scene.system->rebuilds() != rebuilds_) updateLimits(time);
 }
 
 void Integrator::estimateRates() {
@@ -157,6 +163,7 @@ void Integrator::updateLimits(Time& time) {
         limits_.add("strain", input_.numerics.implicit.step / input_.flow.rate);
         if (implicit_->allowed().error > 0) limits_.add("error", implicit_->allowed().error);
         if (implicit_->allowed().bond > 0) limits_.add("bond strain", implicit_->allowed().bond);
+        if (longest_ < std::numeric_limits<double>::infinity()) limits_.add("retreat", longest_);
         time.dt = limits_.binding().seconds;
         return;
     }
@@ -179,28 +186,10 @@ void Integrator::updateLimits(Time& time) {
                 (rkl2_ ? sph::Rkl2::acousticReach : 1) * sph::acousticStep(h, model.soundSpeed + std::sqrt(most)));
     if (!model.bodyForce.isZero()) limits_.add("body force", sph::bodyForceStep(h, model.bodyForce.norm()));
     if (springRate2_ > 0) limits_.add("spring", safety * sph::springStep(drag, springRate2_));
+    if (longest_ < std::numeric_limits<double>::infinity()) limits_.add("retreat", longest_);
     time.dt = limits_.binding().seconds;
     if (rkl2_) limits_.stages = rkl2_->stages(time.dt);
     rebuilds_ = scene_.system->rebuilds();
-}
-
-void Integrator::checkState(const Time& time) const {
-    const auto& s = scene_.store();
-    const double rho0 = scene_.model().density;
-    std::string fault;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const double change = std::abs(s.density[i] / rho0 - 1);
-        if (change < largestDensityChange && s.velocity(i).allFinite()) continue;
-        const Vec3 x = s.position(i);
-        fault = fmt::format(
-            "step {}, t = {:.6g} s: particle {} at ({:.4g}, {:.4g}, {:.4g}) m has density {:.4g} kg/m^3 (rest "
-            "density {:.4g}) and velocity ({:.3g}, {:.3g}, {:.3g}) m/s: the run has diverged. Start again from the "
-            "last checkpoint with a smaller '{}' in system/numerics.yaml",
-            time.step, time.t, s.id[i], x[0], x[1], x[2], s.density[i], rho0, s.u[i], s.v[i], s.w[i],
-            implicit_ ? "implicit.step" : "safety");
-        break;
-    }
-    io::throwTogether(scene_.system->comm(), !fault.empty(), fault, ExitCode::numerics);
 }
 
 }  // namespace corpuscle::simulation

@@ -3,6 +3,7 @@
 // The explicit scheme's viscous and spring limits come from power iterations, at the start and every 1,000 steps; the acoustic limit is taken anew
 // when lists are rebuilt. The implicit step is as large as the case says. Steps do not depend on what is written when.
 #pragma once
+#include <limits>
 #include <memory>
 
 #include "core/time.hpp"
@@ -32,9 +33,13 @@ class Integrator {
     };
     State state(const Time& time) const;
     void resume(const State& state, Time& time);  // after a restart
+    // The same where the scene has been put back within a run.
+    void goBack(const State& state, Time& time);
+    // From the next step on: none longer than this [s], and of the implicit step backward Euler where damped.
+    void shorten(double longest, bool damped);
 
-    // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics) when the state is
-    // no longer finite or the density runs away, naming particle and place.
+    // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics), on all ranks, where a step
+    // cannot be made.
     void advance(coupling::Scene& scene, Time& time);
 
     const sph::StepLimits& limits() const { return limits_; }
@@ -42,12 +47,12 @@ class Integrator {
     const implicit::ImplicitStep* implicitStep() const { return implicit_.get(); }
 
   private:
+    void make();
     void makeExplicit();
     void makeConjugate();
     void makeRkl2();
     void estimateRates();
     void updateLimits(Time& time);
-    void checkState(const Time& time) const;
     const Case& input_;
     coupling::Scene& scene_;
     std::unique_ptr<sph::ExplicitScheme> scheme_;  // one of the three
@@ -56,6 +61,7 @@ class Integrator {
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
+    double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
     long rebuilds_ = -1;
 };
 

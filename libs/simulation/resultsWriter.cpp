@@ -19,21 +19,34 @@ int lowestHolder(const Scene& scene, const Cell& cell) {
     return lowest;
 }
 
+namespace {
+// The entry at the time of a restart is that of the run before: the restarted one begins after it.
+double earliestOf(const Time& start) { return start.step == 0 ? start.t : start.t * (1 + 1e-8); }
+}  // namespace
+
 ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& start)
     : ticker_(input.control.write.interval(), start),
       fields_(input.control.write.fields),
       fluid_(scene.system->comm(), input.directory, "fluid", static_cast<int>(input.control.write.keep.value_or(0)),
-             start.t) {
+             earliestOf(start)) {
     for (const Cell& cell : scene.cells)
         cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name,
-                            static_cast<int>(input.control.write.keep.value_or(0)), start.t);
+                            static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
     if (std::any_of(scene.cells.begin(), scene.cells.end(), [](const Cell& c) { return c.membrane.canRupture(); }))
         holes_.emplace(scene.system->comm(), input.directory, "holes",
-                       static_cast<int>(input.control.write.keep.value_or(0)), start.t);
+                       static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             bodies_.emplace_back(scene.system->comm(), input.directory, body.name,
-                                 static_cast<int>(input.control.write.keep.value_or(0)), start.t);
+                                 static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
+}
+
+void ResultsWriter::goBack(const Ticker& ticker, const Time& time) {
+    ticker_ = ticker;
+    fluid_.goBack(time.t);
+    for (io::VtkSeries& series : cells_) series.goBack(time.t);
+    for (io::VtkSeries& series : bodies_) series.goBack(time.t);
+    if (holes_) holes_->goBack(time.t);
 }
 
 io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {

@@ -16,6 +16,9 @@ class ResultsWriter {
   public:
     ResultsWriter(const Case& input, const coupling::Scene& scene, const Time& start);
     bool due(const Time& time) { return ticker_.due(time); }
+    const Ticker& ticker() const { return ticker_; }
+    // To write the same times again from a state of this run: entries after `time` are removed. Collective.
+    void goBack(const Ticker& ticker, const Time& time);
     void write(const coupling::Scene& scene, const Time& time);
     long written() const { return written_; }
 

@@ -62,7 +62,7 @@ void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& s
         integrator.start(time);
     else {
         integrator.resume(from.state.integrator, time);
-        restoreCoupling(from.checkpoint, scene);
+        restoreCoupling(from.state, scene);
     }
 }
 
@@ -191,7 +191,17 @@ void Schedule::reportGuard(const Scene& scene, const Time& time) {
 }
 
 void Schedule::saveCheckpoint(const Scene& scene, const Time& time) {
-    writeCheckpoint(input_, scene, time, {integrator_.state(time), observers_.state()});
+    writeCheckpoint(input_, scene, time, {.integrator = integrator_.state(time), .observers = observers_.state()});
+}
+
+Schedule::Memory Schedule::remember() const {
+    return {observers_.remember(), results_.ticker(), guardMoves_, brokenBonds_};
+}
+
+void Schedule::goBack(const Memory& memory, const Scene& scene, const Time& time) {
+    observers_.goBack(memory.observers, scene, time);
+    results_.goBack(memory.results, time);
+    guardMoves_ = memory.guardMoves, brokenBonds_ = memory.brokenBonds;
 }
 
 void Schedule::reportObservers(const Scene& scene, const Time& time) {

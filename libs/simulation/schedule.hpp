@@ -26,12 +26,23 @@ class Schedule {
     // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
     void afterStep(const coupling::Scene& scene, const Time& time);
+
+    // What is to be seen and written again where the run goes back to an earlier state (retreat.hpp). Collective.
+    struct Memory {
+        observers::Observers::Memory observers;
+        Ticker results;
+        long guardMoves = 0, brokenBonds = 0;
+    };
+    Memory remember() const;
+    void goBack(const Memory& memory, const coupling::Scene& scene, const Time& time);
+    // Of the state in the scene.
+    void saveCheckpoint(const coupling::Scene& scene, const Time& time);
+    RunRecord& record() { return record_; }
     // Last results and checkpoint, table of figures; the exit code.
     ExitCode end(const coupling::Scene& scene, const Time& time);
 
   private:
     void describe();
-    void saveCheckpoint(const coupling::Scene& scene, const Time& time);
     void reportGuard(const coupling::Scene& scene, const Time& time);
     void reportRupture(const coupling::Scene& scene, const Time& time);
     void reportObservers(const coupling::Scene& scene, const Time& time);

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/checksum.hpp"
+#include "io/memoryCheckpoint.hpp"
 #include "io/temporaryFolder.hpp"
 
 namespace corpuscle::io {
@@ -232,6 +233,26 @@ TEST(Checksum, DoesNotDependOnTheCut) {
     auto swapped = all;
     std::swap(swapped[3], swapped[4]);
     EXPECT_NE(checksum(std::span<const double>(swapped), 0), sum);
+}
+
+TEST(MemoryCheckpoint, GivesBackWhatWasPutInLast) {
+    MemoryCheckpoint memory;
+    for (const int pass : {0, 1}) {  // the second state replaces the first
+        const std::vector<double> v = velocities(rankOf(MPI_COMM_WORLD) + pass);
+        const std::vector<std::int64_t> id = identities(rankOf(MPI_COMM_WORLD) + pass);
+        memory.writeDistributed("particles/u", v);
+        memory.writeReplicated("ids", id);
+        memory.attribute("time", 0.25 + pass);
+        memory.attribute("step", std::int64_t{7} + pass);
+        EXPECT_EQ(memory.readDistributed<double>("particles/u"), v);
+        EXPECT_EQ(memory.readReplicated<std::int64_t>("ids"), id);
+        EXPECT_EQ(memory.attribute<double>("time"), 0.25 + pass);
+        EXPECT_EQ(memory.attribute<std::int64_t>("step"), 7 + pass);
+    }
+    EXPECT_TRUE(memory.has("ids"));
+    EXPECT_FALSE(memory.has("time"));  // as of a file: datasets only
+    EXPECT_THROW(memory.readReplicated<double>("none"), std::out_of_range);
+    EXPECT_THROW(memory.readReplicated<double>("ids"), std::bad_variant_access);
 }
 
 }  // namespace

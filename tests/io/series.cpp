@@ -127,6 +127,19 @@ TEST(VtkSeries, RestartDropsWhatComesAfterIt) {
     EXPECT_EQ(readPvd(folder.path() / "results" / "fluid.pvd").back().file.filename(), "fluid_000004.pvtp");
 }
 
+TEST(VtkSeries, GoesBackWithinARun) {
+    TemporaryFolder folder;
+    VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    series.goBack(0);  // nothing written yet
+    for (int i = 0; i < 5; ++i) series.write(0.1 * i, i, piece(i));
+    series.goBack(0.1 * 3);
+    EXPECT_EQ(times(folder.path()), (std::vector<double>{0.0, 0.1, 0.2, 0.1 * 3})) << "the entry at that time stays";
+    series.write(0.35, 3.5, piece(3.5));
+    EXPECT_EQ(times(folder.path()), (std::vector<double>{0.0, 0.1, 0.2, 0.1 * 3, 0.35}));
+    EXPECT_EQ(readPvd(folder.path() / "results" / "fluid.pvd").back().file.filename(), "fluid_000004.pvtp");
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
 TEST(VtkSeries, KeepsTheLatest) {
     TemporaryFolder folder;
     VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 2, 0);
@@ -173,6 +186,19 @@ TEST(CsvSeries, EveryBitOfEveryRow) {
     if (rankHere() == 0) {
         EXPECT_THROW(csv.row(std::vector{1.0}), std::invalid_argument);
     }
+}
+
+TEST(CsvSeries, CutsWhatComesAfterATime) {
+    TemporaryFolder folder;
+    CsvSeries csv(MPI_COMM_WORLD, folder.path(), "leak", 0, "count", {{"time", "s"}, {"count", ""}});
+    csv.cutAfter(0);  // no row yet
+    for (int i = 0; i < 4; ++i) csv.row(std::vector{0.1 * i, 1.0 * i});
+    csv.cutAfter(0.1);
+    csv.row(std::vector{0.15, 9.0});
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_EQ(readCsv(csv.path()).column("time_s"), (std::vector<double>{0, 0.1, 0.15}));
+    EXPECT_EQ(readCsv(csv.path()).column("count"), (std::vector<double>{0, 1, 9}));
+    MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(CsvSeries, RestartsAreJoined) {

@@ -134,6 +134,11 @@ def prepared(folder, files=CELL_CASE, **changes):
     return case
 
 
+def copied(case, folder):
+    shutil.copytree(case, folder)
+    return folder
+
+
 def series(case, observer):
     """All rows of an observer, start times joined."""
     rows = []
@@ -697,6 +702,47 @@ def test_stop(folder):
     run(case, "dmpFlow", "-set", "system/control.yaml:/stop/wallClock=1 s", code=5)
 
 
+def test_retreat(folder):
+    """A fault in the state: back and on with shorter steps, to the same end; one that comes again and again ends the run with all that helps to find it."""
+    implicit = CELL_CASE["system/numerics.yaml"].replace("integrator: velocityVerlet\ncoupling: dualIdentity\n", "integrator: implicit\n")
+    implicit = implicit.replace("shifting: {coefficient: 0.5, steps: 7}\n", "implicit: {step: 0.01}\n")
+    length = CELL_CASE["system/control.yaml"].replace("0.12", "0.3")
+    def figures(case):
+        rows = [list(map(float, row)) for row in series(case, "deformation")]
+        times = [row[0] for row in rows]
+        assert times == sorted(set(times)), f"rows out of order: {times}"
+        with open(next((case / "postProcessing/deformation").glob("*/*.csv"))) as file:
+            return dict(zip(next(csv.reader(file)), rows[-1])), len(rows)
+    for name, numerics, at, ranks in (("implicit", implicit, 12, 2), ("verlet", CELL_CASE["system/numerics.yaml"], 93, 1)):
+        case = prepared(folder / name, **{"system/numerics.yaml": numerics, "system/control.yaml": length})
+        calm = copied(case, folder / (name + "Calm"))
+        run(calm, "faultInjection", "-at", "1000000")
+        expected, count = figures(calm)
+        assert json.loads((calm / "run.json").read_text())["performance"]["retreats"] == 0
+        for kind in ("nan", "speed", "node", "triangle"):
+            harmed = copied(case, folder / f"{name}-{kind}")
+            run(harmed, "faultInjection", "-kind", kind, "-at", str(at), "-seed", "5", ranks=ranks)
+            record = json.loads((harmed / "run.json").read_text())
+            assert record["performance"]["retreats"] >= 1, kind
+            found, rows = figures(harmed)
+            assert rows == count, f"{name}, {kind}: {rows} rows, {count} without the fault"
+            for key in ("D12_extent", "inclination_rad"):
+                assert abs(found[key] - expected[key]) < 0.005 * abs(expected[key]), f"{name}, {kind}: {key} {found[key]} {expected[key]}"
+        harmed = copied(case, folder / (name + "Always"))
+        options = ("-kind", "nan", "-at", str(at), "-seed", "5")
+        said = run(harmed, "faultInjection", *options, "-always", ranks=ranks, code=3).stderr
+        assert "4 retreats" in said and "results/fault.pvd" in said and "checkpoint" in said, said
+        record = json.loads((harmed / "run.json").read_text())
+        assert record["status"] == "failed" and len(record["fault"]["place_m"]) == 3 and record["performance"]["retreats"] == 4, record
+        assert (harmed / "results/fault.pvd").exists() and (harmed / "results/fault_rbc.pvd").exists()
+        run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
+        found, _ = figures(harmed)
+        assert abs(found["D12_extent"] - expected["D12_extent"]) < 0.005 * expected["D12_extent"]
+        never = copied(case, folder / (name + "Never"))
+        run(never, "faultInjection", *options, "-set", "system/numerics.yaml:/retreats=0", code=3)
+        assert not list(never.glob("checkpoints/*.h5"))
+
+
 def test_endings(folder):
     """Exit codes: wrong usage 1, invalid case 2, diverged 3, missing files 4; a dry run writes nothing."""
     case = make(folder / "case", CELL_CASE)
@@ -708,7 +754,8 @@ def test_endings(folder):
     assert "viscosity" in run(case, "dmpFlow", "-set", "constant/fluid.yaml:/viscosty=1 Pa s", code=2).stderr
     for ranks in (1, 2):  # said once, whichever rank it befell
         said = run(case, "dmpFlow", "-set", "constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}",
-                   "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", ranks=ranks, code=3).stderr
+                   "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", "-set", "system/numerics.yaml:/retreats=0",
+                   ranks=ranks, code=3).stderr
         assert said.count("diverged") == 1 and "[rank" not in said, said
     before = sorted(case.rglob("*"))
     for extra in ("results", "postProcessing", "checkpoints"):

@@ -4,7 +4,7 @@
 //     dmpFlow -case tutorials/rbcShear/Ca0.02
 //     mpirun -np 2 dmpFlow -case tutorials/rbcShear/Ca0.02 -steps 100
 //     dmpFlow -case tutorials/rbcShear/Ca0.02 -dry-run
-#include "simulation/schedule.hpp"
+#include "simulation/retreat.hpp"
 
 using namespace corpuscle;
 
@@ -25,10 +25,10 @@ int main(int argc, char* argv[]) {
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);
-        while (time.running() && !after.stopRequested(scene, time)) {
-            integrator.advance(scene, time);  // Eqs 5, 6, 8, 12-17; rupture; leakage guard
-            after.afterStep(scene, time);
-        }
+        simulation::Retreat step(input, scene, time, integrator, after, app.log());
+        while (time.running() && !after.stopRequested(scene, time))
+            if (step.advance())  // Eqs 5, 6, 8, 12-17; rupture; leakage guard; back where it fails
+                after.afterStep(scene, time);
         return after.end(scene, time);
     });
 }

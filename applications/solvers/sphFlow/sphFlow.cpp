@@ -4,7 +4,7 @@
 //     sphFlow -case tutorials/couette
 //     mpirun -np 2 sphFlow -case tutorials/couette -steps 100
 //     sphFlow -case tutorials/couette -dry-run
-#include "simulation/schedule.hpp"
+#include "simulation/retreat.hpp"
 
 using namespace corpuscle;
 
@@ -32,10 +32,10 @@ int main(int argc, char* argv[]) {
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);
-        while (time.running() && !after.stopRequested(scene, time)) {
-            integrator.advance(scene, time);  // Eqs 5, 6, 12-17
-            after.afterStep(scene, time);
-        }
+        simulation::Retreat step(input, scene, time, integrator, after, app.log());
+        while (time.running() && !after.stopRequested(scene, time))
+            if (step.advance())  // Eqs 5, 6, 12-17; back where it fails
+                after.afterStep(scene, time);
         return after.end(scene, time);
     });
 }

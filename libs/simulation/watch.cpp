@@ -1,0 +1,187 @@
+#include "simulation/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/communicator.hpp"
+#include "geometry/triangleMesh.hpp"
+
+namespace corpuscle::simulation {
+
+using coupling::Cell;
+using coupling::Scene;
+using membrane::Bond;
+using membrane::Membrane;
+using particles::Kind;
+
+namespace {
+
+constexpr double largestDensityChange = 0.3, largestSpeedUp = 10, largestVolumeChange = 1.0 / 3;
+constexpr double largestBondChange = 0.3;                      // of ln l between two looks
+constexpr double sharpestFold = -0.5;                          // cosine between the normals of neighbours
+constexpr double beyondWall = 2;                               // spacings
+constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
+
+double length(const Membrane& m, const Bond& bond) {
+    return (m.position[static_cast<std::size_t>(bond.node[1])] - m.position[static_cast<std::size_t>(bond.node[0])])
+        .norm();
+}
+
+double largestSpeed2(const Scene& scene) {
+    const auto& s = scene.store();
+    double most = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.velocity(i).squaredNorm());
+    return most;
+}
+
+std::string words(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]); }
+
+// Of the lowest rank that has one, on all.
+Fault agree(const Communicator& ranks, const Fault& mine) {
+    const long first = ranks.min(mine ? static_cast<long>(ranks.rank()) : static_cast<long>(ranks.size()));
+    if (first == ranks.size()) return {};
+    Fault all = mine;
+    int size = static_cast<int>(all.text.size());
+    MPI_Bcast(&size, 1, MPI_INT, static_cast<int>(first), ranks.handle());
+    all.text.resize(static_cast<std::size_t>(size));
+    MPI_Bcast(all.text.data(), size, MPI_CHAR, static_cast<int>(first), ranks.handle());
+    MPI_Bcast(all.place.data(), 3, MPI_DOUBLE, static_cast<int>(first), ranks.handle());
+    return all;
+}
+
+}  // namespace
+
+Watch::Watch(const Case& input, const Scene& scene) : input_(input) {
+    particles_ = Communicator(scene.system->comm()).sum(static_cast<long>(scene.system->owned()));
+    lengths_.resize(scene.cells.size());
+    take(scene);
+}
+
+void Watch::take(const Scene& scene) {
+    fastest2_ = Communicator(scene.system->comm()).max(largestSpeed2(scene));
+    exact_.assign(scene.cells.size(), -1);
+    for (std::size_t c = 0; c < scene.cells.size(); ++c) {
+        const Membrane& m = scene.cells[c].membrane;
+        lengths_[c].assign(m.network().allBonds().size(), 0);
+        for (const Bond& bond : m.network().bonds())
+            lengths_[c][static_cast<std::size_t>(bond.number)] = length(m, bond);
+    }
+}
+
+Fault Watch::find(const Scene& scene, const Time& time) {
+    ++lookedAt_;
+    Fault mine = ofParticles(scene, time);
+    for (std::size_t c = 0; c < scene.cells.size() && !mine; ++c)
+        if (scene.cells[c].held) mine = ofCell(scene, c, time);
+    const Communicator ranks(scene.system->comm());
+    // Largest first: a fault anywhere, the fastest particle; and how many particles there are.
+    const std::vector<double> most = ranks.max({mine ? 1.0 : 0.0, largestSpeed2(scene)});
+    const long count = ranks.sum(static_cast<long>(scene.system->owned()));
+    if (most[0] > 0) return agree(ranks, mine);
+    if (count != particles_)
+        return {fmt::format("step {}, t = {:.6g} s: there are {} particles, at the start there were {}", time.step,
+                            time.t, count, particles_),
+                Vec3::Zero()};
+    fastest2_ = most[1];
+    return {};
+}
+
+Fault Watch::ofParticles(const Scene& scene, const Time& time) const {
+    const auto& s = scene.store();
+    const sph::FluidModel& model = scene.model();
+    const double scale2 = std::max(fastest2_, input_.flow.speed * input_.flow.speed);
+    const double far = std::min(0.5 * scene.spacing / time.dt, model.soundSpeed);
+    const double tooFast2 = std::max(largestSpeedUp * largestSpeedUp * scale2, far * far);
+    const sph::Walls& walls = model.walls;
+    const double reserve = beyondWall * scene.spacing;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 x = s.position(i), u = s.velocity(i);
+        const double change = std::abs(s.density[i] / model.density - 1);
+        const bool isDense = change < largestDensityChange, isSlow = u.squaredNorm() <= tooFast2;
+        const bool isInside = !walls.exist() || s.kindOf(i) == Kind::wall ||
+                              (x[walls.axis] > walls.low - reserve && x[walls.axis] < walls.high + reserve);
+        if (isDense && isSlow && isInside && x.allFinite()) continue;
+        const char* const what =
+            isDense && isSlow && x.allFinite() ? "is lost beyond a wall" : "shows that the run has diverged";
+        return {
+            fmt::format(
+                "step {}, t = {:.6g} s: particle {} at {} has density {:.4g} kg/m^3 (rest density {:.4g}) and velocity "
+                "({:.3g}, {:.3g}, {:.3g}) m/s (fastest before {:.3g}): it {}",
+                time.step, time.t, s.id[i], words(x), s.density[i], model.density, u[0], u[1], u[2],
+                std::sqrt(fastest2_), what),
+            x};
+    }
+    return {};
+}
+
+bool Watch::isSuspicious(const Membrane& m) const {
+    const membrane::Network& network = m.network();
+    const std::vector<Index3>& triangles = network.triangles();
+    std::vector<Vec3> normals(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const Vec3 &a = m.position[static_cast<std::size_t>(triangles[t][0])],
+                   &b = m.position[static_cast<std::size_t>(triangles[t][1])],
+                   &c = m.position[static_cast<std::size_t>(triangles[t][2])];
+        normals[t] = (b - a).cross(c - a).normalized();
+    }
+    return std::any_of(network.bonds().begin(), network.bonds().end(), [&](const Bond& bond) {
+        const auto& [left, right] = network.bondTriangles(bond.number);
+        return left >= 0 && right >= 0 &&
+               normals[static_cast<std::size_t>(left)].dot(normals[static_cast<std::size_t>(right)]) < sharpestFold;
+    });
+}
+
+Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
+    const Cell& cell = scene.cells[index];
+    const Membrane& m = cell.membrane;
+    const std::string when = fmt::format("step {}, t = {:.6g} s: the membrane '{}' ", time.step, time.t, m.name);
+    std::vector<double>& before = lengths_[index];
+    for (const Bond& bond : m.network().bonds()) {
+        const double now = length(m, bond),
+                     change = std::abs(std::log(now / before[static_cast<std::size_t>(bond.number)]));
+        const Vec3& x = m.position[static_cast<std::size_t>(bond.node[0])];
+        if (!(change <= largestBondChange))
+            return {
+                when +
+                    fmt::format(
+                        "at {}: a bond of {:.3g} m is {:.3g} m long after a step: a node was thrown out of its place",
+                        words(x), before[static_cast<std::size_t>(bond.number)], now),
+                x};
+    }
+    for (const Bond& bond : m.network().bonds()) before[static_cast<std::size_t>(bond.number)] = length(m, bond);
+    if (m.network().isOpen()) return {};
+    const Vec3& first = m.position.front();
+    if (const double change = m.volume() / cell.initialVolume - 1; !(std::abs(change) < largestVolumeChange))
+        return {when + fmt::format("encloses {:+.0f} % of its volume more than at the start", 100 * change), first};
+    const long since = exact_[index] < 0 ? stepsBetweenExact : lookedAt_ - exact_[index];
+    if (since < leastBetweenExact || (since < stepsBetweenExact && !isSuspicious(m))) return {};
+    exact_[index] = lookedAt_;
+    const geometry::TriangleMesh mesh{m.position, m.network().triangles()};
+    const auto cuts = geometry::selfIntersections(mesh);
+    if (cuts.empty()) return {};
+    const Vec3& x =
+        m.position[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(cuts.front().first)][0])];
+    return {when + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
+}
+
+Vec3 Watch::suspect(const Scene& scene) {
+    const auto& s = scene.store();
+    double most = -1;
+    Vec3 place = Vec3::Zero();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 x = s.position(i);
+        const double speed2 = s.velocity(i).squaredNorm();
+        if (!x.allFinite() || speed2 <= most) continue;
+        most = std::isfinite(speed2) ? speed2 : std::numeric_limits<double>::max(), place = x;
+    }
+    const Communicator ranks(scene.system->comm());
+    const std::vector<double> all = ranks.gatherAll(most);
+    const auto source = static_cast<int>(std::max_element(all.begin(), all.end()) - all.begin());
+    MPI_Bcast(place.data(), 3, MPI_DOUBLE, source, ranks.handle());
+    return place;
+}
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,55 @@
+// Whether the state after a step can be that of a flow. Cheap at every step; exact where that raises suspicion.
+//
+// what                                    | where a state is refused
+// places, velocities, densities           | not finite
+// density                                 | more than 0.3 from that at rest
+// speed                                   | above 10 times both the fastest at the look before and the flow's own, while a step is half a spacing
+//                                         | or more, or above the speed of sound
+// number of particles                     | another than at the start, or fluid two spacings beyond a wall
+// bonds                                   | longer or shorter by a factor exp(0.3) than at the look before
+// volume of a closed membrane             | a third from that at the start
+// triangles of a closed membrane          | two that cut each other (geometry::selfIntersections), asked where neighbours fold by more than 120
+//                                         | degrees, and from time to time
+// A membrane that has broken is not asked for its volume and its cuts: its surface is open.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/time.hpp"
+#include "coupling/scene.hpp"
+#include "simulation/case.hpp"
+
+namespace corpuscle::simulation {
+
+struct Fault {
+    std::string text;  // empty: none
+    Vec3 place = Vec3::Zero();
+    explicit operator bool() const { return !text.empty(); }
+};
+
+class Watch {
+  public:
+    Watch(const Case& input, const coupling::Scene& scene);
+
+    // The first fault that there is, the same on all ranks. What is sound is what the next look compares with. Collective.
+    Fault find(const coupling::Scene& scene, const Time& time);
+    // Compare with this state next, unseen: after going back.
+    void take(const coupling::Scene& scene);
+    // The particle that is fastest, or first of those not finite: where to look after a step that could not be made. Collective.
+    static Vec3 suspect(const coupling::Scene& scene);
+
+  private:
+    Fault ofParticles(const coupling::Scene& scene, const Time& time) const;
+    Fault ofCell(const coupling::Scene& scene, std::size_t index, const Time& time);
+    bool isSuspicious(const membrane::Membrane& membrane) const;
+
+    const Case& input_;
+    long particles_ = 0;                        // of all ranks
+    double fastest2_ = 0;                       // of all ranks, at the last look [m^2/s^2]
+    std::vector<std::vector<double>> lengths_;  // of the bonds of each cell, by their numbers [m]
+    long lookedAt_ = 0;                         // how often
+    std::vector<long> exact_;                   // of these the last with the exact test, of each cell; -1: none
+};
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,118 @@
+// dmpFlow with a fault put into its state between two steps: what Retreat is there for (simulation/retreat.hpp).
+//
+//     faultInjection -case DIR -kind speed -at 12 -seed 3
+//
+// kind      | what happens to one fluid particle, or to one node of one cell
+// nan       | one of its numbers, of place, velocity or density, is none
+// speed     | its velocity is a thousand times what it was
+// density   | its density is half
+// node      | it is thrown across the cell, to the other side of its middle
+// triangle  | it goes to the other side of the opposite edge of one of its triangles, which turns that over
+// The seed picks them, the same ones on any number of ranks. -always: at each time that the run comes to this step.
+#include <Eigen/Geometry>
+#include <random>
+
+#include "simulation/retreat.hpp"
+
+using namespace corpuscle;
+using coupling::Scene;
+using particles::Kind;
+using particles::ParticleStore;
+
+namespace {
+
+class Injection {
+  public:
+    Injection(const Application& app)
+        : kind_(app.value("kind").value_or("nan")),
+          at_(app.integer("at", 0).value_or(1)),
+          always_(app.has("always")),
+          random_(static_cast<unsigned>(app.integer("seed").value_or(1))) {}
+
+    void before(Scene& scene, long step) {
+        if (step != at_ || (done_ && !always_)) return;
+        done_ = true;
+        std::mt19937_64 random = random_;  // the same choice each time
+        if (kind_ == "node" || kind_ == "triangle")
+            moveNode(scene, random);
+        else
+            harmParticle(scene, random);
+    }
+
+  private:
+    void harmParticle(Scene& scene, std::mt19937_64& random) const {
+        ParticleStore& s = scene.store();
+        long fluid = 0;
+        for (std::size_t i = 0; i < s.size(); ++i) fluid += s.kindOf(i) == Kind::fluid;
+        fluid = Communicator(scene.system->comm()).sum(fluid);  // numbered from 0 on
+        const auto id = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(fluid));
+        const auto which = random() % 7;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (s.id[i] != id) continue;
+            double* const numbers[7] = {&s.x[i], &s.y[i], &s.z[i], &s.u[i], &s.v[i], &s.w[i], &s.density[i]};
+            if (kind_ == "nan")
+                *numbers[which] = std::numeric_limits<double>::quiet_NaN();
+            else if (kind_ == "speed")
+                s.setVelocity(i, 1000 * s.velocity(i));
+            else if (kind_ == "density")
+                s.density[i] *= 0.5;
+            else
+                throw Failure(ExitCode::usage, "-kind " + kind_ + ": there are nan, speed, density, node, triangle");
+        }
+    }
+
+    void moveNode(Scene& scene, std::mt19937_64& random) const {
+        coupling::Cell& cell = scene.cells.at(random() % scene.cells.size());
+        membrane::Membrane& m = cell.membrane;
+        const Index3& corners = m.network().triangles().at(random() % m.network().triangles().size());
+        const auto place = [&](int k) -> Vec3& { return m.position[static_cast<std::size_t>(corners[k])]; };
+        Vec3 to;
+        if (kind_ == "node") {
+            Vec3 middle = Vec3::Zero();
+            for (const Vec3& x : m.position) middle += x / static_cast<double>(m.position.size());
+            to = 2 * middle - place(0);
+        } else {
+            const Vec3 along = (place(2) - place(1)).normalized(), arm = place(0) - place(1);
+            to = place(0) - 2 * (arm - arm.dot(along) * along);
+        }
+        if (cell.held) place(0) = to;
+        ParticleStore& s = scene.store();
+        if (!s.optional().node) return;
+        for (std::size_t i = 0; i < s.size(); ++i)
+            if (s.node[i] == cell.firstNode + corners[0]) s.setPosition(i, to);
+    }
+
+    std::string kind_;
+    long at_;
+    bool always_, done_ = false;
+    std::mt19937_64 random_;
+};
+
+}  // namespace
+
+int main(int argc, char* argv[]) {
+    std::vector<Option> options = solverOptions();
+    options.push_back({"kind", "KIND", "nan, speed, density, node or triangle."});
+    options.push_back({"at", "STEP", "Before the step after this one."});
+    options.push_back({"seed", "N", "Picks the place."});
+    options.push_back({"always", "", "Each time that the run comes to this step."});
+    Application app("faultInjection", "A run with a fault in its state.", argc, argv, {.options = options});
+    return app.run([&] {
+        app.openLog();
+        const simulation::Case input = simulation::Case::read(app);
+        simulation::StartingPoint start = simulation::prepare(app, input);
+        Scene& scene = start.scene;
+        Time& time = start.time;
+        simulation::Integrator integrator(input, scene);
+        simulation::startIntegrator(start, integrator, scene, time);
+        simulation::Schedule after(app, input, scene, integrator, time, start.state);
+        Injection fault(app);
+        after.begin(scene, time);
+        simulation::Retreat step(input, scene, time, integrator, after, app.log());
+        while (time.running() && !after.stopRequested(scene, time)) {
+            fault.before(scene, time.step);
+            if (step.advance()) after.afterStep(scene, time);
+        }
+        return after.end(scene, time);
+    });
+}
