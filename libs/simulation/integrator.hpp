@@ -48,6 +48,7 @@ class Integrator {
     void estimateRates();
     void updateLimits(Time& time);
     void checkState(const Time& time) const;
+    sph::Account* account() { return scene_.account.kept ? &scene_.account : nullptr; }
     const Case& input_;
     coupling::Scene& scene_;
     std::unique_ptr<sph::ExplicitScheme> scheme_;  // one of the three
