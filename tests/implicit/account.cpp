@@ -103,13 +103,13 @@ sph::FluidModel thin() {
     return model;
 }
 
-struct Run {
-    double residual, dissipated, lost, ofParts, largestPart;
+struct Outcome {
+    double residual, lost, ofParts, ofInertia;
 };
-Run run(const std::string& name, double time, int steps) {
+Outcome run(const std::string& name, double time, int steps) {
     Fluid fluid(name, swirl::particles(), swirl::size, thin());
     if (Fluid::isImplicit(name))  // past the first steps, which are of first order
-        for (int k = 0; k < 8; ++k) fluid.advance(time / 32);
+        for (int k = 0; k < steps / 4; ++k) fluid.advance(time / steps);
     const Account::Values before = [&] {
         Account::Values values;
         for (std::size_t k = 0; k < Account::count; ++k) values[k] = fluid.total(static_cast<Account::Entry>(k));
@@ -119,9 +119,9 @@ Run run(const std::string& name, double time, int steps) {
     for (int k = 0; k < steps; ++k) fluid.advance(time / steps);
     const auto grown = [&](Account::Entry entry) { return fluid.total(entry) - before[entry]; };
     const double dK = fluid.kinetic() - K, dC = fluid.compression() - C;
-    Run r{-grown(Account::viscous) - dK - dC, grown(Account::viscous), -dK - dC, 0, 0};
+    Outcome r{-grown(Account::viscous) - dK - dC, -dK - dC, 0, grown(Account::kinetic) - dK};
     const double parts[] = {grown(Account::kinetic) - dK, grown(Account::compression) - dC, grown(Account::ofSolver)};
-    for (const double part : parts) r.ofParts += part, r.largestPart = std::max(r.largestPart, std::abs(part));
+    for (const double part : parts) r.ofParts += part;
     EXPECT_GT(std::abs(dC), 1e-4 * std::abs(dK)) << "sound takes part";
     return r;
 }
@@ -139,18 +139,18 @@ TEST(Account, dissipationIsThatOfTheOperator) {
 
 TEST(Account, closesToTheOrderOfTheScheme) {
     for (const std::string& name : allSchemes) {
-        const bool implicitly = Fluid::isImplicit(name);
-        const Run coarse = run(name, 0.4, 32), fine = run(name, 0.4, 64);
+        const Outcome coarse = run(name, 0.4, 32), fine = run(name, 0.4, 64);
         std::printf("%-16s lost %.6g, residual %.3g and %.3g of it\n", name.c_str(), coarse.lost,
                     coarse.residual / coarse.lost, fine.residual / fine.lost);
-        EXPECT_LT(std::abs(fine.residual), (name == "backwardEuler" ? 0.2
-                                            : implicitly            ? 0.05
-                                                                    : 0.01) *
-                                               fine.lost)
-            << name;
-        const double ratio = coarse.residual / fine.residual;
-        EXPECT_GT(ratio, name == "backwardEuler" ? 1.7 : 3) << name;
-        EXPECT_LT(ratio, name == "backwardEuler" ? 2.3 : 5.5) << name;
+        // The implicit step takes volumes from the step's beginning: of first order in it where density varies.
+        const bool first = Fluid::isImplicit(name), firstInTime = name == "backwardEuler";
+        EXPECT_LT(std::abs(fine.residual), (firstInTime ? 0.01 : 2e-4) * fine.lost) << name;
+        if (!first) {
+            EXPECT_NEAR(coarse.residual / fine.residual, 4, 0.6) << name;
+        }
+        if (name != "rkl2") {  // whose parts of inertia and compression are of first order in opposite ways
+            EXPECT_NEAR(coarse.ofInertia / fine.ofInertia, firstInTime ? 2 : 4, 0.6) << name;
+        }
         EXPECT_NEAR(coarse.residual, coarse.ofParts, 1e-9 * coarse.lost) << name << ": made of its parts";
     }
 }

@@ -8,7 +8,6 @@
 #include "coupling/conjugateVerlet.hpp"
 #include "coupling/fluidScene.hpp"
 #include "implicit/implicitStep.hpp"
-#include "sph/rkl2.hpp"
 #include "sph/velocityVerlet.hpp"
 
 using namespace corpuscle;
@@ -113,19 +112,21 @@ TEST(AngularMomentum, torqueOfPairs) {
         EXPECT_LT(pairsPressure[k], 1e-12) << "along the line of centres";
         EXPECT_LT(plainPressure[k], 1e-12) << "along the line of centres";
         EXPECT_NEAR(plain[k], pairs[k], 1e-10) << "the same sum";
-        EXPECT_LT(pairs[k], 0.05);
-        EXPECT_LT(corrected[k], 0.05);
-        EXPECT_LT(correctedPressure[k], 0.02);
-        EXPECT_LT(jump[k], 0.05);
-        EXPECT_GT(pairsJump[k], 0.1) << "Morris' sum puts a torque on a jump of viscosity";
+        EXPECT_LT(correctedPressure[k], 1e-12) << "a rotation has no divergence by the corrected gradient";
+        EXPECT_NEAR(jump[k], corrected[k], 1e-10) << "a symmetric stress by the corrected gradient has no torque";
+        EXPECT_GT(pairsJump[k], 0.2) << "Morris' sum puts a torque on a jump of viscosity";
     }
-    EXPECT_LT(corrected[0], 1e-3);
-    EXPECT_GT(corrected[2], 1e-12) << "this is measured";
+    EXPECT_LT(pairs[0], 1e-12) << "the lattice's symmetry";
+    for (std::size_t k = 1; k < 3; ++k) {
+        EXPECT_LT(pairs[k], 2e-3 * static_cast<double>(k));
+        EXPECT_LT(corrected[k], 2e-3 * static_cast<double>(k));
+        EXPECT_GT(corrected[k], 1e-5) << "Morris' pairs are not along the line of centres";
+    }
 }
 
-// Centre of the vortex at rest; a turn of it at nu t/R^2 = 0.02.
+// The middle of the vortex turns by a radian, nu t/R^2 = 0.02.
 TEST(AngularMomentum, keptOverATurn) {
-    const double time = 2 / omega, viscosity = 0.02 * R * R / time;
+    const double time = 1 / omega, viscosity = 0.02 * R * R / time;
     std::printf("change of angular momentum over omega t = %g, nu t/R^2 = 0.02, from disorder 0.1\n", time * omega);
     const auto change = [&](const char* name, double skin, auto&& make, int steps) {
         FluidScene f = scene(fluid(0.1, true), viscosity, false, skin);
@@ -142,7 +143,7 @@ TEST(AngularMomentum, keptOverATurn) {
         std::printf("%-32s %9.2e in %d steps\n", name, found, steps);
         return std::abs(found);
     };
-    const int acoustic = 600;
+    const int acoustic = 300;
     std::unique_ptr<sph::ExplicitScheme> scheme;
     std::unique_ptr<coupling::ConjugateVerlet> conjugate;
     std::unique_ptr<implicit::ImplicitStep> step;
@@ -151,19 +152,10 @@ TEST(AngularMomentum, keptOverATurn) {
         scheme->start();
         return [&](double dt) { scheme->advance(dt); };
     };
-    const auto rkl2 = [&](coupling::Scene& on) {
-        auto made = std::make_unique<sph::Rkl2>(*on.system, *on.forces, nullptr);
-        made->setRate(10 * viscosity);
-        scheme = std::move(made);
-        scheme->start();
-        return [&](double dt) { scheme->advance(dt); };
-    };
-    const auto conjugated = [&](sph::OperatorForm form, std::optional<double> shifting) {
-        return [&, form, shifting](coupling::Scene& on) {
-            conjugate = coupling::ConjugateVerlet::make(on, {.form = form, .shifting = shifting});
-            conjugate->start();
-            return [&](double dt) { conjugate->advance(dt); };
-        };
+    const auto conjugated = [&](coupling::Scene& on) {
+        conjugate = coupling::ConjugateVerlet::make(on, {});
+        conjugate->start();
+        return [&](double dt) { conjugate->advance(dt); };
     };
     const auto implicitly = [&](std::optional<double> shifting) {
         return [&, shifting](coupling::Scene& on) {
@@ -174,11 +166,8 @@ TEST(AngularMomentum, keptOverATurn) {
             return [&](double dt) { step->advance(dt); };
         };
     };
-    using sph::OperatorForm;
-    EXPECT_LT(change("velocity Verlet, plain pairs", 0.3, verlet, acoustic), 0.02);
-    EXPECT_LT(change("RKL2, plain pairs", 0.3, rkl2, acoustic), 0.02);
-    EXPECT_LT(change("velocity Verlet, corrected", 0.3, conjugated(OperatorForm::corrected, {}), acoustic), 0.02);
-    EXPECT_LT(change("the same with shifting", 0.3, conjugated(OperatorForm::corrected, 1), acoustic), 0.02);
-    EXPECT_LT(change("implicit, corrected", 0, implicitly({}), 40), 0.02);
-    EXPECT_LT(change("the same with shifting", 0, implicitly(1), 40), 0.02);
+    EXPECT_LT(change("velocity Verlet, plain pairs", 0.3, verlet, acoustic), 2e-3);
+    EXPECT_LT(change("velocity Verlet, corrected", 0.3, conjugated, acoustic), 2e-3);
+    EXPECT_LT(change("implicit, corrected", 0, implicitly({}), 20), 2e-3);
+    EXPECT_LT(change("the same with shifting", 0, implicitly(1), 20), 2e-3);
 }
