@@ -138,9 +138,9 @@ class Verlet final : public ConjugateVerlet {
         if (isFixed(i))
             sph::Account::addWall(rates_, scene_.model().walls.isUpper(store().position(i)), u, x, -f);
         else {
-            const Vec3 byBodyForce = scene_.mass(i) * scene_.model().bodyForce;
-            sph::Account::addBodyForce(rates_, u, x, byBodyForce);
-            rates_[sph::Account::kinetic] += u.dot(f + byBodyForce);
+            const Vec3& g = scene_.model().bodyForce;
+            if (!g.isZero()) sph::Account::addBodyForce(rates_, u, x, scene_.mass(i) * g);
+            rates_[sph::Account::kinetic] += u.dot(f + scene_.mass(i) * g);
         }
     }
     Vec3 velocityUsed(std::size_t i) const { return {field_[at(i)], field_[at(i) + 1], field_[at(i) + 2]}; }

@@ -7,6 +7,7 @@
 
 #include "coupling/conjugateVerlet.hpp"
 #include "coupling/fluidScene.hpp"
+#include "coupling/sphereScene.hpp"
 #include "implicit/implicitStep.hpp"
 #include "sph/rkl2.hpp"
 #include "sph/swirl.hpp"
@@ -134,6 +135,68 @@ TEST(Account, dissipationIsThatOfTheOperator) {
         const double expected = fluid.dissipation(name), dt = 1e-6;
         fluid.advance(dt);
         EXPECT_NEAR(fluid.total(Account::viscous) / dt, expected, 2e-5 * expected) << name;
+    }
+}
+
+// From rest, with membranes pulled out of shape and a solver that stops early: in the first step everything is taken where it stands, so v.L v can be
+// worked out by itself. Whatever the solver leaves, over refinements too, must be in the account.
+TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
+    using coupling::testing::SphereScene;
+    const auto build = [](coupling::Scene& scene) {
+        SphereScene spheres({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true);
+        for (coupling::Cell& cell : spheres.cells) {
+            const Vec3 middle = coupling::middleOf(cell);
+            for (Vec3& x : cell.membrane.position) {
+                const Vec3 d = x - middle;
+                x = middle + Vec3(1.3 * d[0], 0.9 * d[1], 0.85 * d[2]);
+            }
+            cell.initialVolume = cell.membrane.volume();
+        }
+        scene.system = std::move(spheres.system);
+        scene.cells = std::move(spheres.cells);
+        scene.fluidBox = scene.system->box();
+        scene.spacing = 1;
+        scene.flow.rate = 0.02;
+        scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
+        scene.account.kept = true;
+    };
+    for (const double tolerance : {0.3, 1e-8}) {
+        coupling::Scene still, moving;
+        build(still), build(moving);
+        const std::size_t count = 14 * 10 * 10;
+        implicit::ImplicitStep::Options options;
+        options.settings = {.step = 1, .tolerance = tolerance, .bondStrain = 1};
+        const auto step = implicit::ImplicitStep::make(moving, options);
+        const double dt = 2, elastic = moving.cells[0].membrane.energy() + moving.cells[1].membrane.energy();
+        step->advance(dt);
+        EXPECT_GT(step->statistics.refinements, 0);
+        EXPECT_EQ(step->statistics.halvings, 0);
+        std::vector<double> velocity(3 * count, 0.0);
+        const ParticleStore& m = moving.store();
+        for (std::size_t i = 0; i < m.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                velocity[3 * static_cast<std::size_t>(m.id[i]) + static_cast<std::size_t>(k)] = m.velocity(i)[k];
+        MPI_Allreduce(MPI_IN_PLACE, velocity.data(), static_cast<int>(velocity.size()), MPI_DOUBLE, MPI_SUM,
+                      MPI_COMM_WORLD);
+        still.system->rebuild();
+        sph::Operators<double> operators(still.model(), *still.system, sph::OperatorForm::corrected);
+        operators.build(*still.system);
+        const ParticleStore& s = still.store();
+        sph::Operators<double>::Field u(4 * s.size(), 0.0);
+        for (std::size_t i = 0; i < s.size(); ++i) std::copy_n(velocity.data() + 3 * s.id[i], 3, u.data() + 4 * i);
+        operators.applyViscosity(*still.system, u);
+        double power = 0;
+        for (std::size_t k = 0; k < u.size(); ++k) power -= u[k] * operators.force()[k];
+        power = sph::testing::sumOverRanks(power);
+        const auto total = [&](Account::Entry entry) {
+            return sph::testing::sumOverRanks(moving.account.total[entry]);
+        };
+        EXPECT_NEAR(total(Account::viscous) / dt, power, 1e-9 * power) << tolerance;
+        if (tolerance > 0.1) {
+            EXPECT_GT(std::abs(total(Account::ofSolver)), 1e-5 * dt * power) << "it has left something";
+        }
+        EXPECT_LT(total(Account::elastic), 0);
+        EXPECT_GT(total(Account::elastic), -elastic);
     }
 }
 
