@@ -269,20 +269,21 @@ def test_implicit(folder):
 def test_account(folder):
     """The account of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
     after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, conjugate.)"""
-    sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n  viscosity: {shear: 1e-8 N s/m}\n"
+    sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
+    short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
     implicit = "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-5}\n"
-    every = "balance: {type: conservation, every: 0.03 strain}\n"
+    every = "balance: {type: conservation, every: 0.06 strain}\n"
+    explicit = {**CONJUGATE_CASE, "system/control.yaml": short, "system/observers.yaml": every}
+    body = {**BODY_CASE, "system/control.yaml": short, "system/observers.yaml": every}
     driven = BODY_CASE["constant/bodies.yaml"].replace("free", "{type: driven, velocity: [0, 0, 0] m/s, angularVelocity: [0, 300, 0] 1/s}")
     rows = {}
     for name, files, allowed, agree in (
-            ("implicit", {**IMPLICIT_CASE, "system/observers.yaml": every}, 0.02, 1e-3),
-            ("conjugate", {**CONJUGATE_CASE, "system/observers.yaml": every, "constant/membranes.yaml": sheet}, 0.02, 1e-6),
-            ("tearing", {**CONJUGATE_CASE, "system/observers.yaml": every,
-                         "constant/membranes.yaml": sheet.replace("viscosity: {shear: 1e-8 N s/m}", "rupture: {type: bondStretch, limit: 1.03}")}, 0.02, 1e-6),
-            ("dualIdentity", {**CELL_CASE, "system/observers.yaml": every}, 0.03, 1e-6),
-            ("body", {**BODY_CASE, "system/observers.yaml": every}, 0.03, 1e-6),
-            ("drivenBody", {**BODY_CASE, "system/observers.yaml": every, "constant/bodies.yaml": driven}, 0.03, 1e-6),
-            ("implicitBody", {**BODY_CASE, "system/observers.yaml": every, "system/numerics.yaml": implicit}, 0.05, 1e-3)):
+            ("implicit", {**IMPLICIT_CASE, "system/observers.yaml": every}, 1e-3, 1e-3),
+            ("conjugate", {**explicit, "constant/membranes.yaml": sheet}, 1e-4, 1e-6),
+            ("tearing", {**explicit, "constant/membranes.yaml": sheet.split("  viscosity")[0] + "  rupture: {type: bondStretch, limit: 1.02}\n"}, 1e-4, 1e-6),
+            ("dualIdentity", {**CELL_CASE, "system/observers.yaml": every}, 1e-3, 1e-6),
+            ("drivenBody", {**body, "constant/bodies.yaml": driven}, 0.01, 1e-6),
+            ("implicitBody", {**body, "system/numerics.yaml": implicit}, 1e-3, 1e-3)):
         start = prepared(folder / name, files)
         for ranks in (1, 2):
             case = copied(start, folder / f"{name}{ranks}")
@@ -307,12 +308,12 @@ def test_account(folder):
         assert record["momentumDriftShare"] < 2e-3, record
         assert "energy account: walls put in" in (folder / f"{name}1" / "log.dmpFlow").read_text()
     assert rows["tearing"]["released_J"] > 0 and "released_J" not in rows["implicit"], rows["tearing"]
-    assert rows["conjugate"]["dissipatedInMembranes_J"] > 0.001 * rows["conjugate"]["dissipated_J"], rows["conjugate"]
+    assert rows["conjugate"]["dissipatedInMembranes_J"] > 1e-4 * rows["conjugate"]["dissipated_J"], rows["conjugate"]
     assert rows["drivenBody"]["workOfBodies_J"] > 0, rows["drivenBody"]
-    # In two parts on another number of ranks; and from a start between, an account of its own.
+    # In two parts on another number of ranks.
     whole = table(folder / "conjugate1", "balance", "account.csv")[-1]
     case = copied(folder / "conjugate", folder / "parts")
-    run(case, "dmpFlow", "-steps", "40", ranks=2)
+    run(case, "dmpFlow", "-steps", "30", ranks=2)
     run(case, "dmpFlow", ranks=1)
     ends = [float(value) for value in series(case, "balance", "account.csv")[-1]]
     for key, value in zip(["time_s", "strain"] + list(whole)[2:], ends):
@@ -323,7 +324,7 @@ def test_account(folder):
     run(case, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
     last = table(case, "balance", "account.csv")[-1]
     print("rkl2", last)
-    assert last["residualShare"] < 0.03 and "stored_J" not in last and last["dissipated_J"] > 0, last
+    assert last["residualShare"] < 1e-4 and "stored_J" not in last and last["dissipated_J"] > 0, last
 
 
 def test_stepControl(folder):
