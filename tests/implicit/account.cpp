@@ -167,7 +167,7 @@ TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
         implicit::ImplicitStep::Options options;
         options.settings = {.step = 1, .tolerance = tolerance, .bondStrain = 1};
         const auto step = implicit::ImplicitStep::make(moving, options);
-        const double dt = 2, elastic = moving.cells[0].membrane.energy() + moving.cells[1].membrane.energy();
+        const double dt = 10, elastic = moving.cells[0].membrane.energy() + moving.cells[1].membrane.energy();
         step->advance(dt);
         EXPECT_GT(step->statistics.refinements, 0);
         EXPECT_EQ(step->statistics.halvings, 0);
@@ -192,8 +192,10 @@ TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
             return sph::testing::sumOverRanks(moving.account.total[entry]);
         };
         EXPECT_NEAR(total(Account::viscous) / dt, power, 1e-9 * power) << tolerance;
+        std::printf("tolerance %g: %ld refinements, solver leaves %.2g of the dissipation\n", tolerance,
+                    step->statistics.refinements, total(Account::ofSolver) / (dt * power));
         if (tolerance > 0.1) {
-            EXPECT_GT(std::abs(total(Account::ofSolver)), 1e-5 * dt * power) << "it has left something";
+            EXPECT_GT(std::abs(total(Account::ofSolver)), 1e-7 * dt * power) << "it has left something";
         }
         EXPECT_LT(total(Account::elastic), 0);
         EXPECT_GT(total(Account::elastic), -elastic);
