@@ -96,20 +96,65 @@ class Verlet final : public ConjugateVerlet {
         field_.resize(width * n);
         for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
         operators_.apply(*scene_.system, field_, [&](std::size_t i, double) { return pressure_[i]; });
+        const bool keeps = scene_.account.kept;
+        if (keeps) findRates();
         if (!immersed_) return;
         immersed_->place(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
         Immersed::Vectors f = immersed_->force();
-        if (immersed_->isViscous()) immersed_->addViscousForces(nodeVelocities(), f);
+        double viscous = 0;
+        if (immersed_->isViscous()) {
+            const Immersed::Vectors nodes = nodeVelocities(), elastic = f;
+            immersed_->addViscousForces(nodes, f);
+            for (std::size_t m = 0; m < f.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
+        }
         immersed_->spread(std::move(f), operators_.force());
+        if (keeps) addMembraneRates(viscous);
     }
+
+    // Of the account (sph/account.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
+    double power() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < store().size(); ++i) sum += velocityUsed(i).dot(force(i));
+        return sum;
+    }
+    void findRates() {
+        rates_.fill(0);
+        double compression = 0;
+        for (std::size_t i = 0; i < store().size(); ++i)
+            compression -= operators_.volume(i) * pressure_[i] * operators_.divergence(i);
+        fluidPower_ = power();
+        rates_[sph::Account::compression] = compression;
+        rates_[sph::Account::viscous] = -fluidPower_ - compression;
+    }
+    // viscous: power of the membranes' viscosity, the same on all ranks.
+    void addMembraneRates(double viscous) {
+        const double own = scene_.system->decomposition().rank() == 0 ? viscous : 0;
+        rates_[sph::Account::inMembranes] = -own;
+        rates_[sph::Account::elastic] = own - (power() - fluidPower_);
+    }
+    void addRatesOfParticle(std::size_t i, const Vec3& middle) {
+        const Vec3 u = velocityUsed(i), f = force(i), x = store().position(i) - middle;
+        if (isFixed(i))
+            sph::Account::addWall(rates_, scene_.model().walls.isUpper(store().position(i)), u, x, -f);
+        else {
+            const Vec3& g = scene_.model().bodyForce;
+            if (!g.isZero()) sph::Account::addBodyForce(rates_, u, x, scene_.mass(i) * g);
+            rates_[sph::Account::kinetic] += u.dot(f + scene_.mass(i) * g);
+        }
+    }
+    Vec3 velocityUsed(std::size_t i) const { return {field_[at(i)], field_[at(i) + 1], field_[at(i) + 2]}; }
+    Vec3 force(std::size_t i) const { return Vec3::Map(operators_.force().data() + at(i)); }
 
     // Velocity and density from the forces found; what the walls feel. The density was extrapolated by `extrapolation`.
     void accelerate(double dt, double extrapolation) {
         ParticleStore& s = scene_.store();
         const Vec3& g = scene_.model().bodyForce;
+        const bool keeps = scene_.account.kept;
+        const Vec3 middle = scene_.system->box().middle();
         Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
         for (std::size_t i = 0; i < s.size(); ++i) {
+            if (keeps) addRatesOfParticle(i, middle);
             const double rate = -s.density[i] * operators_.divergence(i);
             s.density[i] += dt * rate - extrapolation * s.densityRate[i];
             s.densityRate[i] = rate;
@@ -124,6 +169,7 @@ class Verlet final : public ConjugateVerlet {
             put(i, s.velocity(i));
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
+        if (keeps) scene_.account.add(dt, rates_);
     }
 
     // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at the end of the
@@ -207,6 +253,8 @@ class Verlet final : public ConjugateVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
+    sph::Account::Values rates_{};  // of the last evaluation
+    double fluidPower_ = 0;
 };
 
 }  // namespace

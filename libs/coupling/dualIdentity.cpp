@@ -71,7 +71,27 @@ void DualIdentity::addAccelerations(ParticleSystem& system) {
     }
 }
 
-std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt) {
+void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& forces, sph::Account::Values& rates) const {
+    std::vector<Vectors> viscous(cells_.size());  // of held cells
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const membrane::Membrane& m = cells_[c].membrane;
+        if (!cells_[c].held || !m.isViscous()) continue;
+        viscous[c] = none(m.position);
+        m.addViscousForces(m.velocity, viscous[c]);
+    }
+    double all = 0, byViscosity = 0;
+    for (const NodeExchange::OwnedNode& n : exchange_.owned()) {
+        const auto c = static_cast<std::size_t>(n.cell), node = static_cast<std::size_t>(n.node);
+        const Vec3 u = forces.velocityUsed(static_cast<std::size_t>(n.particle));
+        all += u.dot(cells_[c].membrane.force[node]);
+        if (!viscous[c].empty()) byViscosity += u.dot(viscous[c][node]);
+    }
+    rates[sph::Account::kinetic] += all;
+    rates[sph::Account::elastic] -= all - byViscosity;
+    rates[sph::Account::inMembranes] -= byViscosity;
+}
+
+std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt, sph::Account* account) {
     ++steps_;
     std::vector<RuptureEvent> events;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -80,7 +100,12 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
         std::vector<membrane::BrokenBond> broken = membrane.findBroken(dt);
         if (broken.empty()) continue;
         if (intervals_.guard > 0) guard_.putBack(system, cells_[c], c);
+        const bool owner = std::any_of(exchange_.owned().begin(), exchange_.owned().end(), [&](const auto& n) {
+            return static_cast<std::size_t>(n.cell) == c && n.node == 0;
+        });
+        const double before = account && owner ? membrane.energy() : 0;
         membrane.breakBonds(broken);
+        if (account && owner) account->total[sph::Account::released] += before - membrane.energy();
         events.push_back({membrane.cell, std::move(broken)});
     }
     const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };

@@ -44,6 +44,9 @@ class FluidTerm final : public Term<Real> {
     sph::Operators<Real>& operators() { return operators_; }
     const sph::Operators<Real>& operators() const { return operators_; }
     double pressure(std::size_t i) const { return pressure_[i]; }  // at the beginning of the step [Pa]
+    double pressure(std::size_t i, double divergence) const {
+        return pressure_[i] - stiffness_[i] * divergence;
+    }  // as it acts
 
   private:
     void give(Forces& forces) {

@@ -184,6 +184,7 @@ class Step final : public ImplicitStep {
                 return false;
             }
             for (std::size_t k = 0; k < guess_.size(); ++k) guess_[k] += correction_[k];
+            if (scene_.account.kept) addLeft(refinement == 0);
             for (Term<Real>* term : terms_)
                 if (fault_ = term->refusal(guess_, dt); !fault_.empty()) return false;
             if (isLinear_) return true;
@@ -192,6 +193,12 @@ class Step final : public ImplicitStep {
             takeDefect();
             ++statistics.refinements;
         }
+    }
+
+    // What solutions leave of the equations, which the next right-hand side does not take up.
+    void addLeft(bool first) {
+        left_.resize(residual_.size());
+        for (std::size_t k = 0; k < left_.size(); ++k) left_[k] = residual_[k] + (first ? Real(0) : left_[k]);
     }
 
     // What the terms' forces at the places found differ from the linear ones, as residual_ of what moves; the energy of the velocity that
@@ -284,12 +291,47 @@ class Step final : public ImplicitStep {
             if (isFixed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += get(residual_, i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
+        if (scene_.account.kept) keepAccount(dt);
         findReference();
         for (std::size_t i = 0; i < n; ++i) {
             s.densityRate[i] = -s.density[i] * rate_[i];
             s.density[i] *= ends_ ? 1 / (1 + dt * rate_[i]) : (1 - 0.5 * dt * rate_[i]) / (1 + 0.5 * dt * rate_[i]);
         }
         moveParticles(dt, share);
+    }
+
+    // The energy balance of the system, v.(A v - b) = - v.left: all forces of the terms follow from it without another application, where there
+    // are no bodies. So v.L v is what their power and that of pressure and membranes do not explain, exactly (sph/account.hpp).
+    void keepAccount(double dt) {
+        using sph::Account;
+        const ParticleStore& s = store();
+        const Vec3 &g = scene_.model().bodyForce, middle = scene_.system->box().middle();
+        Account::Values rates{};
+        double power = 0;  // of the terms on everything that moves, walls included
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            rates[Account::compression] -= operators().volume(i) * fluid_.pressure(i, rate_[i]) * rate_[i];
+            const Vec3 x = s.position(i);
+            if (isFixed(i)) {
+                const Vec3 u = s.velocity(i), f = get(residual_, i);
+                power += u.dot(f);
+                Account::addWall(rates, scene_.model().walls.isUpper(x), u, x - middle, -f);
+                continue;
+            }
+            const Vec3 v = get(guess_, i), a(s.fx[i], s.fy[i], s.fz[i]);
+            if (rigid_) power += v.dot(vector(forces_, i));
+            if (rigid_ && rigid_->isMember(i)) continue;
+            const Vec3 inertia = mass(i) * (c1_ * (v - s.velocity(i)) - c2_ * a), byBodyForce = mass(i) * g;
+            const Vec3 left = rigid_ ? Vec3(vector(forces_, i) + byBodyForce - inertia) : get(left_, i);
+            if (!rigid_) power += v.dot(left + inertia - byBodyForce);
+            Account::addBodyForce(rates, v, x - middle, byBodyForce);
+            rates[Account::kinetic] += v.dot(inertia);
+            rates[Account::ofSolver] += v.dot(left);
+        }
+        if (rigid_) power += rigid_->addRates(c1_, c2_, guess_, rates);
+        if (membranes_ && scene_.system->decomposition().rank() == 0) membranes_->addRates(rates);
+        rates[Account::viscous] =
+            -power - rates[Account::compression] - rates[Account::elastic] - rates[Account::inMembranes];
+        scene_.account.add(dt, rates);
     }
 
     // What the system has as their forces at the velocity found, so that they are what changes momentum. The solver does not carry them: rows of
@@ -371,7 +413,7 @@ class Step final : public ImplicitStep {
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
-    Field guess_, residual_, correction_, inverse_;
+    Field guess_, residual_, correction_, inverse_, left_;
     RealArray forces_;          // of the terms, at the velocity given to them last
     std::vector<double> rate_;  // divergence of the velocity found
     coupling::Transport transport_;

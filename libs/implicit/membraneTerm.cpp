@@ -64,6 +64,18 @@ double MembraneTerm<Real>::power(const Field& v, const Field& w) {
     return sum;
 }
 
+template <class Real>
+void MembraneTerm<Real>::addRates(sph::Account::Values& rates) const {
+    Vectors elastic = load_;
+    immersed_.addStiffness(-time_, nodes_, elastic);
+    Vectors both = load_;
+    immersed_.addResistance(time_, nodes_, both);
+    for (std::size_t m = 0; m < nodes_.size(); ++m) {
+        rates[sph::Account::elastic] -= nodes_[m].dot(elastic[m]);
+        rates[sph::Account::inMembranes] -= nodes_[m].dot(both[m] - elastic[m]);
+    }
+}
+
 template class MembraneTerm<double>;
 template class MembraneTerm<float>;
 

@@ -14,6 +14,7 @@
 #include "coupling/immersed.hpp"
 #include "implicit/implicitSettings.hpp"
 #include "implicit/term.hpp"
+#include "sph/account.hpp"
 
 namespace corpuscle::implicit {
 
@@ -37,6 +38,9 @@ class MembraneTerm final : public Term<Real> {
     void addDefect(Forces& forces) override;
     void takeDefect() override;
     double power(const Field& v, const Field& w) override;
+
+    // What the velocity last given does for the account, the same on all ranks: power against elasticity and against viscosity.
+    void addRates(sph::Account::Values& rates) const;
 
     // Of all nodes, for the velocity last given to addForces or refusal.
     const Vectors& velocities() const { return nodes_; }

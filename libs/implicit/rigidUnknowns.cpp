@@ -247,6 +247,25 @@ void RigidUnknowns<Real>::findWrenches(const RealArray& force) {
 }
 
 template <class Real>
+double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::Account::Values& rates) const {
+    double continuation = 0;
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        const Body& body = bodies()[b];
+        const RigidMotion now = motion(u, b), &last = body.state.motion, &rate = body.acceleration;
+        continuation += now.linear.dot(reaction_[b].force) + now.angular.dot(reaction_[b].torque);
+        if (!isRoot()) continue;
+        scene_.bodies->addRates(*scene_.system, body, now, rates);
+        if (!isFree(b)) continue;
+        const Vec3 force = body.solid.mass * (c1 * (now.linear - last.linear) - c2 * rate.linear),
+                   torque = inertiaInSpace(body) * (c1 * (now.angular - last.angular) - c2 * rate.angular);
+        rates[sph::Account::kinetic] += now.linear.dot(force) + now.angular.dot(torque);
+        rates[sph::Account::ofSolver] +=
+            now.linear.dot(body.wrench.force - force) + now.angular.dot(body.wrench.torque - torque);
+    }
+    return continuation;
+}
+
+template <class Real>
 void RigidUnknowns<Real>::arrive(double dt, double h, const Field& u) {
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         Body& body = bodies()[b];

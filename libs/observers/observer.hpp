@@ -83,6 +83,8 @@ class Observer : public ObserverSettings {
     virtual ~Observer() = default;
     // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
     virtual std::string obstacle(const Subject&) const { return {}; }
+    // Whether the scene is to keep its account of energy and momentum (sph/account.hpp).
+    virtual bool wantsAccount() const { return false; }
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
 
   protected:

@@ -1,5 +1,6 @@
 #include "observers/observers.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include "observers/summary.hpp"
@@ -22,6 +23,10 @@ void ObserversSettings::check(const Node& dictionary, const Subject& subject, Pr
                        : choice->obstacle(subject);
         if (!text.empty()) problems.add(dictionary.find(name)->place(), name, choice.name + ": " + text);
     }
+}
+
+bool ObserversSettings::wantAccount() const {
+    return std::any_of(models.begin(), models.end(), [](const auto& entry) { return entry.second->wantsAccount(); });
 }
 
 namespace {

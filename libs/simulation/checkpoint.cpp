@@ -26,6 +26,30 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
     return result;
 }
 
+// Every rank's part of the account, rank after rank, the same on all.
+std::vector<double> gathered(const sph::Account& account, MPI_Comm comm) {
+    std::vector<double> own(account.total.begin(), account.total.end());
+    own.insert(own.end(), account.last.begin(), account.last.end());
+    own.push_back(account.lastKnown);
+    int ranks = 1;
+    MPI_Comm_size(comm, &ranks);
+    std::vector<double> all(own.size() * static_cast<std::size_t>(ranks));
+    const int length = static_cast<int>(own.size());
+    MPI_Allgather(own.data(), length, MPI_DOUBLE, all.data(), length, MPI_DOUBLE, comm);
+    return all;
+}
+// A rank's own part where there are as many ranks; else all of it to the root.
+void restoreAccount(sph::Account& account, const std::vector<double>& all, bool sameRanks, int rank) {
+    constexpr std::size_t count = sph::Account::count, length = 2 * count + 1;
+    account.total.fill(0), account.last.fill(0);
+    for (std::size_t part = 0; part < all.size() / length; ++part) {
+        const double* values = all.data() + length * part;
+        account.lastKnown = values[2 * count] != 0;
+        if (sameRanks ? part != static_cast<std::size_t>(rank) : rank != 0) continue;
+        for (std::size_t k = 0; k < count; ++k) account.total[k] += values[k], account.last[k] += values[count + k];
+    }
+}
+
 long total(long mine, MPI_Comm comm) {
     MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_LONG, MPI_SUM, comm);
     return mine;
@@ -99,6 +123,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.putBack, comm)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
+    if (scene.account.kept) file.writeReplicated("account", gathered(scene.account, comm));
     std::vector<double> fixed;
     for (const Fixed& f : fixedSettings(input)) fixed.push_back(f.value);
     file.writeReplicated("fixed", fixed);
@@ -190,6 +215,9 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
         cell.membrane.restore({alive.begin(), alive.end()},
                               file.has(damage) ? file.template readReplicated<double>(damage) : std::vector<double>{});
     }
+    if (scene.account.kept && file.has("account"))
+        restoreAccount(scene.account, file.template readReplicated<double>("account"), file.sameRanks(),
+                       scene.system->decomposition().rank());
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.template readReplicated<double>("bodies/" + body.name + "/state"));

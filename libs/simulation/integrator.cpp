@@ -53,7 +53,8 @@ void Integrator::makeExplicit() {
         loads.push_back(scene.coupling.get());
     }
     if (scene.bodies) loads.push_back(scene.bodies.get());
-    scheme_ = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads);
+    scheme_ =
+        std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads, account());
 }
 
 void Integrator::makeConjugate() {
@@ -70,7 +71,7 @@ void Integrator::makeConjugate() {
 }
 
 void Integrator::makeRkl2() {
-    auto rkl2 = std::make_unique<sph::Rkl2>(*scene_.system, *scene_.forces, scene_.shifting.get());
+    auto rkl2 = std::make_unique<sph::Rkl2>(*scene_.system, *scene_.forces, scene_.shifting.get(), account());
     rkl2_ = rkl2.get();
     scheme_ = std::move(rkl2);
 }
@@ -129,7 +130,7 @@ void Integrator::advance(Scene& scene, Time& time) {
     } else
         scheme_->advance(time.dt);
     if (scene.coupling) {
-        scene.broken = scene.coupling->endStep(*scene.system, time.dt);
+        scene.broken = scene.coupling->endStep(*scene.system, time.dt, account());
         scene.putBack = scene.coupling->guard().moves();
     }
     time.advance(time.dt);

@@ -53,6 +53,7 @@ class Integrator {
     void makeRkl2();
     void estimateRates();
     void updateLimits(Time& time);
+    sph::Account* account() { return scene_.account.kept ? &scene_.account : nullptr; }
     const Case& input_;
     coupling::Scene& scene_;
     std::unique_ptr<sph::ExplicitScheme> scheme_;  // one of the three

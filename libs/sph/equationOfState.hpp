@@ -20,6 +20,8 @@ class EquationOfState {
     // out[i] = p(rho[i])/rho[i]^2, the form in which pressure enters the momentum equation, for n particles.
     virtual void specificPressure(const double* density, double* out, int n, double restDensity, double c0) const = 0;
     virtual double pressure(double density, double restDensity, double c0) const = 0;
+    // Of compression per unit mass, int p/rho^2 drho from the rest density [J/kg].
+    virtual double energy(double density, double restDensity, double c0) const = 0;
     virtual double bulkModulus(double density, double restDensity, double c0) const = 0;  // rho dp/drho [Pa]
     virtual double density(double pressure, double restDensity, double c0) const = 0;
 };

@@ -107,6 +107,13 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density,
                                              model_.soundSpeed);
     double* const results[4] = {s.fx.data(), s.fy.data(), s.fz.data(), s.densityRate.data()};
+    if (keepsAccount_) {
+        const RealArray *const velocity[3] = {&s.u, &s.v, &s.w}, *const rate[3] = {&s.fx, &s.fy, &s.fz};
+        for (int k = 0; k < 3; ++k) {
+            used_[k].resize(n);
+            for (std::size_t i = 0; i < n; ++i) used_[k][i] = (*velocity[k])[i] + e * (*rate[k])[i];
+        }
+    }
     run(
         system, density_, groups_ ? groups_->motion : still_,
         [&]<class Real>(std::size_t i, Real* velocity) {
@@ -119,6 +126,7 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     if (groups_)
         groups_->wrenches =
             groups_->gather(groups_->motion, s.fx.data(), s.fy.data(), s.fz.data(), s.mass.data(), system.comm());
+    if (keepsAccount_) findRates(system);
     for (Vec3& f : wallForce_) f.setZero();
     for (const int i : wallParticles_) {
         const double mass = variant_.varyingMass ? s.mass[i] : model_.mass;
@@ -131,6 +139,36 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     if (groups_)
         for (const RigidGroups::Member& m : groups_->members)
             s.fx[m.particle] = s.fy[m.particle] = s.fz[m.particle] = 0;
+}
+
+// Of the accelerations as pairs give them: those of walls and members not yet set to zero, nor the body force added.
+void FluidForces::findRates(const ParticleSystem& system) {
+    const ParticleStore& s = system.store();
+    const Vec3 middle = system.box().middle(), &g = model_.bodyForce;
+    rates_.fill(0);
+    double power = 0, compression = 0, moving = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Kind kind = s.kindOf(i);
+        const double mass = variant_.varyingMass ? s.mass[i] : model_.mass;
+        compression += mass * pressure_[i] * s.densityRate[i];
+        if (kind == Kind::body) continue;
+        const Vec3 force = mass * Vec3(s.fx[i], s.fy[i], s.fz[i]), u = velocityUsed(i);
+        power += force.dot(u);
+        if (kind == Kind::wall) {
+            const Vec3 x = s.position(i);
+            Account::addWall(rates_, model_.walls.isUpper(x), u, x - middle, -force);
+            continue;
+        }
+        moving += force.dot(u);
+        if (!g.isZero()) Account::addBodyForce(rates_, u, s.position(i) - middle, mass * g);
+    }
+    if (groups_ && system.decomposition().rank() == 0)
+        for (std::size_t b = 0; b < groups_->motion.size(); ++b)
+            power += groups_->motion[b].linear.dot(groups_->wrenches[b].force) +
+                     groups_->motion[b].angular.dot(groups_->wrenches[b].torque);
+    rates_[Account::compression] = compression;
+    rates_[Account::viscous] = -power - compression;
+    rates_[Account::kinetic] = moving + rates_[Account::ofBodyForce];
 }
 
 void FluidForces::findWalls(const ParticleSystem& system) {

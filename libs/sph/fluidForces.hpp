@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "particles/particleSystem.hpp"
+#include "sph/account.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/kernel.hpp"
 #include "sph/rigidGroups.hpp"
@@ -36,6 +37,12 @@ class FluidForces {
     // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles and of rigid groups are summed up and
     // set to zero.
     void evaluate(particles::ParticleSystem& system, double extrapolation);
+
+    // What the last evaluation does for the account (account.hpp), members of rigid groups and other loads left out; and the velocity of particle i
+    // that it was made with. Only where it is kept: it costs one loop over particles and the memory of their velocities.
+    void keepAccount() { keepsAccount_ = true; }
+    const Account::Values& rates() const { return rates_; }
+    Vec3 velocityUsed(std::size_t i) const { return {used_[0][i], used_[1][i], used_[2][i]}; }
 
     // Particles that are walls, found anew after each list build.
     void findWalls(const particles::ParticleSystem& system);
@@ -74,6 +81,7 @@ class FluidForces {
              double* const results[4]);
     void runViscosity(particles::ParticleSystem& system, const particles::RealArray (&velocity)[3],
                       const std::vector<RigidMotion>& motion, particles::RealArray (&acceleration)[3]);
+    void findRates(const particles::ParticleSystem& system);
     template <class Real>
     void packGroups(Real* records, int owned, const std::vector<RigidMotion>& motion) const;
 
@@ -87,6 +95,9 @@ class FluidForces {
     particles::RealArray sums_, density_, pressure_, unused_;
     std::vector<int> wallParticles_;
     Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
+    bool keepsAccount_ = false;
+    Account::Values rates_{};
+    particles::RealArray used_[3];
 };
 
 }  // namespace corpuscle::sph

@@ -1,5 +1,7 @@
 #include "sph/linear.hpp"
 
+#include <cmath>
+
 namespace corpuscle::sph {
 
 const Schema<Linear>& Linear::schema() {
@@ -15,6 +17,11 @@ void Linear::specificPressure(const double* density, double* out, int n, double 
 
 double Linear::pressure(double density, double restDensity, double c0) const {
     return c0 * c0 * (density - restDensity);
+}
+
+double Linear::energy(double density, double restDensity, double c0) const {
+    const double q = density / restDensity;
+    return c0 * c0 * (std::log(q) + 1 / q - 1);
 }
 
 double Linear::bulkModulus(double density, double, double c0) const { return c0 * c0 * density; }

@@ -30,6 +30,12 @@ double Tait::pressure(double density, double restDensity, double c0) const {
     return restDensity * c0 * c0 / gamma * (std::pow(density / restDensity, gamma) - 1);
 }
 
+double Tait::energy(double density, double restDensity, double c0) const {
+    const double q = density / restDensity,
+                 bulk = gamma == 1 ? std::log(q) : (std::pow(q, gamma - 1) - 1) / (gamma - 1);
+    return c0 * c0 / gamma * (bulk + 1 / q - 1);
+}
+
 double Tait::bulkModulus(double density, double restDensity, double c0) const {
     return restDensity * c0 * c0 * std::pow(density / restDensity, gamma);
 }

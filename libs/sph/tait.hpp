@@ -15,6 +15,7 @@ struct Tait : EquationOfState {
     static const Schema<Tait>& schema();
     void specificPressure(const double* density, double* out, int n, double restDensity, double c0) const override;
     double pressure(double density, double restDensity, double c0) const override;
+    double energy(double density, double restDensity, double c0) const override;
     double bulkModulus(double density, double restDensity, double c0) const override;
     double density(double pressure, double restDensity, double c0) const override;
 };

@@ -30,12 +30,15 @@ class Load {
     virtual void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) = 0;
     // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
     virtual void addAccelerations(particles::ParticleSystem& system) = 0;
+    // What it does for the account of this evaluation, after addAccelerations; this rank's part.
+    virtual void addRates(const particles::ParticleSystem&, const FluidForces&, Account::Values&) const {}
 };
 
 class VelocityVerlet final : public ExplicitScheme {
   public:
-    VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting,
-                   std::vector<Load*> loads);
+    // account: null, or what is to be kept; its rates are added by the trapezoidal rule, as velocities are.
+    VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads,
+                   Account* account = nullptr);
 
     void start() override;  // with ubar = u
     void resume() override;
@@ -49,6 +52,7 @@ class VelocityVerlet final : public ExplicitScheme {
     FluidForces& forces_;
     Shifting* shifting_;
     std::vector<Load*> loads_;
+    Account* account_;
 };
 
 }  // namespace corpuscle::sph

@@ -267,3 +267,35 @@ TEST(Immersed, shepardsWeightsWhereLinearOnesAreLarge) {
         EXPECT_LT((found[m] - expected).norm(), 1e-10);
     }
 }
+
+// Weights that find linear fields exactly hand a force to the fluid with its torque; forces of a membrane have none.
+TEST(Immersed, spreadForcesKeepTheirTorque) {
+    InFluid scene;
+    if (scene.immersed.fallbacks() > 0) GTEST_SKIP() << "Shepard's weights keep the force alone";
+    const std::vector<Vec3> forces = scene.immersed.force();
+    std::size_t first = 0;
+    for (const Cell& cell : scene.cells) {
+        const auto count = static_cast<std::size_t>(cell.nodeCount());
+        std::vector<Vec3> own(forces.size(), Vec3::Zero());
+        std::copy_n(forces.begin() + static_cast<std::ptrdiff_t>(first), count,
+                    own.begin() + static_cast<std::ptrdiff_t>(first));
+        first += count;
+        const ParticleStore& s = scene.system->store();
+        particles::RealArray spread(4 * s.size(), 0.0);
+        scene.immersed.spread(own, spread);
+        const Vec3 middle = middleOf(cell);
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+        double scale = 0;
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            const Vec3 f = Vec3::Map(spread.data() + 4 * i),
+                       arm = imageNear(scene.system->box(), s.position(i), middle) - middle;
+            force += f, torque += arm.cross(f), scale += arm.norm() * f.norm();
+        }
+        scale = sph::testing::sumOverRanks(scale);
+        EXPECT_GT(scale, 1e-3);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(sph::testing::sumOverRanks(force[k]), 0, 1e-12 * scale);
+            EXPECT_NEAR(sph::testing::sumOverRanks(torque[k]), 0, 1e-12 * scale);
+        }
+    }
+}

@@ -148,6 +148,71 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), energy, 1e-9 * energy);
 }
 
+// Energies and momentum of the state against what forces are said to have done, from a start at which both were not zero.
+TEST(Conservation, AccountOfWorkAndState) {
+    using sph::Account;
+    Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
+    couple(scene);
+    EXPECT_EQ(begin("{type: conservation, every: 10 steps}", scene)->tables().size(), 1u) << "no account is kept";
+    scene.account.kept = true;
+    const double ranks = Communicator().size();
+    scene.account.total.fill(7e-15);
+    const auto observation = begin("{type: conservation, every: 10 steps}", scene);
+    const auto now = [&](const std::unique_ptr<Observation>& o, const std::string& header) {
+        return value(*o, o->observe(scene, {}), header, 1);
+    };
+    for (const char* name :
+         {"workOfWalls_J", "dissipated_J", "stored_J", "compressed_J", "kineticEnergy_J", "residual_J", "residualShare",
+          "momentum_y_Ns", "momentumDrift_y_Ns", "massChange", "volumeChange"})
+        EXPECT_EQ(now(observation, name), 0) << name;
+
+    particles::ParticleStore& s = scene.store();
+    double moving = 0, compression = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const double before =
+            rho0 * dx * dx * dx * scene.model().equationOfState->energy(s.density[i], rho0, scene.model().soundSpeed);
+        if (!particles::isBoundary(s.kindOf(i))) s.v[i] += 2e-3, moving += s.mass[i];
+        s.density[i] *= 1.001;
+        compression +=
+            s.mass[i] * scene.model().equationOfState->energy(s.density[i], rho0, scene.model().soundSpeed) - before;
+    }
+    moving = Communicator().sum(moving), compression = Communicator().sum(compression);
+    EXPECT_NEAR(compression / (moving / rho0 * 0.5 * 1e-6 * rho0 * 0.01), 1.5, 0.5)
+        << "p^2/2K of the fluid, and that of the walls";
+    deform(scene, 0, [](const Vec3& x) { return Vec3(1.1 * x); });
+    double elastic = 0;  // k/2 (0.1 l0)^2 of each bond
+    for (const membrane::Bond& bond : scene.cells[0].membrane.network().allBonds())
+        elastic += 0.5 * 5e-4 * 0.01 * bond.rest * bond.rest;
+    const double kinetic = 0.5 * moving * 4e-6, stored = kinetic + compression + elastic, walls = 3 * stored;
+    const auto addTotal = [&](std::size_t entry, double sum) { scene.account.total[entry] += sum / ranks; };
+    addTotal(Account::ofWalls, walls), addTotal(Account::viscous, 1.9 * stored);
+    addTotal(Account::kinetic, kinetic + 0.06 * stored), addTotal(Account::elastic, elastic + 0.03 * stored);
+    addTotal(Account::compression, compression + 0.01 * stored);
+    addTotal(Account::lowerWall + 1, 1e-3 * moving), addTotal(Account::upperWall + 1, 0.8e-3 * moving);
+    const double close = 1e-9 * stored;
+    EXPECT_NEAR(now(observation, "workOfWalls_J"), walls, close);
+    EXPECT_NEAR(now(observation, "stored_J"), elastic, close);
+    EXPECT_NEAR(now(observation, "kineticEnergy_J"), kinetic, close);
+    EXPECT_NEAR(now(observation, "compressed_J"), compression, 1e-6 * stored);
+    EXPECT_NEAR(now(observation, "residual_J"), 0.1 * stored, 1e-6 * stored);
+    EXPECT_NEAR(now(observation, "residualOfInertia_J"), 0.06 * stored, close);
+    EXPECT_NEAR(now(observation, "residualOfMembranes_J"), 0.03 * stored, close);
+    EXPECT_NEAR(now(observation, "residualOfCompression_J"), 0.01 * stored, 1e-6 * stored);
+    EXPECT_NEAR(now(observation, "residualShare"), 0.1 / 3, 1e-6);
+    EXPECT_NEAR(now(observation, "momentum_y_Ns"), 2e-3 * moving, 1e-9 * moving);
+    EXPECT_NEAR(now(observation, "momentumDrift_y_Ns"), 0.2e-3 * moving, 1e-9 * moving);
+    EXPECT_NEAR(now(observation, "volumeChange"), 1 / 1.001 - 1, 1e-9);
+    const auto summary = observation->summary(scene, {});
+    EXPECT_NEAR(summary->figures["residualShare"].get<double>(), 0.1 / 3, 1e-6);
+    EXPECT_NE(summary->lines[0].find("closes to 3.3 %"), std::string::npos) << summary->lines[0];
+
+    // A restart goes on with its start; one that begins now begins at nothing.
+    const auto restarted = begin("{type: conservation, every: 10 steps}", scene);
+    EXPECT_EQ(now(restarted, "workOfWalls_J"), 0);
+    restarted->restore(observation->state());
+    EXPECT_EQ(now(restarted, "residual_J"), now(observation, "residual_J"));
+}
+
 TEST(Rupture, EventsHolesAndReleasedFluid) {
     Scene scene = sampleScene({.size = Vec3(20 * um, 12 * um, 12 * um),
                                .cells = {{"a", Vec3(-5 * um, 0, 0)}, {"b", Vec3(5 * um, 0, 0)}},

@@ -134,24 +134,22 @@ def prepared(folder, files=CELL_CASE, **changes):
     return case
 
 
-def copied(case, folder):
-    shutil.copytree(case, folder)
-    return folder
+FILE = {"balance": "conservation.csv"}  # of observers with several files, the one meant where none is named
 
 
-def series(case, observer):
+def series(case, observer, name=None):
     """All rows of an observer, start times joined."""
     rows = []
     for folder in sorted((case / "postProcessing" / observer).iterdir(), key=lambda p: float(p.name)):
-        (table,) = folder.glob("*.csv")
+        (table,) = folder.glob(name or FILE.get(observer, "*.csv"))
         with open(table) as file:
             rows += [row for row in csv.reader(file)][1:]
     return rows
 
 
-def table(case, observer, name="*.csv"):
+def table(case, observer, name=None):
     """Rows of an observer by the names of its columns."""
-    with open(next((case / "postProcessing" / observer).glob(f"*/{name}"))) as file:
+    with open(next((case / "postProcessing" / observer).glob(f"*/{name or FILE.get(observer, '*.csv')}"))) as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
@@ -177,6 +175,8 @@ def same_in_parts(whole, start, application, steps, *options, ranks=1, observers
     same_checkpoint(last_checkpoint(whole), last_checkpoint(parts))
     for observer in observers:
         assert series(whole, observer) == series(parts, observer), observer
+        if observer == "balance":
+            assert series(whole, observer, "account.csv") == series(parts, observer, "account.csv"), "account"
     return parts
 
 
@@ -264,6 +264,67 @@ def test_implicit(folder):
         run(case, "sphFlow", "-steps", "3", "-set", f"system/numerics.yaml:/integrator={first}")
         said = run(case, "sphFlow", "-steps", "3", "-set", f"system/numerics.yaml:/integrator={second}", code=4).stderr
         assert f"was written by 'integrator: {first}'" in said and "firstTime" in said, said
+
+
+def test_account(folder):
+    """The account of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
+    after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, conjugate.)"""
+    sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
+    short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
+    implicit = "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-5}\n"
+    every = "balance: {type: conservation, every: 0.06 strain}\n"
+    explicit = {**CONJUGATE_CASE, "system/control.yaml": short, "system/observers.yaml": every}
+    body = {**BODY_CASE, "system/control.yaml": short, "system/observers.yaml": every}
+    driven = BODY_CASE["constant/bodies.yaml"].replace("free", "{type: driven, velocity: [0, 0, 0] m/s, angularVelocity: [0, 300, 0] 1/s}")
+    rows = {}
+    for name, files, allowed, agree in (
+            ("implicit", {**IMPLICIT_CASE, "system/observers.yaml": every}, 1e-3, 1e-3),
+            ("conjugate", {**explicit, "constant/membranes.yaml": sheet}, 1e-4, 1e-6),
+            ("tearing", {**explicit, "constant/membranes.yaml": sheet.split("  viscosity")[0] + "  rupture: {type: bondStretch, limit: 1.02}\n"}, 1e-4, 1e-6),
+            ("dualIdentity", {**CELL_CASE, "system/observers.yaml": every}, 1e-3, 1e-6),
+            ("drivenBody", {**body, "constant/bodies.yaml": driven}, 0.01, 1e-6),
+            ("implicitBody", {**body, "system/numerics.yaml": implicit}, 1e-3, 1e-3)):
+        start = prepared(folder / name, files)
+        for ranks in (1, 2):
+            case = copied(start, folder / f"{name}{ranks}")
+            run(case, "dmpFlow", ranks=ranks)
+        last = rows[name] = table(folder / f"{name}1", "balance", "account.csv")[-1]
+        print(name, {key: value for key, value in last.items() if key.endswith("_J") or key == "residualShare"})
+        given = sum(last.get(key, 0) for key in ("workOfWalls_J", "workOfBodyForce_J", "workOfBodies_J"))
+        taken = sum(last.get(key, 0) for key in ("dissipated_J", "stored_J", "released_J", "compressed_J", "kineticEnergy_J"))
+        parts = sum(last.get(key, 0) for key in ("residualOfInertia_J", "residualOfMembranes_J", "residualOfCompression_J", "residualOfSolver_J"))
+        assert given > 0 and last["dissipated_J"] > 0.3 * given, last
+        assert abs(given - taken - last["residual_J"]) < 1e-12 * given and abs(parts - last["residual_J"]) < 1e-9 * given, last
+        assert last["residualShare"] < allowed and abs(last["massChange"]) < 1e-13 and abs(last["volumeChange"]) < 2e-3, last
+        drift = math.hypot(*(last[f"momentumDrift_{k}_Ns"] for k in "xyz"))
+        exchanged = sum(math.hypot(*(last[f"impulseOf{wall}Wall_{k}_Ns"] for k in "xyz")) for wall in ("Lower", "Upper"))
+        assert drift < (2e-3 if "mplicit" in name else 1e-3) * exchanged, (name, drift / exchanged)
+        other = table(folder / f"{name}2", "balance", "account.csv")[-1]
+        for key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J", "kineticEnergy_J"):
+            if key in last:
+                assert abs(last[key] - other[key]) <= agree * given, (name, key, last[key], other[key])
+        record = json.loads((folder / f"{name}1" / "run.json").read_text())["observers"]["balance"]
+        assert record["residualShare"] == last["residualShare"] and record["workOfWalls_J"] == last["workOfWalls_J"], record
+        assert record["momentumDriftShare"] < 2e-3, record
+        assert "energy account: walls put in" in (folder / f"{name}1" / "log.dmpFlow").read_text()
+    assert rows["tearing"]["released_J"] > 0 and "released_J" not in rows["implicit"], rows["tearing"]
+    assert rows["conjugate"]["dissipatedInMembranes_J"] > 1e-4 * rows["conjugate"]["dissipated_J"], rows["conjugate"]
+    assert rows["drivenBody"]["workOfBodies_J"] > 0, rows["drivenBody"]
+    # In two parts on another number of ranks.
+    whole = table(folder / "conjugate1", "balance", "account.csv")[-1]
+    case = copied(folder / "conjugate", folder / "parts")
+    run(case, "dmpFlow", "-steps", "30", ranks=2)
+    run(case, "dmpFlow", ranks=1)
+    ends = [float(value) for value in series(case, "balance", "account.csv")[-1]]
+    for key, value in zip(["time_s", "strain"] + list(whole)[2:], ends):
+        if key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J"):
+            assert abs(value - whole[key]) < 1e-6 * whole["workOfWalls_J"], (key, value, whole[key])
+    # RKL2: a fluid alone starts to move.
+    case = prepared(folder / "rkl2", {**FLUID_CASE, "system/observers.yaml": "balance: {type: conservation, every: 0.1 s}\n"})
+    run(case, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
+    last = table(case, "balance", "account.csv")[-1]
+    print("rkl2", last)
+    assert last["residualShare"] < 1e-4 and "stored_J" not in last and last["dissipated_J"] > 0, last
 
 
 def test_stepControl(folder):

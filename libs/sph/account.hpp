@@ -1,0 +1,69 @@
+// Running account of energy and momentum: what the forces of a scheme put in and take away, added up at every step in the scheme's own quadrature
+// (docs/theory/conservation.md). With every particle's velocity u, that of walls and bodies included, the forces of a scheme do work at the rates
+//
+//     sum u.F = - dissipation - d(compression)/dt                     of pairs: viscosity and pressure are conjugate to the rates of density
+//     sum u.f = - d(elastic)/dt - dissipation in membranes            of membranes
+//     walls + bodies + body force = dissipation of both + d(kinetic + elastic + compression)/dt + what the solver leaves
+//
+// What is added up here are rates of the step; the energies themselves are functions of the state, and what both differ by is what the step makes or
+// loses (observers/conservation.cpp). Every rank has its part and nothing is reduced until somebody looks.
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "core/vec.hpp"
+
+namespace corpuscle::sph {
+
+struct Account {
+    enum Entry : std::size_t {
+        ofWalls,      // power of the walls on the fluid [W]
+        ofBodyForce,  // of the body force on fluid, nodes and bodies that yield
+        ofBodies,     // of bodies whose motion is given
+        viscous,      // dissipated by the viscosity of the fluid: velocity . L velocity
+        inMembranes,  // dissipated by that of membranes
+        kinetic,      // velocity . mass d(velocity)/dt as the step has it
+        elastic,      // - velocity of nodes . elastic force
+        compression,  // - sum of V p div u
+        ofSolver,     // velocity . residual of the step's equations
+        released,     // elastic energy of what broke, no rate [J]
+        lowerWall,    // force of the lower wall on the fluid [N], three numbers; of the upper
+        upperWall = lowerWall + 3,
+        bodyForce = upperWall + 3,     // force
+        givenBodies = bodyForce + 3,   // force of bodies whose motion is given
+        wallTorque = givenBodies + 3,  // of both walls about the middle of the box [N m]
+        forceTorque = wallTorque + 3,  // of the body force
+        count = forceTorque + 3
+    };
+    using Values = std::array<double, count>;
+
+    bool kept = false;
+    Values total{};  // rates over time, of this rank
+    // Where the quadrature needs them: rates at the end of the last step, and whether they are known.
+    Values last{};
+    bool lastKnown = false;
+
+    void add(double seconds, const Values& rates) {
+        for (std::size_t k = 0; k < count; ++k) total[k] += seconds * rates[k];
+    }
+    static void add(Values& values, std::size_t first, const Vec3& v) {
+        for (int k = 0; k < 3; ++k) values[first + static_cast<std::size_t>(k)] += v[k];
+    }
+    static Vec3 vector(const Values& values, std::size_t first) {
+        return {values[first], values[first + 1], values[first + 2]};
+    }
+    // Of a wall that exerts this force on the fluid at x, from the middle of the box.
+    static void addWall(Values& rates, bool upper, const Vec3& velocity, const Vec3& x, const Vec3& force) {
+        rates[ofWalls] += velocity.dot(force);
+        add(rates, upper ? upperWall : lowerWall, force);
+        add(rates, wallTorque, x.cross(force));
+    }
+    // Of the body force on something of velocity u at x.
+    static void addBodyForce(Values& rates, const Vec3& u, const Vec3& x, const Vec3& force) {
+        rates[ofBodyForce] += u.dot(force);
+        add(rates, bodyForce, force);
+        add(rates, forceTorque, x.cross(force));
+    }
+};
+
+}  // namespace corpuscle::sph
