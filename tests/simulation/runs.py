@@ -319,7 +319,7 @@ def test_account(folder):
     for key, value in zip(["time_s", "strain"] + list(whole)[2:], ends):
         if key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J"):
             assert abs(value - whole[key]) < 1e-6 * whole["workOfWalls_J"], (key, value, whole[key])
-    # RKL2: a fluid alone starts to move.
+    # RKL2: a fluid alone.
     case = prepared(folder / "rkl2", {**FLUID_CASE, "system/observers.yaml": "balance: {type: conservation, every: 0.1 s}\n"})
     run(case, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
     last = table(case, "balance", "account.csv")[-1]
