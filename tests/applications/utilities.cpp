@@ -193,6 +193,20 @@ TEST_F(Utilities, ErrorsSayWhatToDo) {
     EXPECT_TRUE(contains(option.err, "Did you mean '-quiet'?")) << option.err;
 }
 
+TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
+    const std::string scheme =
+        "-set system/numerics.yaml:/integrator=implicit -set system/numerics.yaml:/coupling=immersed -json ";
+    const Result inside = run("checkCase", scheme);
+    ASSERT_EQ(inside.code, 0) << inside.err;
+    EXPECT_FALSE(json::parse(inside.out).contains("outsideSafeRange")) << inside.out;
+    const Result outside = run("checkCase", scheme + "-set constant/flow.yaml:/Ca=1e4");
+    ASSERT_EQ(outside.code, 0) << outside.err;
+    const json words = json::parse(outside.out).at("outsideSafeRange");
+    ASSERT_EQ(words.size(), 1u) << words;
+    EXPECT_NE(words[0].get<std::string>().find("Ca = 1e+04 is outside"), std::string::npos) << words;
+    EXPECT_NE(outside.err.find("is known to be safe"), std::string::npos) << outside.err;
+}
+
 TEST_F(Utilities, ModelsAreListed) {
     const Result all = run("listModels");
     EXPECT_EQ(all.code, 0);

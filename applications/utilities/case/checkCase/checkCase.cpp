@@ -16,6 +16,7 @@
 #include "membrane/moduli.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
 
@@ -37,6 +38,10 @@ void reportGroups(Application& app, const simulation::Case& input, ordered_json&
         json["groups"][g.name] = g.number;
     }
     app.log().table({"group", "value", "meaning"}, rows);
+    for (const std::string& words : simulation::outsideSafeRanges(input)) {
+        app.log().warning("{}", words);
+        json["outsideSafeRange"].push_back(words);
+    }
 }
 
 void reportCosts(Application& app, const simulation::Case& input, ordered_json& json) {

@@ -1,0 +1,82 @@
+#include "simulation/safeRange.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "safeRangeTable.hpp"
+#include "simulation/groups.hpp"
+
+namespace corpuscle::simulation {
+
+namespace {
+
+constexpr const char* header = "axis,integrator,low,high,outside";
+
+double number(const std::string& word, const std::string& line) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end) throw std::invalid_argument("'" + word + "' is no number: " + line);
+    return value;
+}
+
+std::optional<double> valueOf(const Case& input, const std::vector<Group>& groups, const std::string& axis) {
+    if (axis == "step") return input.numerics.isImplicit() ? std::optional(input.numerics.implicit.step) : std::nullopt;
+    if (axis == "safety") return input.numerics.isImplicit() ? std::nullopt : std::optional(input.numerics.safety);
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == axis; });
+    return group != groups.end() ? std::optional(group->number) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<SafeRange> parseSafeRanges(const std::string& table) {
+    std::vector<SafeRange> ranges;
+    std::istringstream lines(table);
+    bool begun = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line[0] == '#') continue;
+        if (!begun) {
+            if (line != header) throw std::invalid_argument(std::string("the header is not ") + header + ": " + line);
+            begun = true;
+            continue;
+        }
+        std::istringstream words(line);
+        std::string word[4];
+        SafeRange range;
+        for (std::string& w : word) std::getline(words, w, ',');
+        std::getline(words, range.outside);  // to the end, commas included
+        if (range.outside.empty()) throw std::invalid_argument("fewer than five columns: " + line);
+        range.axis = word[0], range.integrator = word[1];
+        range.low = number(word[2], line), range.high = number(word[3], line);
+        if (!(range.low <= range.high)) throw std::invalid_argument("low is above high: " + line);
+        ranges.push_back(std::move(range));
+    }
+    return ranges;
+}
+
+const std::vector<SafeRange>& safeRanges() {
+    static const std::vector<SafeRange> ranges = parseSafeRanges(safeRangeTable);
+    return ranges;
+}
+
+std::vector<std::string> outsideSafeRanges(const Case& input, const std::vector<SafeRange>& ranges) {
+    std::vector<std::string> words;
+    if (input.mesh.cells.empty()) return words;
+    const std::vector<Group> groups = dimensionlessGroups(input);
+    for (const SafeRange& range : ranges) {
+        if (range.integrator != input.numerics.integrator) continue;
+        const std::optional<double> value = valueOf(input, groups, range.axis);
+        // A number such as 0.05 comes out of units and quotients with rounding.
+        if (!value || (*value >= range.low * (1 - 1e-6) && *value <= range.high * (1 + 1e-6))) continue;
+        words.push_back(
+            fmt::format("{} = {:.4g} is outside {:g} to {:g}, where {} is known to be safe: {} (docs/stability.md)",
+                        range.axis, *value, range.low, range.high, range.integrator, range.outside));
+    }
+    return words;
+}
+
+}  // namespace corpuscle::simulation
