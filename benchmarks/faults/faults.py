@@ -16,6 +16,7 @@ Rows go to faults.csv beside this file as runs end, and those that are there are
 """
 import argparse
 import csv
+import datetime
 import json
 import os
 import pathlib
@@ -148,7 +149,7 @@ def main():
             writer.writerows(rows)
     page = HERE / "README.md"
     before, rest = page.read_text().split(MARKS[0])
-    page.write_text(f"{before}{MARKS[0]}\n\n{tally(rows)}\n\n{len(rows)} faults; {suite.machine()}.\n\n{MARKS[1]}{rest.split(MARKS[1])[1]}")
+    page.write_text(f"{before}{MARKS[0]}\n\n{tally(rows)}\n\n{len(rows)} faults; `faults.py`, {suite.machine()}, {datetime.date.today().isoformat()}.\n\n{MARKS[1]}{rest.split(MARKS[1])[1]}")
     print(tally(rows))
     return 1 if any(row["end"] in ("wrong", "crashed") for row in rows) else 0
 

@@ -1,50 +1,161 @@
 #!/usr/bin/env python3
 """Error against core-seconds: cases of validation, one line for each scheme, over resolution and step.
 
-    workPrecision.py BIN DIRECTORY [CASE ...] [-scheme NAME] [-np 1]     BIN: directory of the programs; all cases without CASE
-    workPrecision.py -draw                                              diagrams and table of what has been run, without running
+    workPrecision.py BIN DIRECTORY [CASE ...] [-scheme NAME] [-resolution N] [-np 1] [-begin]     BIN: where the programs are; all without CASE
+    workPrecision.py -draw                                                               diagrams and tables of what has been run, without running
 
-What DIRECTORY holds already is not run again. Points go to results.csv, diagrams beside it (SVG and PNG), tables to README.md. The error of a case is
-the largest of its figures of validation (tests/validation/CASE), relative, in per cent; core-seconds are those of the processor (run.json).
+What DIRECTORY holds already is not run again. Points go to results.csv, diagrams beside it (SVG and PNG), tables to README.md. The error of a point
+is that of its case of validation (tests/validation/CASE; DIAGRAMS says which figures), relative, in per cent; core-seconds are those of the processor
+(run.json). Runs that are too long are begun only (all with -begin): their core-seconds are those of a part of the way over that part, and they have
+no error.
+Lines of PySPH are run by pysphPeer.py where Debian's python3-pysph is installed, and left as they are elsewhere.
 """
 import csv
+import datetime
+import json
 import pathlib
+import re
 import subprocess
 import sys
+from dataclasses import dataclass, field, replace
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "validation"))
 import suite
+from membranes import turn
 
 NUMERICS = "system/numerics.yaml:"
-PAPER = [NUMERICS + text for text in ("/integrator=velocityVerlet", "/operators=plain", "/coupling=dualIdentity", "/kernel={type: lucy, support: 3 dx}",
-                                      "/shifting=none")]
+PAPER = [NUMERICS + text for text in ("/integrator=velocityVerlet", "/operators=plain", "/coupling=dualIdentity",
+                                      "/kernel={type: lucy, support: 3 dx}", "/shifting=none")]
 PLAIN = [NUMERICS + text for text in ("/integrator=velocityVerlet", "/operators=plain", "/kernel={type: wendlandC2, support: 3 dx}",
                                       "/shifting={coefficient: 1}")]
 VERLET = [NUMERICS + text for text in ("/integrator=velocityVerlet", "/operators=corrected", "/kernel={type: wendlandC2, support: 2.4 dx}",
                                        "/shifting={coefficient: 1}")]
 RKL2 = [NUMERICS + "/integrator=rkl2", *PLAIN[1:]]
+PART = 0.002  # of a run that is only begun
+PYTHON = "/usr/bin/python3"  # Debian's, which has its packages
 
 
-def implicit(step):
-    return [NUMERICS + "/integrator=implicit", *VERLET[1:], NUMERICS + f"/implicit={{step: {step}, tolerance: 1e-3}}"]
+def implicit(step, tolerance="1e-3"):
+    return [NUMERICS + "/integrator=implicit", *VERLET[1:], NUMERICS + f"/implicit={{step: {step}, tolerance: {tolerance}}}"]
 
 
-# Case: the validation case; resolutions; schemes with their settings. A rate in time is given by a flow of its own: steps of the implicit one are strains.
-CASES = {
-    "couette": ((16, 32, 64), {
-        "paper": PAPER, "explicit, plain": PLAIN, "explicit, corrected": VERLET, "RKL2": RKL2,
-        "implicit, 100 steps": implicit(2.8e-5), "implicit, 400 steps": implicit(7e-6)}),
-    "taylorGreen2D": ((16, 32, 64), {
-        "paper": PAPER, "explicit, plain": PLAIN, "explicit, corrected": VERLET, "RKL2": RKL2,
-        "implicit, step 0.1": implicit(0.1), "implicit, step 0.05": implicit(0.05)}),
-    "sphereArray": ((8, 12, 24), {"explicit, plain": PLAIN[:1] + PLAIN[1:3], "implicit, step 0.05": implicit(0.05)}),
-    "capsuleSkalak": ((6, 8, 12), {
-        "paper": PAPER, "explicit, corrected": VERLET, "implicit, step 0.1": implicit(0.1), "implicit, step 0.05": implicit(0.05)}),
-    "redCellShear": ((6, 8, 12), {
-        "paper": PAPER, "explicit, corrected": VERLET, "implicit, step 0.1": implicit(0.1), "implicit, step 0.05": implicit(0.05)}),
+def scaled(run, path, factor):
+    """The run's own setting of path, times factor."""
+    (found,) = (match for setting in run.settings if (match := re.fullmatch(f"({re.escape(path)}=)([0-9.e+-]+)(.*)", setting)))
+    return f"{found[1]}{factor * float(found[2]):.8g}{found[3]}"
+
+
+@dataclass
+class Line:
+    """A scheme: settings, or a function of the run that gives them; the resolutions it is run at and those at which it is only begun."""
+    settings: object
+    resolutions: tuple
+    begun: tuple = ()
+
+
+@dataclass
+class Peer:
+    """A line of PySPH."""
+    dimensions: int
+    resolutions: tuple
+    begun: tuple = ()
+
+
+@dataclass
+class Diagram:
+    """run: the one of the case's runs that is taken. lines: by scheme. error(case, done, n): per cent. prepare(case): narrows its runs. what: for
+    the title."""
+    run: str
+    lines: dict
+    error: object
+    prepare: object = lambda case: None
+    what: str = ""
+    settings: list = field(default_factory=list)  # of every line
+
+
+def largest(*parts):
+    """Largest error of the case's figures in per cent, of those with one of these parts in their names if there are any."""
+    def error(case, done, n):
+        figures = [figure for figure in case.figures(done, n) if figure.unit == "%"]
+        return max(abs(figure.error) for figure in figures if not parts or any(part in figure.name for part in parts))
+    return error
+
+
+def oneFraction(case):
+    case.FRACTIONS = (0.125,)
+
+
+def drag(case, done, n):
+    (c,) = case.FRACTIONS
+    return 100 * abs(case.drag(done[case.name(c)], c, n) / case.reference[c] - 1)
+
+
+def quarter(case):
+    """Ca 0.02 at every resolution, until the cell has turned a quarter."""
+    case.cells.coarse = "0.02"
+    case.cells.scenes = {"0.02": (QUARTER, case.cells.scenes["0.02"][1])}
+
+
+QUARTER = 5.5  # strain; the quarter turn is at 5.17
+
+
+def turned(case, done, n):
+    """Strain of a quarter turn and D12 at every half strain before it."""
+    ((Ca, course),) = case.cells.courses(done)
+    theirs = case.cells.reference(Ca)
+    shapes = [course.at(0.5 * k, "D12_inertia") / suite.at(theirs, 0.5 * k, "D12_inertia") - 1 for k in range(1, int(2 * QUARTER))]
+    return 100 * max(abs(error) for error in (course.turn(90) / turn(theirs, 90) - 1, *shapes))
+
+
+FLUID = (16, 32, 64)
+
+
+def peers(whole):
+    """whole: how many resolutions of the slice are run to the end."""
+    return {"PySPH, TVF, plane": Peer(2, FLUID), "PySPH, TVF, slice": Peer(3, FLUID[:whole], FLUID[whole:])}
+
+
+def plates(step, whole):
+    """step: strain of a hundredth of the run, a little less: the last step then ends at the end and not just before."""
+    return {"paper": Line(PAPER, FLUID), "explicit, plain": Line(PLAIN, FLUID), "explicit, corrected": Line(VERLET, FLUID), "RKL2": Line(RKL2, FLUID),
+            "implicit, 100 steps": Line(implicit(step), FLUID), "implicit, 400 steps": Line(implicit(step / 4), FLUID), **peers(whole)}
+
+
+HELD = [NUMERICS + "/shifting=none"]  # nothing moves far in these flows
+MORE_INERTIA = ["constant/flow.yaml:/inertia/Re=0.1"]
+LESS_INERTIA = ["constant/flow.yaml:/inertia/Re=0.01"]
+SPHERES = (6, 8, 12, 24)
+CELLS = (4, 6, 8)
+
+
+def sheared(*coarser):
+    """Lines of a cell; coarser: resolutions before those of CELLS."""
+    few, all_ = (*coarser, CELLS[0]), (*coarser, *CELLS)
+    return {"paper": Line(PAPER, few, CELLS[1:]), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
+            "implicit, step 0.1": Line(implicit(0.1, "3e-3"), all_), "implicit, step 0.05": Line(implicit(0.05, "3e-3"), all_)}
+
+
+DIAGRAMS = {
+    "couette": Diagram("flow", plates(2.8e-5, 2), largest()),
+    "poiseuille": Diagram("flow", plates(6.2e-5, 1), largest()),
+    "taylorGreen2D": Diagram("flow", {
+        "paper": Line(PAPER, FLUID), "explicit, plain": Line(PLAIN, FLUID), "explicit, corrected": Line(VERLET, FLUID), "RKL2": Line(RKL2, FLUID),
+        "implicit, step 0.1": Line(implicit(0.1), FLUID), "implicit, step 0.05": Line(implicit(0.05), FLUID),
+        **peers(1)}, largest()),
+    "sphereArray": Diagram("c0.125", {
+        "paper": Line([*PAPER, *HELD], SPHERES[:3], SPHERES[3:]), "explicit, plain": Line([*PLAIN, *HELD], SPHERES[:3], SPHERES[3:]),
+        "implicit, 6 steps": Line([], SPHERES), "implicit, 24 steps": Line(lambda run: [scaled(run, NUMERICS + "/implicit/step", 0.25)], SPHERES)},
+        drag, oneFraction, "c = 0.125"),
+    "capsuleSkalak": Diagram("Ca0.3", {
+        **sheared(3), "implicit, step 0.05, Re 0.01": Line(LESS_INERTIA, (6, 8, 12))},
+        largest("D12", "period"), what="Ca 0.3", settings=MORE_INERTIA),
+    "redCellShear": Diagram("Ca0.02", {
+        **sheared(), "implicit, step 0.05, Re 0.01": Line([*LESS_INERTIA, *implicit(0.05, "3e-3")], CELLS)},
+        turned, quarter, "Ca 0.02", MORE_INERTIA),
 }
-COLUMNS = ("case", "scheme", "resolution", "particles", "error_percent", "coreSeconds", "machine", "date")
+COLOURS = ("paper", "explicit, plain", "explicit, corrected", "RKL2")  # the first ones of gnuplot; other schemes have the next ones, in order
+COLUMNS = ("case", "scheme", "resolution", "particles", "error_percent", "coreSeconds", "part", "machine", "date")
 
 
 def recorded():
@@ -55,52 +166,100 @@ def recorded():
         return list(csv.DictReader(text))
 
 
-def keep(point):
+def keep(name, scheme, n, record, part, error):
+    """part: of the way that the run has gone, over 1 where it went further; its core-seconds are for the way."""
+    point = {"case": name, "scheme": scheme, "resolution": n, "particles": round(record["parameters"]["particles"]),
+             "error_percent": "" if error is None else f"{error:.4g}", "coreSeconds": f"{record['performance']['processorSeconds'] / part:.3g}",
+             "part": f"{part:.3g}", "machine": suite.machine(), "date": datetime.date.today().isoformat()}
     points = [p for p in recorded() if any(p[key] != str(point[key]) for key in ("case", "scheme", "resolution"))] + [point]
-    points.sort(key=lambda p: (list(CASES).index(p["case"]), str(p["scheme"]), int(p["resolution"])))
+    points.sort(key=lambda p: (list(DIAGRAMS).index(p["case"]), list(DIAGRAMS[p["case"]].lines).index(p["scheme"]), int(p["resolution"])))
     with open(HERE / "results.csv", "w") as text:
         writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(points)
 
 
-def measure(name, scheme, settings, n, binaries, ranks, directory):
-    record, _ = suite.validate(name, n, binaries, ranks, directory / scheme.replace(" ", ""), settings)
-    worst = max(abs(figure["error"]) for figure in record["figures"] if figure["unit"] == "%")
-    keep({"case": name, "scheme": scheme, "resolution": n, "particles": round(record["particles"]), "error_percent": f"{worst:.4g}",
-          "coreSeconds": record["coreSeconds"], "machine": record["machine"], "date": record["date"]})
+def loaded(name):
+    case = suite.load(name)
+    DIAGRAMS[name].prepare(case)
+    return case
+
+
+def measure(name, scheme, n, binaries, ranks, folder, begin):
+    """One point by Corpuscle."""
+    diagram, case = DIAGRAMS[name], loaded(name)
+    line = diagram.lines[scheme]
+    (run,) = (run for run in case.runs(n) if run.name == diagram.run)
+    own = line.settings(run) if callable(line.settings) else line.settings
+    begun = begin or n in line.begun
+    if begun:
+        end = next(path for setting in run.settings if (path := setting.split("=")[0]).startswith("system/control.yaml:/end"))
+        own = [*own, scaled(run, end, PART)]
+    run = replace(run, settings=[*run.settings, *diagram.settings, *own])
+    done = {run.name: folder / (f"begun-{run.name}" if begun else run.name)}
+    record = suite.execute(run, done[run.name], binaries, ranks)
+    keep(name, scheme, n, record, PART if begun else 1, None if begun else diagram.error(case, done, n))
+
+
+def measurePeer(name, scheme, n, folder, begin):
+    """One point by PySPH; of a run that is only begun, the number of steps it would have is known."""
+    if subprocess.run([PYTHON, "-c", "import pysph"], capture_output=True).returncode:
+        print("workPrecision.py: no python3-pysph; its lines are left as they are")
+        return
+    line = DIAGRAMS[name].lines[scheme]
+    begun = begin or n in line.begun
+    folder = folder / ("begun" if begun else "flow")
+    if not (folder / "run.json").exists():
+        more = ["-steps", "20"] if begun else []
+        subprocess.run([PYTHON, HERE / "pysphPeer.py", name, str(n), folder, "-dimensions", str(line.dimensions), *more], check=True)
+    record = json.loads((folder / "run.json").read_text())
+    part = record["performance"]["steps"] / record["performance"]["stepsToEnd"] if begun else 1
+    keep(name, scheme, n, record, part, None if begun else DIAGRAMS[name].error(loaded(name), {"flow": folder}, n))
+
+
+def title(name):
+    what = DIAGRAMS[name].what
+    return suite.load(name).TITLE + (f", {what}" if what else "")
 
 
 def draw(name):
-    """One diagram a case: lines of schemes over resolutions."""
-    points = [p for p in recorded() if p["case"] == name]
-    schemes = list(dict.fromkeys(p["scheme"] for p in points))
-    if not schemes:
+    """One diagram a case: lines of schemes over resolutions; a scheme has its colour in every diagram."""
+    points = [p for p in recorded() if p["case"] == name and p["error_percent"]]
+    if not points:
         return
-    blocks = [f"$d{k} << E\n" + "\n".join(f"{p['coreSeconds']} {p['error_percent']} {p['resolution']}" for p in points if p["scheme"] == scheme) + "\nE"
-              for k, scheme in enumerate(schemes)]
-    lines = ", ".join(f"$d{k} with linespoints pt 7 lw 2 lc {k + 1} title '{scheme}', $d{k} using 1:2:3 with labels offset 0.6,0.6 font ',8' tc lt {k + 1} notitle"
-                      for k, scheme in enumerate(schemes))
-    across = suite.load(name).ACROSS
+    blocks, lines, across = [], [], suite.load(name).ACROSS
+    for scheme in dict.fromkeys(p["scheme"] for p in points):
+        line = [f"{p['coreSeconds']} {p['error_percent']} {p['resolution']}" for p in points if p["scheme"] == scheme]
+        k = COLOURS.index(scheme) if scheme in COLOURS else len(COLOURS) + len([other for other in blocks if other[0] not in COLOURS])
+        blocks.append((scheme, f"$d{k} << E\n" + "\n".join(line) + "\nE"))
+        lines += [f"$d{k} with linespoints pt 7 lw 2 lc {k + 1} title '{scheme}'",
+                  f"$d{k} using 1:2:3 with labels offset 0.6,0.6 font ',8' tc lt {k + 1} notitle"]
     for terminal, ending in (("pngcairo size 900,600 font ',11'", "png"), ("svg size 900,600 font ',11'", "svg")):
-        script = [f"set terminal {terminal}", f"set output '{HERE / name}.{ending}'", "set logscale xy", "set grid lc rgb '#dddddd'",
-                  "set xlabel 'core-seconds'", "set ylabel 'error, %'", f"set title '{suite.load(name).TITLE} (numbers: {across})'",
-                  "set key outside right", "set linetype 5 lc rgb '#8b4513'", *blocks, f"plot {lines}"]
+        script = [f"set terminal {terminal}", f"set output '{HERE / name}.{ending}'", "set logscale xy", "set grid lt 1 lw 0.5 lc rgb '#dddddd'",
+                  "set xlabel 'core-seconds'", "set ylabel 'error, %'", f"set title '{title(name)} (numbers: {across})'",
+                  "set key outside right", "set linetype 5 lc rgb '#8b4513'", *(block for _, block in blocks), "plot " + ", ".join(lines)]
         subprocess.run(["gnuplot"], input="\n".join(script) + "\n", text=True, check=True)
+
+
+def cell(point):
+    if float(point["part"]) < 1:
+        return f"({float(point['coreSeconds']):g} s)"
+    return f"{point['error_percent']} %, {float(point['coreSeconds']):g} s"
 
 
 def tables():
     """Into README.md, between its marks."""
     lines = []
-    for name in CASES:
+    for name in DIAGRAMS:
         points = [p for p in recorded() if p["case"] == name]
         if not points:
             continue
         sizes = sorted({int(p["resolution"]) for p in points})
-        lines += [f"### {suite.load(name).TITLE}", "", f"![error against core-seconds]({name}.png)", "",
-                  "| scheme | " + " | ".join(f"{n} {suite.load(name).ACROSS}" if n == sizes[0] else str(n) for n in sizes) + " |", "|---|" + "---|" * len(sizes)]
+        lines += [f"### {title(name)}", "", f"![error against core-seconds]({name}.png)", "",
+                  "| scheme | " + " | ".join(f"{n} {suite.load(name).ACROSS}" if n == sizes[0] else str(n) for n in sizes) + " |",
+                  "|---|" + "---|" * len(sizes)]
         for scheme in dict.fromkeys(p["scheme"] for p in points):
-            cells = {int(p["resolution"]): f"{p['error_percent']} %, {p['coreSeconds']} s" for p in points if p["scheme"] == scheme}
+            cells = {int(p["resolution"]): cell(p) for p in points if p["scheme"] == scheme}
             lines.append(f"| {scheme} | " + " | ".join(cells.get(n, "") for n in sizes) + " |")
         lines += ["", f"{points[0]['machine']}, {max(p['date'] for p in points)}.", ""]
     page = HERE / "README.md"
@@ -108,20 +267,36 @@ def tables():
     page.write_text(before + suite.MARKS[0] + "\n\n" + "\n".join(lines) + suite.MARKS[1] + rest.split(suite.MARKS[1])[1])
 
 
-if __name__ == "__main__":
-    words = sys.argv[1:]
+def option(words, name):
+    """The word after this one, both taken out; None without it."""
+    if name not in words:
+        return None
+    k = words.index(name)
+    value = words[k + 1]
+    del words[k : k + 2]
+    return value
+
+
+def main(words):
     if words != ["-draw"]:
-        ranks = int(words.pop(words.index("-np") + 1)) if "-np" in words else 1
-        only = words.pop(words.index("-scheme") + 1) if "-scheme" in words else None
-        binaries, directory, *names = [word for word in words if word not in ("-np", "-scheme")]
-        for name in names or CASES:
-            if name not in CASES:
-                sys.exit(f"workPrecision.py: no case '{name}'; there are {', '.join(CASES)}")
-            resolutions, schemes = CASES[name]
-            for scheme, settings in schemes.items():
-                if only in (None, scheme):
-                    for n in resolutions:
-                        measure(name, scheme, settings, n, pathlib.Path(binaries).resolve(), ranks, pathlib.Path(directory).resolve())
-    for name in CASES:
+        ranks, only, size = int(option(words, "-np") or 1), option(words, "-scheme"), option(words, "-resolution")
+        begin = "-begin" in words
+        binaries, directory, *names = (word for word in words if word != "-begin")
+        for name in names or DIAGRAMS:
+            if name not in DIAGRAMS:
+                sys.exit(f"workPrecision.py: no case '{name}'; there are {', '.join(DIAGRAMS)}")
+            for scheme, line in DIAGRAMS[name].lines.items():
+                for n in sorted((*line.resolutions, *line.begun)):
+                    if only in (None, scheme) and size in (None, str(n)):
+                        folder = pathlib.Path(directory).resolve() / scheme.replace(" ", "") / name / str(n)
+                        if isinstance(line, Peer):
+                            measurePeer(name, scheme, n, folder, begin)
+                        else:
+                            measure(name, scheme, n, pathlib.Path(binaries).resolve(), ranks, folder, begin)
+    for name in DIAGRAMS:
         draw(name)
     tables()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

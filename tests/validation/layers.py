@@ -7,6 +7,9 @@ which are continuous with continuous stress and orthogonal, since the density is
 """
 import math
 
+from plates import profiles, slab
+from suite import HERE, Figure, Plot, Run, permitted
+
 H, DENSITY, MU = 0.5e-3, 1000.0, (1.0e-3, 5.0e-3)  # half the gap; below and above z = 0
 MODES = 80
 
@@ -70,33 +73,9 @@ def poiseuille_steady(z, F):
     return (stress * (z - edge) - 0.5 * DENSITY * F * (z * z - H * H)) / mu(z)
 
 
-# The two cases: plain operators (Morris, harmonic mean) by super-time-stepping, corrected ones by the implicit step.
-SCHEMES = {"plain": ["integrator=rkl2"],
-           "corrected": ["integrator=implicit", "operators=corrected"]}
-
-
-def runs(folder, n, seconds):
-    """seconds: of an implicit step; the rate of both cases is 0.0125/s."""
-    from suite import Run
-
-    dx, width = 1000 / n, 8 / n  # um, mm: the slice is 8 dx thick
-    shared = [f"system/numerics.yaml:/spacing={dx} um", f"system/mesh.yaml:/domain/size=[{width}, {width}, 1] mm",
-              f"system/observers.yaml:/profile/bins={n}"]
-    more = {"plain": [], "corrected": [f"system/numerics.yaml:/implicit/step={0.0125 * seconds:.6g}", "system/numerics.yaml:/implicit/tolerance=1e-6"]}
-    return [Run(scheme, folder, shared + [f"system/numerics.yaml:/{word}" for word in words] + more[scheme], ("particleFill", "sphFlow"))
-            for scheme, words in SCHEMES.items()]
-
-
-def profiles(folder, times):
-    """(time, [(z, u)]) at the first look at or after each of these times."""
-    from suite import rows
-
-    (path,) = folder.glob("postProcessing/profile/*/profile.csv")
-    table, found = rows(path), []
-    for time in times:
-        t = min(row["time_s"] for row in table if row["time_s"] >= time * (1 - 1e-9))
-        found.append((t, [(row["position_m"], row["u_m_s"]) for row in table if row["time_s"] == t]))
-    return found
+# Plain operators (Morris, harmonic mean) by super-time-stepping, corrected ones by the implicit step.
+SCHEMES = {"plain": ["integrator=rkl2"], "corrected": ["integrator=implicit", "operators=corrected"]}
+RATE = 0.0125  # 1/s, of both cases: what turns an implicit step in seconds into a strain
 
 
 def deviation(profile, exact):
@@ -104,13 +83,33 @@ def deviation(profile, exact):
     return math.sqrt(math.fsum((u - exact(z)) ** 2 for z, u in profile) / math.fsum(exact(z) ** 2 for z, _ in profile))
 
 
-def curves(done, times, exact, scale, label, key):
-    from suite import Plot
+class Layers:
+    """name: the case's folder. exact(z, t): velocity. times: at which it is compared [s]. step: of the implicit scheme [s], times n.
+    allowed: per cent, by resolution, of the largest error in time."""
 
-    ours, theirs = [], []
-    for time in times:
-        (t, profile), = profiles(done["corrected"], (time,))
-        ours.append((f"t = {time:g} s", [u / scale for _, u in profile], [z / (2 * H) for z, _ in profile]))
-        dense = [H * (2 * (k + 0.5) / 400 - 1) for k in range(400)]
-        theirs.append(("", [exact(z, t) / scale for z in dense], [z / (2 * H) for z in dense]))
-    return Plot(label, "z/L", ours, theirs, [f"set key {key}"])
+    def __init__(self, name, exact, times, step, allowed):
+        self.source, self.exact, self.times, self.step, self.allowed = HERE / name, exact, times, step, allowed
+
+    def runs(self, n):
+        more = {"plain": [], "corrected": [f"system/numerics.yaml:/implicit/step={RATE * (self.step / n):.6g}",
+                                           "system/numerics.yaml:/implicit/tolerance=1e-6"]}
+        return [Run(scheme, self.source, slab(n) + [f"system/numerics.yaml:/{word}" for word in words] + more[scheme], ("particleFill", "sphFlow"))
+                for scheme, words in SCHEMES.items()]
+
+    def permitted(self, n):
+        return permitted(self.allowed, n, 1.5)
+
+    def deviations(self, done, n, scheme):
+        return [Figure(f"{scheme}: L2 of u at t = {time:g} s", 100 * deviation(profile, lambda z: self.exact(z, t)), self.permitted(n), order=True)
+                for time, (t, profile) in zip(self.times, profiles(done[scheme], self.times))]
+
+    def figures(self, done, n):
+        return [figure for scheme in SCHEMES for figure in self.deviations(done, n, scheme)]
+
+    def curves(self, done, scale, label, key):
+        ours, theirs = [], []
+        for time, (t, profile) in zip(self.times, profiles(done["corrected"], self.times)):
+            ours.append((f"t = {time:g} s", [u / scale for _, u in profile], [z / (2 * H) for z, _ in profile]))
+            dense = [H * (2 * (k + 0.5) / 400 - 1) for k in range(400)]
+            theirs.append(("", [self.exact(z, t) / scale for z in dense], [z / (2 * H) for z in dense]))
+        return Plot(label, "z/L", ours, theirs, [f"set key {key}"])

@@ -4,10 +4,12 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import vtp
-from suite import Figure, at, rows
-from summary import axisTurned, series, strainOfTurn
+from suite import HERE, Figure, Plot, Run, at, rows
+from summary import axisTurned, series
 
 RADIUS = 4  # um
+COARSEST = 6  # particles along the radius
+PROGRAMS = ("membraneMesh", "particleFill", "dmpFlow")
 
 
 def settings(n, box, strain, more=(), edge=1.0):
@@ -40,7 +42,7 @@ class Course:
         return strains, [self.at(t, key) for t in strains]
 
     def turn(self, degrees):
-        return strainOfTurn(self.shape, degrees)
+        return turn(self.shape, degrees)
 
     def kept(self, label):
         """Figures of what must be kept."""
@@ -52,10 +54,49 @@ class Course:
         return at(self.balance, strain, f"{self.cell}_areaChange")
 
 
+def turn(table, degrees):
+    """Strain at which the main axis has turned so far; nan if it never does."""
+    return at(table, degrees, "strain", "angle_deg")
+
+
 def worst(course, reference, key, strains, scale=1.0):
     """Largest difference from the reference over these strains, of the sign that it has."""
     found = [scale * (course.at(t, key) - at(reference, t, key)) for t in strains if t <= course.end + 1e-9]
     return max(found, key=abs)
+
+
+class Sheared:
+    """A case: one membrane in shear flow over Ca, against the curves reference_Ca*.csv of its folder.
+
+    name: the folder. source: the tutorial. scenes: by Ca (a word), strain of the end and box. coarse: the Ca that the coarsest resolution runs.
+    more: settings of every run. edge: of the mesh, in spacings.
+    """
+
+    def __init__(self, name, source, scenes, coarse, more, edge=0.5, programs=PROGRAMS):
+        self.folder, self.source, self.scenes, self.coarse, self.more = HERE / name, source, scenes, coarse, more
+        self.edge, self.programs = edge, programs
+
+    def runs(self, n):
+        return [Run(f"Ca{Ca}", self.source, settings(n, box, strain, [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge), self.programs)
+                for Ca, (strain, box) in self.scenes.items() if n > COARSEST or Ca == self.coarse]
+
+    def courses(self, done):
+        """(Ca, its course) of runs that have ended."""
+        return [(Ca, Course(done[f"Ca{Ca}"])) for Ca in self.scenes if f"Ca{Ca}" in done]
+
+    def reference(self, Ca, end=math.inf):
+        return [row for row in rows(self.folder / f"reference_Ca{Ca}.csv") if row["strain"] <= end]
+
+    def drawn(self, done, ylabel, every, extra, others=lambda Ca, end: []):
+        """D12_inertia of each course and its reference; others: more curves of others at a Ca to a strain, (strains, values)."""
+        ours, theirs = [], []
+        for Ca, course in self.courses(done):
+            ours.append((f"Ca {Ca}", *course.curve("D12_inertia", every)))
+            end = course.end + 1e-6
+            table = self.reference(Ca, end)
+            theirs += [("", *curve) for curve in others(Ca, end)]
+            theirs.append(("", [row["strain"] for row in table], [row["D12_inertia"] for row in table]))
+        return Plot("strain", ylabel, ours, theirs, extra)
 
 
 def snapshots(folder, cell):

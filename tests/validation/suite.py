@@ -22,7 +22,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 TUTORIALS = ROOT / "tutorials"
 sys.path.insert(0, str(TUTORIALS))
-MARKS = ("<!-- results: written by validate -record -->", "<!-- end of results -->")
+MARKS = ("<!-- results: written by the script -->", "<!-- end of results -->")
 
 
 @dataclass
@@ -68,6 +68,23 @@ def rows(path):
     with open(path) as text:
         lines = (line for line in text if not line.startswith("#"))
         return [{key: float(value) if value else math.nan for key, value in row.items()} for row in csv.DictReader(lines)]
+
+
+def published(path, **where):
+    """Curves by their source, from a table with a column `source`: rows of its other columns, those whose columns have the values of `where`."""
+    found = {}
+    with open(path) as text:
+        for row in csv.DictReader(line for line in text if not line.startswith("#")):
+            source, row = row.pop("source"), {key: float(value) for key, value in row.items() if key != "source"}
+            if all(row[key] == value for key, value in where.items()):
+                found.setdefault(source, []).append(row)
+    return found
+
+
+def permitted(table, n, order):
+    """What `table` allows at a resolution; at one that it does not have, from its coarsest by this order."""
+    coarsest = min(table)
+    return table.get(n, table[coarsest] * (coarsest / n) ** order)
 
 
 def at(table, x, value, key="strain"):
@@ -240,6 +257,7 @@ def draw(plot, path):
         number = (k if k < len(plot.theirs) else k - len(plot.theirs)) + 1
         colour = "rgb '#aaaaaa'" if k < len(plot.theirs) != len(plot.ours) else number  # several references to a curve: all in grey
         parts.append(f"$d{k} with {style} lc {colour} " + (f"title '{title}'" if title else "notitle"))
-    script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'", "set linetype 5 lc rgb '#8b4513'",
-                        f"set xlabel '{plot.xlabel}'", f"set ylabel '{plot.ylabel}'", *plot.extra, *blocks, "plot " + ", ".join(parts)])
+    script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'",
+                        "set linetype 5 lc rgb '#8b4513'", f"set xlabel '{plot.xlabel}'", f"set ylabel '{plot.ylabel}'", *plot.extra, *blocks,
+                        "plot " + ", ".join(parts)])
     subprocess.run(["gnuplot"], input=script + "\n", text=True, check=True)

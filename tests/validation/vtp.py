@@ -1,6 +1,9 @@
-"""Reads VTK XML PolyData as the programs write them: appended raw data, blocks compressed by LZ4. Gives points, arrays, triangles and texts."""
+"""Reads VTK XML PolyData as the programs write them: appended raw data, blocks compressed by LZ4. Gives points, arrays, triangles and texts.
+
+By hand, since python3-vtk9 would be one more package to install, of 47 MB, for what is 70 lines here, and results without compression would be
+larger for everybody: a capsule's surface by 17 %, its fluid by 36 %.
+"""
 import pathlib
-import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
@@ -41,9 +44,9 @@ class File:
 
     def __init__(self, path):
         data = pathlib.Path(path).read_bytes()
-        mark = re.search(rb'<AppendedData encoding="raw">\s*_', data)
-        self.appended = memoryview(data)[mark.end() :]
-        root = ElementTree.fromstring(data[: mark.start()] + b"</VTKFile>")
+        head, mark, rest = data.partition(b'<AppendedData encoding="raw">')
+        self.appended = memoryview(rest)[rest.find(b"_") + 1 :]
+        root = ElementTree.fromstring(head + b"</VTKFile>" if mark else head)
         self.compressed = "compressor" in root.attrib
         piece = root.find("PolyData/Piece")
         self.points = self.tuples(piece.find("Points/DataArray"))
@@ -55,6 +58,8 @@ class File:
                       for a in root.findall("PolyData/FieldData/*") if a.get("type") == "String"}
 
     def decoded(self, array):
+        if array.get("format") == "ascii":
+            return bytes(map(int, array.text.split()))
         at = int(array.get("offset"))
         if not self.compressed:
             (size,) = struct.unpack_from("<Q", self.appended, at)
@@ -68,7 +73,10 @@ class File:
         return out
 
     def values(self, array):
-        data, kind = self.decoded(array), self.TYPES[array.get("type")]
+        kind = self.TYPES[array.get("type")]
+        if array.get("format") == "ascii":
+            return tuple(map(float if kind in "df" else int, array.text.split()))
+        data = self.decoded(array)
         return struct.unpack(f"<{len(data) // struct.calcsize(kind)}{kind}", data)
 
     def tuples(self, array):

@@ -26,10 +26,11 @@ def decay(case):
     return [(t, energy / rows[0][1]) for t, energy in rows]
 
 
-def viscosity(points):
+def viscosity(points, rate=RATE):
+    """That this decay stands for, over the nominal one; rate: of the energy, over the times of the points."""
     for (t0, e0), (t1, e1) in zip(points, points[1:]):
         if e1 <= math.exp(-1):
-            return 1 / (RATE * (t0 + (t1 - t0) * (math.log(e0) + 1) / math.log(e0 / e1)))
+            return 1 / (rate * (t0 + (t1 - t0) * (math.log(e0) + 1) / math.log(e0 / e1)))
     raise SystemExit("the energy never fell to 1/e: the run is too short")
 
 

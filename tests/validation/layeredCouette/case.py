@@ -1,32 +1,26 @@
 """Start-up of Couette flow of two layers of fluid, viscosities 1 to 5, against the exact solution (layers.py)."""
 import layers
-from layers import couette, couette_stress, deviation, profiles
-from suite import HERE, Figure, relative, rows
+from suite import relative, rows
 
 TITLE = "layered Couette flow, viscosities 1 to 5"
 ACROSS = "particles across the gap"
 RESOLUTIONS = (16, 32, 64)
 ALLOWED = {16: 1.8, 32: 0.7, 64: 0.3}  # %; 0.3 % at 64 is the aim
 U = 6.25e-6  # constant/flow.yaml
-TIMES = (0.0225, 0.045, 0.1125, 0.45)
+
+flow = layers.Layers("layeredCouette", lambda z, t: layers.couette(z, t, U), (0.0225, 0.045, 0.1125, 0.45), 16e-3, ALLOWED)
+runs = flow.runs
 
 
-def runs(n):
-    return layers.runs(HERE / "layeredCouette", n, 16e-3 / n)
+def stress(done, n, scheme):
+    (path,) = done[scheme].glob("postProcessing/wall/*/wallStress.csv")
+    mine, exact = rows(path)[-1]["effectiveViscosity"], layers.couette_stress(U) / (layers.MU[0] * U / layers.H)
+    return relative(f"{scheme}: stress on the walls at the end, over mu_1 2U/L", mine, exact, flow.permitted(n), order=True)
 
 
 def figures(done, n):
-    allowed, found = ALLOWED.get(n, 1.5 * 16 / n), []
-    for scheme in layers.SCHEMES:
-        for time, (t, profile) in zip(TIMES, profiles(done[scheme], TIMES)):
-            error = deviation(profile, lambda z: couette(z, t, U))
-            found.append(Figure(f"{scheme}: L2 of u at t = {time:g} s", 100 * error, allowed, order=True))
-        (path,) = done[scheme].glob("postProcessing/wall/*/wallStress.csv")
-        stress = rows(path)[-1]["effectiveViscosity"]
-        exact = couette_stress(U) / (layers.MU[0] * U / layers.H)
-        found.append(relative(f"{scheme}: stress on the walls at the end, over mu_1 2U/L", stress, exact, allowed, order=True))
-    return found
+    return [figure for scheme in layers.SCHEMES for figure in (*flow.deviations(done, n, scheme), stress(done, n, scheme))]
 
 
 def curves(done):
-    return layers.curves(done, TIMES, lambda z, t: couette(z, t, U), U, "u/U", "left top")
+    return flow.curves(done, U, "u/U", "left top")

@@ -1,30 +1,14 @@
 """A red cell in shear flow, its membrane the continuum of the hexagonal lattice of springs, against boundary elements in unbounded flow."""
-import pathlib
+from redCells import DRAWN, TUMBLING, RedCells
 
-import redCells
-
-HERE = pathlib.Path(__file__).resolve().parent
 TITLE = "red cell in shear flow, lattice law"
 ACROSS = "particles along the radius"
 RESOLUTIONS = (6, 8, 12)
-ENDS = {6: {"3": 6}, 8: {"0.02": 8, "0.2": 13, "3": 6}, 12: {"0.02": 8, "0.2": 13, "3": 6}}  # strain, by Ca
-BOX = {"0.02": (6, 6, 6), "0.2": (6, 6, 6), "3": (8, 6, 8)}  # radii, along the flow, the vorticity and the gradient
-EDGE = 0.5  # of the mesh, in spacings
 ALLOWED = {  # D12, degrees, % of turns, points of area
     6: {"3": (0.04, 3, 0, 6)},
     8: {"0.02": (0.02, 2, 3, 1), "0.2": (0.02, 2, 3, 1), "3": (0.02, 2, 0, 4)},
     12: {"0.02": (0.02, 2, 2, 1), "0.2": (0.02, 2, 2, 1), "3": (0.02, 2, 0, 3)}}
 
-
-def runs(n):
-    return [redCells.run(Ca, n, BOX[Ca], strain, [
-        "constant/membranes.yaml:/rbc/bonds=none", "constant/membranes.yaml:/rbc/triangles={type: lattice, k: 5e-4 N/m}"], edge=EDGE)
-        for Ca, strain in ENDS.get(n, ENDS[12]).items()]
-
-
-def figures(done, n):
-    return redCells.figures(HERE, done, ALLOWED.get(n, ALLOWED[12]))
-
-
-def curves(done):
-    return redCells.curves(HERE, done)
+cells = RedCells("redCellLattice", {"0.02": (8, TUMBLING), "0.2": (13.6, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
+    "constant/membranes.yaml:/rbc/bonds=none", "constant/membranes.yaml:/rbc/triangles={type: lattice, k: 5e-4 N/m}"])
+runs, figures, curves = cells.runs, cells.figures, cells.curves

@@ -1,7 +1,8 @@
 """Decay of Taylor-Green vortices in three dimensions against a spectral simulation: kinetic energy."""
 import math
 
-from suite import HERE, Figure, Plot, Run, rows
+from decay import decay
+from suite import HERE, Figure, Plot, Run, permitted, rows
 
 TITLE = "Taylor-Green vortices, three dimensions"
 ACROSS = "particles in a wavelength"
@@ -20,14 +21,13 @@ def runs(n):
         for Re in REYNOLDS]
 
 
-def decay(folder, Re):
-    """Times in 1/(k U) and kinetic energies over the first."""
-    (path,) = folder.glob("postProcessing/balance/*/conservation.csv")
-    table = rows(path)
-    return [(row["time_s"] * K * K * NU * Re, row["kineticEnergy_J"] / table[0]["kineticEnergy_J"]) for row in table]
+def energies(done, Re):
+    """Times in 1/(k U), U = Re nu k, and kinetic energies over the first."""
+    return decay(done[f"Re{Re}"], K * K * NU * Re)
 
 
-def at(points, time):
+def between(points, time):
+    """The energy then: its logarithm is taken as linear between two looks."""
     for (t0, e0), (t1, e1) in zip(points, points[1:]):
         if t0 <= time <= t1:
             return e0 * (e1 / e0) ** ((time - t0) / (t1 - t0))
@@ -35,12 +35,12 @@ def at(points, time):
 
 
 def figures(done, n):
-    allowed, found = ALLOWED.get(n, 2 * 16 / n), []
+    allowed, found = permitted(ALLOWED, n, 1), []
     for Re in REYNOLDS:
-        points = decay(done[f"Re{Re}"], Re)
+        points = energies(done, Re)
         for row in reference:
             if row["Re"] == Re and row["time"] > 0:
-                energy, exact = at(points, row["time"]), row["energy"] / 0.125
+                energy, exact = between(points, row["time"]), row["energy"] / 0.125
                 found.append(Figure(f"Re {Re}, E/E(0) at k U t = {row['time']:g}", 100 * (energy - exact), allowed, "%", energy, exact,
                                     order=True))
     return found
@@ -49,7 +49,7 @@ def figures(done, n):
 def curves(done):
     ours, theirs = [], []
     for Re in REYNOLDS:
-        points = decay(done[f"Re{Re}"], Re)[::4]
+        points = energies(done, Re)[::4]
         table = [row for row in reference if row["Re"] == Re]
         ours.append((f"particles, Re = {Re}", [t / Re for t, _ in points], [e for _, e in points]))
         theirs.append((f"spectral, Re = {Re}", [row["time"] / Re for row in table], [row["energy"] / 0.125 for row in table]))

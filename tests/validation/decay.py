@@ -1,0 +1,36 @@
+"""Kinetic energy of flows that die out in a periodic box: the definitions of tutorials/taylorGreen."""
+import math
+
+from suite import TUTORIALS, Figure, Plot, Run, module, permitted
+
+tutorial = module(TUTORIALS / "taylorGreen" / "compare.py", "taylorGreen")
+
+
+def decay(folder, rate):
+    """Times over 1/rate and kinetic energies over the first."""
+    return [(rate * t, energy) for t, energy in tutorial.decay(str(folder))]
+
+
+class Decay:
+    """A flow whose energy falls as exp(-t), t over 1/rate. allowed: by resolution, per cent of E(0) until 1/e; and `viscosity` times that of the
+    viscosity felt (an error of the viscosity e times as large makes this error of E at 1/e). settings(n): besides the spacing."""
+
+    def __init__(self, source, rate, time, allowed, order, viscosity=math.e, settings=lambda n: []):
+        self.source, self.rate, self.time, self.allowed, self.order = source, rate, time, allowed, order
+        self.viscosity, self.settings = viscosity, settings
+
+    def runs(self, n):
+        return [Run("flow", self.source, [f"system/numerics.yaml:/spacing={1000 / n} um", *self.settings(n)], ("particleFill", "sphFlow"))]
+
+    def figures(self, done, n):
+        points, allowed = decay(done["flow"], self.rate), permitted(self.allowed, n, self.order)
+        worst = max((energy - math.exp(-t) for t, energy in points if t <= 1), key=abs)
+        felt = tutorial.viscosity(points, 1)
+        return [Figure("E/E(0) until 1/e, largest error", 100 * worst, allowed, order=True),
+                Figure("viscosity felt, from the time of 1/e", 100 * (felt - 1), self.viscosity * allowed, "%", felt, 1, order=True)]
+
+    def curves(self, done):
+        points = decay(done["flow"], self.rate)
+        times = [t for t, _ in points]
+        return Plot(self.time, "E/E(0)", [("particles", times, [e for _, e in points])], [("exact", times, [math.exp(-t) for t in times])],
+                    ["set logscale y"])
