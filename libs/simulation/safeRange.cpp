@@ -25,7 +25,8 @@ double number(const std::string& word, const std::string& line) {
 }
 
 std::optional<double> valueOf(const Case& input, const std::vector<Group>& groups, const std::string& axis) {
-    if (axis == "step") return input.numerics.isImplicit() ? std::optional(input.numerics.implicit.step) : std::nullopt;
+    if (axis == "implicit.step")
+        return input.numerics.isImplicit() ? std::optional(input.numerics.implicit.step) : std::nullopt;
     if (axis == "safety") return input.numerics.isImplicit() ? std::nullopt : std::optional(input.numerics.safety);
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == axis; });
     return group != groups.end() ? std::optional(group->number) : std::nullopt;
@@ -49,6 +50,8 @@ std::vector<SafeRange> parseSafeRanges(const std::string& table) {
         SafeRange range;
         for (std::string& w : word) std::getline(words, w, ',');
         std::getline(words, range.outside);  // to the end, commas included
+        if (range.outside.size() > 1 && range.outside.front() == '"' && range.outside.back() == '"')
+            range.outside = range.outside.substr(1, range.outside.size() - 2);
         if (range.outside.empty()) throw std::invalid_argument("fewer than five columns: " + line);
         range.axis = word[0], range.integrator = word[1];
         range.low = number(word[2], line), range.high = number(word[3], line);

@@ -1,7 +1,7 @@
 // Where the integrators are known to be safe, from the stability map (docs/stability.md, benchmarks/stability): the table safeRange.csv,
 // built into the library.
 //
-// axis: a dimensionless group of a case with cells (groups.hpp), `step`, the implicit step in strain, or `safety`, of explicit ones.
+// axis: a dimensionless group of a case with cells (groups.hpp), `implicit.step`, a strain, or `safety`, of explicit ones.
 // integrator: implicit, velocityVerlet, rkl2.
 #pragma once
 #include <string>
@@ -17,7 +17,7 @@ struct SafeRange {
     std::string outside;  // what happens there
 };
 
-// Of a table as safeRange.csv has it, a header and five columns, lines that open with # left out. Throws std::invalid_argument with the line
+// Of a table as safeRange.csv has it, a header and five columns, the last one in quotes or not, lines that open with # left out. Throws std::invalid_argument with the line
 // where it is not one.
 std::vector<SafeRange> parseSafeRanges(const std::string& table);
 

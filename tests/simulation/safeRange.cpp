@@ -11,8 +11,8 @@ namespace {
 const std::string header = "# a note\naxis,integrator,low,high,outside\n";
 
 TEST(SafeRanges, AreReadWithCommasInTheLastColumn) {
-    const std::vector<SafeRange> ranges =
-        parseSafeRanges(header + "Ca,implicit,1e-3,10,the shape is off, by 3 %\n\nstep,implicit,0,0.05,it fails\n");
+    const std::vector<SafeRange> ranges = parseSafeRanges(
+        header + "Ca,implicit,1e-3,10,the shape is off, by 3 %\n\nimplicit.step,implicit,0,0.05,\"it fails, late\"\n");
     ASSERT_EQ(ranges.size(), 2u);
     EXPECT_EQ(ranges[0].axis, "Ca");
     EXPECT_EQ(ranges[0].integrator, "implicit");
@@ -20,6 +20,7 @@ TEST(SafeRanges, AreReadWithCommasInTheLastColumn) {
     EXPECT_EQ(ranges[0].high, 10);
     EXPECT_EQ(ranges[0].outside, "the shape is off, by 3 %");
     EXPECT_EQ(ranges[1].high, 0.05);
+    EXPECT_EQ(ranges[1].outside, "it fails, late");
 }
 
 TEST(SafeRanges, AreRefusedWhereTheyAreNone) {
@@ -30,7 +31,7 @@ TEST(SafeRanges, AreRefusedWhereTheyAreNone) {
 }
 
 TEST(SafeRanges, BuiltInNameWhatACaseHas) {
-    const std::set<std::string> axes{"Ca", "Re", "lambda", "step", "safety"},
+    const std::set<std::string> axes{"Ca", "Re", "lambda", "implicit.step", "safety"},
         integrators{"implicit", "velocityVerlet", "rkl2"};
     EXPECT_FALSE(safeRanges().empty());
     for (const SafeRange& range : safeRanges()) {
