@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "simulation/schedule.hpp"
+#include "simulation/retreat.hpp"
 
 using namespace corpuscle;
 
@@ -55,10 +55,10 @@ int main(int argc, char* argv[]) {
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);
+        simulation::Retreat step(input, scene, time, integrator, after, app.log());
         while (time.running() && !after.stopRequested(scene, time)) {
             time.dt = wantedStep(integrator.limits(), name, times);
-            integrator.advance(scene, time);
-            after.afterStep(scene, time);
+            if (step.advance()) after.afterStep(scene, time);
         }
         return after.end(scene, time);
     });

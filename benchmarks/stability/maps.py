@@ -147,11 +147,11 @@ def drawExplicit(table, safe):
         tics.append(f"'{name}: {limit}' {k}")
         points += [(r["times"], k, r["verdict"]) for r in runs]
     shade = f"set object 1 rectangle from 0.45,-1 to 1,{len(scenes)} fillcolor rgb '#e8f5ea' fillstyle solid noborder behind"
-    commands = [*key(0.985), "set lmargin at screen 0.47", "set rmargin at screen 0.98", "set tmargin at screen 0.965", "set logscale x", "set xrange [0.45:9]",
+    commands = [*key(0.985), "set lmargin at screen 0.52", "set rmargin at screen 0.98", "set tmargin at screen 0.965", "set logscale x", "set xrange [0.45:9]",
                 f"set yrange [-1:{len(scenes)}]", "set xtics (0.5,0.7,0.9,1.1,1.5,2,4,8)", "set ytics (" + ", ".join(tics) + ") font ',10'",
                 "set xlabel 'step over the limit named (without the factor safety)'", "set arrow 1 from 1,-1 to 1," + str(len(scenes)) + " nohead lw 1.5 lc rgb '#555555'",
                 panel(points, shade)]
-    picture("stabilityExplicit", (1150, 60 + 24 * len(scenes) + 60), commands)
+    picture("stabilityExplicit", (1250, 60 + 24 * len(scenes) + 60), commands)
 
 
 def drawChanges(table, safe):
@@ -174,8 +174,10 @@ def drawChanges(table, safe):
                 verdict = worst([r for r in here if r["times"] == "0.9"])
             if verdict:
                 points.append((x, k, verdict))
+    if not points:
+        return
     names = [f'"{NAMES[scene]}\\n{"implicit, 0.05" if scheme == "implicit" else "Verlet, 0.9 x"}" {x}' for x, (scene, scheme) in enumerate(columns)]
-    commands = [*key(0.985), "set lmargin at screen 0.33", "set rmargin at screen 0.97", "set tmargin at screen 0.965", "set xrange [-0.5:5.5]",
+    commands = [*key(0.985), "set lmargin at screen 0.33", "set rmargin at screen 0.97", "set tmargin at screen 0.965", "set bmargin 3.5", "set xrange [-0.5:5.5]",
                 f"set yrange [-1:{len(lines)}]", "set xtics (" + ", ".join(names) + ") font ',10'", "set ytics (" + ", ".join(tics) + ") font ',10'", panel(points)]
     picture("stabilityChanges", (900, 80 + 22 * len(lines) + 60), commands)
 

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "safeRangeTable.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/safeRangeTable.hpp"
 
 namespace corpuscle::simulation {
 
