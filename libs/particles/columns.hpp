@@ -64,7 +64,7 @@ class Columns {
         for (int cx = x0; cx <= x1; ++cx)
             for (int cy = y0; cy <= y1; ++cy) {
                 const int c = column(cx, cy);
-                const double *first = z + begin(c), *last = z + end(c), *from, *to;
+                const double *first = z + begin(c), *last = z + end(c), *from = nullptr, *to = nullptr;
                 if (downwards(c)) {
                     from = std::partition_point(first, last, [&](double a) { return a > zHigh; });
                     to = std::partition_point(from, last, [&](double a) { return a >= zLow; });
