@@ -9,6 +9,9 @@
 
 namespace corpuscle {
 
+// Collective. The lowest rank that has failed, -1: none; then `text` is that rank's on all.
+int firstFailed(MPI_Comm comm, bool failed, std::string& text);
+
 // Collective. If `failed` anywhere, every rank throws Failure(code) with the lowest failing rank's text.
 void throwTogether(MPI_Comm comm, bool failed, const std::string& text, ExitCode code = ExitCode::io);
 

@@ -40,10 +40,8 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
 Retreat::~Retreat() { MPI_Comm_free(&meeting_); }
 
 // Half, a quarter ... of the step that failed first.
-void Retreat::shorten() {
-    integrator_.shorten(
-        inRow_ > 0 ? std::ldexp(failed_, -static_cast<int>(inRow_)) : std::numeric_limits<double>::infinity(),
-        inRow_ > 1);
+double Retreat::longest() const {
+    return inRow_ > 0 ? std::ldexp(failed_, -static_cast<int>(inRow_)) : std::numeric_limits<double>::infinity();
 }
 
 bool Retreat::advance() {
@@ -56,7 +54,7 @@ bool Retreat::advance() {
     }
     if (inRow_ > 0 && time_.t > faultTime_ && ++goodSteps_ >= goodStepsToRelax) {
         --inRow_, goodSteps_ = 0;
-        shorten();
+        integrator_.shorten(longest(), inRow_ > 1);
     }
     return true;
 }
@@ -99,8 +97,8 @@ void Retreat::goBack(Good& good) {
     const RunState state = recall(good.state, input_, scene_, time_);
     integrator_.goBack(state.integrator, time_);
     restoreCoupling(state, scene_);
-    shorten();
-    if (inRow_ > 0) time_.dt = std::min(time_.dt, std::ldexp(failed_, -static_cast<int>(inRow_)));
+    integrator_.shorten(longest(), inRow_ > 1);
+    time_.dt = std::min(time_.dt, longest());
     schedule_.goBack(good.schedule, scene_, time_);
     watch_.take(scene_);
     goodSteps_ = 0;
@@ -120,7 +118,7 @@ void Retreat::report(const Fault& fault) {
         return;
     }
     writeSurroundings(fault);
-    std::string where = fmt::format("; its surroundings are in results/fault.pvd");
+    std::string where = "; its surroundings are in results/fault.pvd";
     if (most > 0) {
         goBack(good_[0]);
         schedule_.saveCheckpoint(scene_, time_);

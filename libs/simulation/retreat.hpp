@@ -41,7 +41,7 @@ class Retreat {
     void goBack(Good& good);
     void report(const Fault& fault);
     void writeSurroundings(const Fault& fault);
-    void shorten();
+    double longest() const;  // step [s]
 
     const Case& input_;
     coupling::Scene& scene_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/communicator.hpp"
+#include "core/together.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::simulation {
@@ -30,27 +31,7 @@ double length(const Membrane& m, const Bond& bond) {
         .norm();
 }
 
-double largestSpeed2(const Scene& scene) {
-    const auto& s = scene.store();
-    double most = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.velocity(i).squaredNorm());
-    return most;
-}
-
 std::string words(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]); }
-
-// Of the lowest rank that has one, on all.
-Fault agree(const Communicator& ranks, const Fault& mine) {
-    const long first = ranks.min(mine ? static_cast<long>(ranks.rank()) : static_cast<long>(ranks.size()));
-    if (first == ranks.size()) return {};
-    Fault all = mine;
-    int size = static_cast<int>(all.text.size());
-    MPI_Bcast(&size, 1, MPI_INT, static_cast<int>(first), ranks.handle());
-    all.text.resize(static_cast<std::size_t>(size));
-    MPI_Bcast(all.text.data(), size, MPI_CHAR, static_cast<int>(first), ranks.handle());
-    MPI_Bcast(all.place.data(), 3, MPI_DOUBLE, static_cast<int>(first), ranks.handle());
-    return all;
-}
 
 }  // namespace
 
@@ -61,26 +42,43 @@ Watch::Watch(const Case& input, const Scene& scene) : input_(input) {
 }
 
 void Watch::take(const Scene& scene) {
-    fastest2_ = Communicator(scene.system->comm()).max(largestSpeed2(scene));
+    const auto& s = scene.store();
+    double most = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.velocity(i).squaredNorm());
+    fastest2_ = Communicator(scene.system->comm()).max(most);
     exact_.assign(scene.cells.size(), -1);
-    for (std::size_t c = 0; c < scene.cells.size(); ++c) {
-        const Membrane& m = scene.cells[c].membrane;
-        lengths_[c].assign(m.network().allBonds().size(), 0);
-        for (const Bond& bond : m.network().bonds())
-            lengths_[c][static_cast<std::size_t>(bond.number)] = length(m, bond);
-    }
+    for (std::vector<double>& lengths : lengths_) lengths.clear();
+    for (std::size_t c = 0; c < scene.cells.size(); ++c)
+        if (isMine(scene, c)) compareBonds(scene.cells[c].membrane, lengths_[c]);
+}
+
+// Where every rank holds every cell, each looks at its share of them.
+bool Watch::isMine(const Scene& scene, std::size_t index) const {
+    const particles::Decomposition& ranks = scene.system->decomposition();
+    if (!scene.cells[index].held) return false;
+    return !input_.numerics.isImmersed() ||
+           index % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
 }
 
 Fault Watch::find(const Scene& scene, const Time& time) {
     ++lookedAt_;
-    Fault mine = ofParticles(scene, time);
-    for (std::size_t c = 0; c < scene.cells.size() && !mine; ++c)
-        if (scene.cells[c].held) mine = ofCell(scene, c, time);
-    const Communicator ranks(scene.system->comm());
-    // Largest first: a fault anywhere, the fastest particle; and how many particles there are.
-    const std::vector<double> most = ranks.max({mine ? 1.0 : 0.0, largestSpeed2(scene)});
+    const MPI_Comm comm = scene.system->comm();
+    const Communicator ranks(comm);
+    double fastest2 = 0;
+    Fault fault = ofParticles(scene, time, fastest2);
+    for (std::size_t c = 0; c < scene.cells.size() && !fault; ++c) {
+        if (isMine(scene, c))
+            fault = ofCell(scene, c, time);
+        else
+            lengths_[c].clear();  // old by the time that this rank holds the cell again
+    }
+    const std::vector<double> most = ranks.max({fault ? 1.0 : 0.0, fastest2});
     const long count = ranks.sum(static_cast<long>(scene.system->owned()));
-    if (most[0] > 0) return agree(ranks, mine);
+    if (most[0] > 0) {
+        const int first = firstFailed(comm, static_cast<bool>(fault), fault.text);
+        MPI_Bcast(fault.place.data(), 3, MPI_DOUBLE, first, comm);
+        return fault;
+    }
     if (count != particles_)
         return {fmt::format("step {}, t = {:.6g} s: there are {} particles, at the start there were {}", time.step,
                             time.t, count, particles_),
@@ -89,7 +87,7 @@ Fault Watch::find(const Scene& scene, const Time& time) {
     return {};
 }
 
-Fault Watch::ofParticles(const Scene& scene, const Time& time) const {
+Fault Watch::ofParticles(const Scene& scene, const Time& time, double& fastest2) const {
     const auto& s = scene.store();
     const sph::FluidModel& model = scene.model();
     const double scale2 = std::max(fastest2_, input_.flow.speed * input_.flow.speed);
@@ -100,7 +98,9 @@ Fault Watch::ofParticles(const Scene& scene, const Time& time) const {
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec3 x = s.position(i), u = s.velocity(i);
         const double change = std::abs(s.density[i] / model.density - 1);
-        const bool isDense = change < largestDensityChange, isSlow = u.squaredNorm() <= tooFast2;
+        const double speed2 = u.squaredNorm();
+        fastest2 = std::max(fastest2, speed2);
+        const bool isDense = change < largestDensityChange, isSlow = speed2 <= tooFast2;
         const bool isInside = !walls.exist() || s.kindOf(i) == Kind::wall ||
                               (x[walls.axis] > walls.low - reserve && x[walls.axis] < walls.high + reserve);
         if (isDense && isSlow && isInside && x.allFinite()) continue;
@@ -134,28 +134,37 @@ bool Watch::isSuspicious(const Membrane& m) const {
     });
 }
 
+// The first bond that has changed too much since the last look, null: none; takes up the lengths of now. No lengths yet: nothing to compare.
+const Bond* Watch::compareBonds(const Membrane& m, std::vector<double>& lengths) {
+    const bool isFirst = lengths.empty();
+    lengths.resize(m.network().allBonds().size());
+    for (const Bond& bond : m.network().bonds()) {
+        double& before = lengths[static_cast<std::size_t>(bond.number)];
+        const double now = length(m, bond);
+        if (!isFirst && !(std::abs(std::log(now / before)) <= largestBondChange)) return &bond;
+        before = now;
+    }
+    return nullptr;
+}
+
 Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     const Cell& cell = scene.cells[index];
     const Membrane& m = cell.membrane;
-    const std::string when = fmt::format("step {}, t = {:.6g} s: the membrane '{}' ", time.step, time.t, m.name);
-    std::vector<double>& before = lengths_[index];
-    for (const Bond& bond : m.network().bonds()) {
-        const double now = length(m, bond),
-                     change = std::abs(std::log(now / before[static_cast<std::size_t>(bond.number)]));
-        const Vec3& x = m.position[static_cast<std::size_t>(bond.node[0])];
-        if (!(change <= largestBondChange))
-            return {
-                when +
-                    fmt::format(
-                        "at {}: a bond of {:.3g} m is {:.3g} m long after a step: a node was thrown out of its place",
-                        words(x), before[static_cast<std::size_t>(bond.number)], now),
-                x};
+    const auto when = [&] {
+        return fmt::format("step {}, t = {:.6g} s: the membrane '{}' ", time.step, time.t, m.name);
+    };
+    if (const Bond* bond = compareBonds(m, lengths_[index])) {
+        const Vec3& x = m.position[static_cast<std::size_t>(bond->node[0])];
+        return {
+            when() + fmt::format(
+                         "at {}: a bond of {:.3g} m is {:.3g} m long after a step: a node was thrown out of its place",
+                         words(x), lengths_[index][static_cast<std::size_t>(bond->number)], length(m, *bond)),
+            x};
     }
-    for (const Bond& bond : m.network().bonds()) before[static_cast<std::size_t>(bond.number)] = length(m, bond);
     if (m.network().isOpen()) return {};
     const Vec3& first = m.position.front();
     if (const double change = m.volume() / cell.initialVolume - 1; !(std::abs(change) < largestVolumeChange))
-        return {when + fmt::format("encloses {:+.0f} % of its volume more than at the start", 100 * change), first};
+        return {when() + fmt::format("encloses {:+.0f} % of its volume more than at the start", 100 * change), first};
     const long since = exact_[index] < 0 ? stepsBetweenExact : lookedAt_ - exact_[index];
     if (since < leastBetweenExact || (since < stepsBetweenExact && !isSuspicious(m))) return {};
     exact_[index] = lookedAt_;
@@ -164,7 +173,7 @@ Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     if (cuts.empty()) return {};
     const Vec3& x =
         m.position[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(cuts.front().first)][0])];
-    return {when + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
+    return {when() + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
 }
 
 Vec3 Watch::suspect(const Scene& scene) {

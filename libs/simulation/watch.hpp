@@ -40,16 +40,20 @@ class Watch {
     static Vec3 suspect(const coupling::Scene& scene);
 
   private:
-    Fault ofParticles(const coupling::Scene& scene, const Time& time) const;
+    // fastest2: raised to the largest square of a speed seen until the fault [m^2/s^2].
+    Fault ofParticles(const coupling::Scene& scene, const Time& time, double& fastest2) const;
+    bool isMine(const coupling::Scene& scene, std::size_t index) const;
+    static const membrane::Bond* compareBonds(const membrane::Membrane& membrane, std::vector<double>& lengths);
     Fault ofCell(const coupling::Scene& scene, std::size_t index, const Time& time);
     bool isSuspicious(const membrane::Membrane& membrane) const;
 
     const Case& input_;
-    long particles_ = 0;                        // of all ranks
-    double fastest2_ = 0;                       // of all ranks, at the last look [m^2/s^2]
-    std::vector<std::vector<double>> lengths_;  // of the bonds of each cell, by their numbers [m]
-    long lookedAt_ = 0;                         // how often
-    std::vector<long> exact_;                   // of these the last with the exact test, of each cell; -1: none
+    long particles_ = 0;   // of all ranks
+    double fastest2_ = 0;  // of all ranks, at the last look [m^2/s^2]
+    std::vector<std::vector<double>>
+        lengths_;              // of the bonds of each cell that this rank looks at, by their numbers [m]
+    long lookedAt_ = 0;        // how often
+    std::vector<long> exact_;  // of these the last with the exact test, of each cell; -1: none
 };
 
 }  // namespace corpuscle::simulation
