@@ -44,6 +44,11 @@ TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& o
     double length = 1.05 * target, angle = 0, mean = 0;
     for (int round = 0; round < options.rounds; ++round) {
         mesh = remeshIsotropic(mesh, length, 3, project);
+        if (mesh.triangles.empty())
+            throw Failure(ExitCode::invalidCase,
+                          fmt::format("edge = {:.4g} um is too coarse for where the shape is thin or sharply curved: "
+                                      "the mesher cannot keep its two sides apart; take a smaller one",
+                                      edge * 1e6));
         smooth(mesh, 20, project);
         angle = smallestAngle(mesh);
         mean = meanEdge(mesh);

@@ -27,9 +27,13 @@ TriangleMesh remeshIsotropic(const TriangleMesh& mesh, double edge, int iteratio
         surface.add_face(Surface::Vertex_index(i), Surface::Vertex_index(j), Surface::Vertex_index(k));
 
     namespace pmp = CGAL::Polygon_mesh_processing;
-    pmp::isotropic_remeshing(
-        surface.faces(), edge, surface,
-        pmp::parameters::number_of_iterations(iterations).projection_functor(Projector{&surface, &project}));
+    try {
+        pmp::isotropic_remeshing(
+            surface.faces(), edge, surface,
+            pmp::parameters::number_of_iterations(iterations).projection_functor(Projector{&surface, &project}));
+    } catch (const CGAL::Failure_exception&) {  // a collapse has laid two sheets on one another
+        return {};
+    }
     surface.collect_garbage();
 
     TriangleMesh result;

@@ -92,7 +92,7 @@ Case Case::read(const Application& app) {
                              .viscosity = c.fluid.viscosity,
                              .density = c.fluid.density,
                              .layered = !c.fluid.layers.empty(),
-                             .leastViscosity = c.leastViscosity()};
+                             .leastViscosity = c.viscosities().least};
     if (!c.mesh.cells.empty()) {
         const CellSettings& first = c.mesh.cells.front();
         context.radius = first.shape->radius();
@@ -144,9 +144,10 @@ particles::Box Case::particleBox() const {
 
 Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.domain.size / spacing()).array().round(); }
 
-double Case::soundSpeed() const {
-    if (fluid.equationOfState->soundSpeed) return *fluid.equationOfState->soundSpeed;
-    const double nu = largestViscosity() / flow.density;
+double Case::soundSpeed() const { return fluid.equationOfState->soundSpeed.value_or(automaticSoundSpeed()); }
+
+double Case::automaticSoundSpeed() const {
+    const double nu = viscosities().largest / flow.density;
     if (isConjugate())  // volumes are kept exactly: the membrane's stiffness does not count
         return std::sqrt(std::max({100 * flow.speed * flow.speed, conjugateBulk * nu * flow.rate,
                                    100 * flow.bodyForce.norm() * flow.length}));
@@ -175,7 +176,7 @@ sph::FluidModel Case::fluidModel() const {
             particleMass(),
             flow.bodyForce,
             flow.walls,
-            fluid.layers.empty() ? 0 : leastViscosity()};
+            fluid.layers.empty() ? 0 : viscosities().least};
 }
 
 bool Case::isConjugate() const {
@@ -199,16 +200,11 @@ double Case::viscosityAt(const Vec3& x) const {
     return viscosity;
 }
 
-double Case::leastViscosity() const {
-    double least = fluid.viscosity;
-    for (const LayerSettings& layer : fluid.layers) least = std::min(least, layer.viscosity);
-    return least;
-}
-
-double Case::largestViscosity() const {
-    double largest = fluid.viscosity;
-    for (const LayerSettings& layer : fluid.layers) largest = std::max(largest, layer.viscosity);
-    return largest;
+ViscosityRange Case::viscosities() const {
+    ViscosityRange range{fluid.viscosity, fluid.viscosity};
+    for (const LayerSettings& layer : fluid.layers)
+        range = {std::min(range.least, layer.viscosity), std::max(range.largest, layer.viscosity)};
+    return range;
 }
 
 }  // namespace corpuscle::simulation

@@ -9,6 +9,10 @@
 
 namespace corpuscle::simulation {
 
+struct ViscosityRange {
+    double least, largest;  // [Pa s]
+};
+
 struct Case {
     std::filesystem::path directory;
     ControlSettings control;
@@ -39,6 +43,7 @@ struct Case {
     double particleVolume() const { return latticeSpacing().prod(); }  // [m^3]
     double particleMass() const { return flow.density * particleVolume(); }
     double soundSpeed() const;
+    double automaticSoundSpeed() const;  // what `soundSpeed: auto` stands for
     const membrane::MembraneSettings& membraneOf(const CellSettings& cell) const {
         return membranes.types.at(cell.type());
     }
@@ -47,8 +52,7 @@ struct Case {
     bool varyingViscosity() const;
     // Of the fluid outside cells, by its layers [Pa s].
     double viscosityAt(const Vec3& x) const;
-    double leastViscosity() const;
-    double largestViscosity() const;
+    ViscosityRange viscosities() const;  // of the fluid outside cells
     // Whether fluid and membranes are discretised by the conjugate operators of sph/operators.hpp: the implicit step, corrected
     // operators, immersed membranes.
     bool isConjugate() const;

@@ -15,7 +15,7 @@ namespace {
 
 // Largest eigenvalue of the viscous operator per mass [1/s].
 double viscousRate(const Case& c) {
-    double viscosity = c.largestViscosity();
+    double viscosity = c.viscosities().largest;
     for (const CellSettings& cell : c.mesh.cells)
         viscosity = std::max(viscosity, c.fluid.viscosity * c.membraneOf(cell).interior.viscosityRatio);
     const double dx = c.spacing();

@@ -58,7 +58,7 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
     } else
         add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
     if (!c.fluid.layers.empty())
-        add("mu_max/mu_min", c.largestViscosity() / c.leastViscosity(),
+        add("mu_max/mu_min", c.viscosities().largest / c.viscosities().least,
             fmt::format("of {} layers; Re has the viscosity of the lowest", c.fluid.layers.size() + 1));
     add("H_s/dx", c.support() / c.spacing(),
         fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",

@@ -25,9 +25,18 @@ double number(const std::string& word, const std::string& line) {
 }
 
 std::optional<double> valueOf(const Case& input, const std::vector<Group>& groups, const std::string& axis) {
-    if (axis == "implicit.step")
-        return input.numerics.isImplicit() ? std::optional(input.numerics.implicit.step) : std::nullopt;
-    if (axis == "safety") return input.numerics.isImplicit() ? std::nullopt : std::optional(input.numerics.safety);
+    const NumericsSettings& numerics = input.numerics;
+    if (axis == "implicit.step") return numerics.isImplicit() ? std::optional(numerics.implicit.step) : std::nullopt;
+    if (axis == "implicit.tolerance")
+        return numerics.isImplicit() ? std::optional(numerics.implicit.tolerance) : std::nullopt;
+    if (axis == "safety") return numerics.isImplicit() ? std::nullopt : std::optional(numerics.safety);
+    if (axis == "shifting.coefficient")
+        return numerics.shifting ? std::optional(numerics.shifting->coefficient) : std::nullopt;
+    if (axis == "fill.jitter") return input.mesh.fill.jitter;
+    if (axis == "bulkModulus") {
+        const double ratio = input.soundSpeed() / input.automaticSoundSpeed();
+        return ratio * ratio;
+    }
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == axis; });
     return group != groups.end() ? std::optional(group->number) : std::nullopt;
 }

@@ -1,7 +1,14 @@
 // Where the integrators are known to be safe, from the stability map (docs/stability.md, benchmarks/stability): the table safeRange.csv,
 // built into the library.
 //
-// axis: a dimensionless group of a case with cells (groups.hpp), `implicit.step`, a strain, or `safety`, of explicit ones.
+// axis                 | value
+// a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ...
+// implicit.step         | strain of an implicit step; with other integrators none
+// implicit.tolerance    | of the implicit step's solver; with other integrators none
+// safety                | of the explicit step's limits; with implicit none
+// bulkModulus           | that of the case over what `soundSpeed: auto` stands for
+// shifting.coefficient  | none without shifting
+// fill.jitter           | in spacings
 // integrator: implicit, velocityVerlet, rkl2.
 #pragma once
 #include <string>

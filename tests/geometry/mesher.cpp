@@ -125,6 +125,13 @@ TEST(Mesher, remeshesAFile) {
 TEST(Mesher, refusesAnEdgeThatDoesNotSuit) {
     EXPECT_THROW(meshSurface(redCell, 3 * micro), Failure);
     EXPECT_THROW(meshSurface(redCell, 0), Failure);
+    try {  // within half the radius, but as long as the dimples are apart
+        meshSurface(redCell, 1.4 * micro);
+        ADD_FAILURE() << "meshed at 1.4 um";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::invalidCase);
+        EXPECT_NE(std::string(failure.what()).find("edge = 1.4 um is too coarse"), std::string::npos) << failure.what();
+    }
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST(SafeRanges, AreRefusedWhereTheyAreNone) {
 }
 
 TEST(SafeRanges, BuiltInNameWhatACaseHas) {
-    const std::set<std::string> axes{"Ca", "Re", "lambda", "implicit.step", "safety"},
+    const std::set<std::string> axes{"Ca", "Re", "lambda", "E_b", "implicit.step", "implicit.tolerance", "safety", "bulkModulus", "shifting.coefficient", "fill.jitter"},
         integrators{"implicit", "velocityVerlet", "rkl2"};
     EXPECT_FALSE(safeRanges().empty());
     for (const SafeRange& range : safeRanges()) {
