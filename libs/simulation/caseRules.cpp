@@ -1,5 +1,7 @@
 #include "simulation/caseRules.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -184,6 +186,8 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
     }
 }
 
+constexpr double furthestLayers = 20;  // largest over least viscosity: sph/operators.hpp
+
 // Layers of other viscosities lie between two walls, each at least a spacing thick, without cells or bodies.
 void checkLayers(const Case& c, Problems& problems) {
     const Mark fluid{"constant/fluid.yaml", 0, 0};
@@ -203,6 +207,15 @@ void checkLayers(const Case& c, Problems& problems) {
                          (c.mesh.cells.empty() ? "bodies; remove these, or the layers"
                                                : "cells; remove these, or the layers (the fluid inside a cell has "
                                                  "'interior: {viscosityRatio}' in constant/membranes.yaml)"));
+    const auto [least, largest] = c.viscosities();
+    if (c.isConjugate() && largest > furthestLayers * least * (1 + 1e-9))
+        problems.add(
+            fluid, "layers",
+            fmt::format("found viscosities from {} to {}; the operators of 'integrator: {}' with 'operators: {}' "
+                        "keep motion bounded at a jump of at most {:g}: bring them nearer, or take 'integrator: "
+                        "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
+                        formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
+                        c.numerics.integrator, c.numerics.operators, furthestLayers));
     const double half = 0.5 * c.mesh.domain.size[wall], dx = c.spacing();
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const double below = i > 0 ? layers[i - 1].above : -half, above = layers[i].above;

@@ -10,8 +10,9 @@
 // so that mu_i belongs to the particle's side and no mean is taken across a jump.
 // In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so that the layer beside a wall meets it
 // by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i - mu_low) (grad u)_i^T, force by first index: nothing in a plane shear
-// flow along the layers. mu_low, their lowest viscosity, may be any constant, as the divergence vanishes; with it no mode gains power.
-// D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite, and no force is left over in the
+// flow along the layers. mu_low, their lowest viscosity, may be any constant, as the divergence vanishes; with it no mode gains
+// power where they are no more than 20 apart (tests/sph/operators.cpp: all eigenvalues; at 50 some are negative), and no case may have more.
+// D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above), and no force is left over in the
 // sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
 //
 // The weights are worked out anew at each application: that needs a hundred bytes a particle and is as fast as reading them.

@@ -571,6 +571,10 @@ def test_layers(folder):
                                           "constant/flow.yaml": files["constant/flow.yaml"] + "walls: {normal: y}\n"})
     run(across, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
     compare(across)
+    apart = "constant/fluid.yaml:/layers=[{above: -0.125 mm, viscosity: 21 mPa s}]"
+    said = run(copied(start, folder / "apart"), "sphFlow", "-set", apart, "-set", "system/numerics.yaml:/operators=corrected", code=2).stderr
+    assert "layers: found viscosities from 1 mPa s to 21 mPa s" in said, said
+    run(copied(start, folder / "apartPlain"), "sphFlow", "-set", apart, "-set", "system/control.yaml:/endTime=0.001 s")
     changed = "constant/fluid.yaml:/layers=[{above: -0.125 mm, viscosity: 5 mPa s}, {above: 0.25 mm, viscosity: 3 mPa s}]"
     said = run(folder / "verlet", "sphFlow", "-set", changed, "-set", "system/control.yaml:/endTime=0.4 s", code=2).stderr
     assert "layers" in said and "start from firstTime" in said, said

@@ -2,6 +2,9 @@
 // sph/operators.hpp, and against what they must keep.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <cstdio>
+
 #include "core/error.hpp"
 #include "sph/operatorSamples.hpp"
 
@@ -215,6 +218,44 @@ TEST(TwoLayers, keepRigidRotationAndShearStress) {
     EXPECT_LT(force(shear).norm(), 1e-12);
     const auto along = [&](const Vec3& x) { return Vec3(x[2] - jump, 0, 0); };
     EXPECT_LT((force(along) - Vec3(high - low, 0, 0)).norm(), 1e-12);
+}
+
+// Its part grad u^T has either sign; with Morris' sum it must have one for every velocity: all eigenvalues, of disordered particles.
+TEST(TwoLayers, takePowerFromEveryVelocity) {
+    const Index3 size{6, 6, 6};
+    for (const double ratio : {2.0, 20.0}) {
+        for (const OperatorForm form : {plain, corrected}) {
+            ParticleSystem system(MPI_COMM_WORLD, cube(size), {.viscosity = true}, support, 0, 1.0);
+            std::vector<Particle> all = lattice(size, 0.15, 3);
+            for (Particle& p : all) p.viscosity = p.x[2] > 3 ? ratio : 1;
+            deal(all, system);
+            FluidModel fluid = model("wendlandC2");
+            fluid.viscosity = 1, fluid.lowestLayer = 1;
+            Operators<double> operators(fluid, system, form);
+            operators.build(system);
+            const ParticleStore& s = system.store();
+            const auto n = static_cast<Eigen::Index>(3 * all.size());
+            Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
+            for (Eigen::Index column = 0; column < n; ++column) {
+                typename Operators<double>::Field u(4 * s.size(), 0.0);
+                for (std::size_t k = 0; k < s.size(); ++k)
+                    if (s.id[k] == column / 3) u[4 * k + static_cast<std::size_t>(column % 3)] = 1;
+                operators.apply(system, u, [](std::size_t, double) { return 0.0; });
+                for (std::size_t k = 0; k < s.size(); ++k)
+                    for (std::size_t a = 0; a < 3; ++a)
+                        K(3 * s.id[k] + static_cast<Eigen::Index>(a), column) = -operators.force()[4 * k + a];
+            }
+            MPI_Allreduce(MPI_IN_PLACE, K.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+            const Eigen::VectorXd values =
+                Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+            const double largest = values[n - 1];
+            std::printf("viscosities 1 and %g, %s: eigenvalues %.2e, %.2e, %.2e ... %.3g\n", ratio,
+                        form == plain ? "plain" : "corrected", values[0], values[2], values[3], largest);
+            EXPECT_GT(values[0], -1e-12 * largest);
+            EXPECT_LT(values[2], 1e-12 * largest) << "three uniform velocities cost nothing";
+            EXPECT_GT(values[3], 1e-4 * largest) << "and nothing else";
+        }
+    }
 }
 
 TEST(LoneParticle, hasNoGradientAndIsNamed) {
