@@ -1,7 +1,7 @@
 """Kinetic energy of flows that die out in a periodic box: the definitions of tutorials/taylorGreen."""
 import math
 
-from suite import TUTORIALS, Figure, Plot, Run, module, permitted
+from suite import TUTORIALS, Figure, Plot, Run, module, permitted, worst
 
 tutorial = module(TUTORIALS / "taylorGreen" / "compare.py", "taylorGreen")
 
@@ -24,9 +24,9 @@ class Decay:
 
     def figures(self, done, n):
         points, allowed = decay(done["flow"], self.rate), permitted(self.allowed, n, self.order)
-        worst = max((energy - math.exp(-t) for t, energy in points if t <= 1), key=abs)
+        error = worst(energy - math.exp(-t) for t, energy in points if t <= 1)
         felt = tutorial.viscosity(points, 1)
-        return [Figure("E/E(0) until 1/e, largest error", 100 * worst, allowed, order=True),
+        return [Figure("E/E(0) until 1/e, largest error", 100 * error, allowed, order=True),
                 Figure("viscosity felt, from the time of 1/e", 100 * (felt - 1), self.viscosity * allowed, "%", felt, 1, order=True)]
 
     def curves(self, done):

@@ -3,13 +3,13 @@ import math
 import re
 import xml.etree.ElementTree as ElementTree
 
+import suite
 import vtp
-from suite import HERE, Figure, Plot, Run, at, rows
+from suite import HERE, PROGRAMS, Figure, Plot, Run, at, rows
 from summary import axisTurned, series
 
 RADIUS = 4  # um
 COARSEST = 6  # particles along the radius
-PROGRAMS = ("membraneMesh", "particleFill", "dmpFlow")
 
 
 def settings(n, box, strain, more=(), edge=1.0):
@@ -46,9 +46,9 @@ class Course:
 
     def kept(self, label):
         """Figures of what must be kept."""
-        volume = max((row[f"{self.cell}_volumeChange"] for row in self.balance), key=abs)
+        volume = suite.worst(row[f"{self.cell}_volumeChange"] for row in self.balance)
         return [Figure(f"{label}: volume, at most", 100 * volume, 1e-3),
-                Figure(f"{label}: particles that changed side, at most", max(row["changedSide"] for row in self.balance), 0, "")]
+                Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, "")]
 
     def area(self, strain):
         return at(self.balance, strain, f"{self.cell}_areaChange")
@@ -60,9 +60,8 @@ def turn(table, degrees):
 
 
 def worst(course, reference, key, strains, scale=1.0):
-    """Largest difference from the reference over these strains, of the sign that it has."""
-    found = [scale * (course.at(t, key) - at(reference, t, key)) for t in strains if t <= course.end + 1e-9]
-    return max(found, key=abs)
+    """Largest difference from the reference over these strains, of the sign that it has; nan if the run has not got that far."""
+    return suite.worst(scale * (course.at(t, key) - at(reference, t, key)) for t in strains)
 
 
 class Sheared:
@@ -105,8 +104,8 @@ def snapshots(folder, cell):
     for entry in ElementTree.parse(folder / "results" / f"{cell}.pvd").getroot().iter("DataSet"):
         path = folder / "results" / entry.get("file")
         if path.suffix == ".pvtp":
-            (piece,) = ElementTree.parse(path).getroot().iter("Piece")
-            path = path.parent / piece.get("Source")
+            pieces = [path.parent / piece.get("Source") for piece in ElementTree.parse(path).getroot().iter("Piece")]
+            (path,) = [piece for piece in pieces if vtp.count(piece)]  # one for each rank; the cell is whole on one of them
         found.append((float(entry.get("timestep")), path))
     return sorted(found)
 
@@ -149,4 +148,5 @@ def otherMesh(path, cell):
                   made.arrays["spacing"][0], made.texts)
 
     replace.__name__ = f"otherMesh {path.name}"
+    replace.reads = (path,)
     return replace

@@ -1,6 +1,6 @@
 """What the cases with a Kuchel-Fackerell cell in shear flow share: comparison with boundary elements by their own definitions."""
-from membranes import PROGRAMS, Sheared, turn, worst
-from suite import TUTORIALS, Figure, at, relative
+from membranes import Sheared, turn, worst
+from suite import PROGRAMS, TUTORIALS, Figure, at, relative
 
 TUMBLING, DRAWN = (6, 6, 6), (8, 6, 8)  # boxes in radii, along the flow, the vorticity and the gradient
 
@@ -20,7 +20,7 @@ class RedCells(Sheared):
 
     def compared(self, Ca, course, dD, dAngle, dTurn, dArea):
         theirs, label = self.reference(Ca), f"Ca {Ca}"
-        end = 0.5 * int(2 * course.end + 1e-6)  # the last step may go beyond
+        end = 0.5 * int(2 * self.scenes[Ca][0] + 1e-6)  # a run that has not got there has no figures
         strains = [0.5 * k for k in range(1, int(2 * end) + 1)]
         found = [Figure(f"{label}: D12 by inertia to strain {end:g}, worst", worst(course, theirs, "D12_inertia", strains), dD, "")]
         # Where the cell turns fast, an error of the rate is an error of the angle by that speed: compared by strain there.

@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 """What validation rests on: what counts as held, orders, interpolation, tables, results of membranes; bad words on the command line."""
+import contextlib
+import io
+import json
 import math
 import pathlib
 import struct
 import subprocess
-import sys
 import tempfile
 import types
+import unittest.mock
+from fnmatch import fnmatchcase
 
 import suite
 import vtp
-from membranes import turn
+from membranes import snapshots, turn
 from suite import Figure, asdict
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -26,6 +30,88 @@ def test_held():
     assert not Figure("a", math.nan, 1).holds(), "what was not measured does not hold"
     figure = suite.relative("a", 0.98, 1, 1)
     assert math.isclose(figure.error, -2) and not figure.holds()
+
+
+def test_bands():
+    assert suite.outside(2.0, 1, 4) == 0 == suite.outside(4, 1, 4) and suite.outside(5, 1, 4) == 25 and suite.outside(0.5, 1, 4) == -50
+    assert suite.outside(5, 1, 4, percent=False) == 1 and suite.outside(0.5, 1, 4, percent=False) == -0.5
+    for values in ((math.nan, 1, 4), (2.0, math.nan, 4), (2.0, 1, math.nan)):
+        assert math.isnan(suite.outside(*values)) and not Figure("a", suite.outside(*values), 100).holds(), values
+
+
+def test_worst():
+    assert suite.worst(iter((1, -3, 2))) == -3 and suite.worst((1, -3, 2), lambda v: v) == 2
+    for values in ((), (math.nan, 1.0), (1.0, math.nan), (1.0, math.inf)):
+        assert math.isnan(suite.worst(values)), values
+
+
+def test_missed():
+    """What a page says is outside does not fail; everything else does, and so does what was not measured."""
+    case = types.SimpleNamespace(MISSED={8: ("drag", "lift *")})
+    for n, name, error, known in ((8, "drag", 3, True), (8, "drag, extrapolated", 3, False), (8, "lift at 2", 3, True), (16, "drag", 3, False),
+                                  (8, "drag", math.nan, False)):
+        figure = asdict(Figure(name, error, 1))
+        assert suite.missed(case, n, figure) is known, (n, name, error)
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            assert suite.report(case, {"resolution": n, "particles": 1, "coreSeconds": 1, "figures": [figure]}) is known
+        assert ("missed, as its page says" in said.getvalue()) is known and ("OUTSIDE" in said.getvalue()) is not known
+    for name in suite.names():
+        case, patterns = suite.load(name), set()
+        for record in suite.recorded(name):
+            for figure in record["figures"]:
+                assert suite.holds(figure) or suite.missed(case, record["resolution"], figure), (name, record["resolution"], figure["name"])
+                if not suite.holds(figure):
+                    patterns |= {(record["resolution"], words) for words in case.MISSED[record["resolution"]] if fnmatchcase(figure["name"], words)}
+        assert patterns == {(n, words) for n, all_ in getattr(case, "MISSED", {}).items() for words in all_}, f"{name}: missed no longer"
+
+
+def test_execute():
+    """A run that has ended is not run again, unless its settings or files change; what older ones have kept counts. Its record says where and when."""
+    record = {"status": "done", "ranks": 3, "end": "2026-01-02T23:59:59Z", "parameters": {"particles": 8},
+              "machine": {"cores": 2, "processor": "AMD EPYC"}, "performance": {"processorSeconds": 1.0, "instructionSet": "avx2"}}
+    assert suite.origin(record) == ("2 cores, AMD EPYC, AVX2", "2026-01-02")
+    with tempfile.TemporaryDirectory() as folder:
+        source, case, count = pathlib.Path(folder) / "source", pathlib.Path(folder) / "case", pathlib.Path(folder) / "count"
+        for part in ("system", "constant"):
+            (source / part).mkdir(parents=True)
+        mesh = source / "cell.off"
+        for file in (source / "system/mesh.yaml", mesh):
+            file.write_text("a")
+        (pathlib.Path(folder) / "mpirun").write_text(f"#!/bin/sh\necho >>{count}\ncat >{case}/run.json <<E\n{json.dumps(record)}\nE\n")
+        (pathlib.Path(folder) / "mpirun").chmod(0o755)
+
+        def prepare(folder):
+            pass
+
+        prepare.reads = (mesh,)
+
+        def runs(*settings):
+            with unittest.mock.patch.dict(suite.ENVIRONMENT, {"PATH": f"{folder}:{suite.ENVIRONMENT['PATH']}"}):
+                found = suite.execute(suite.Run("a", source, list(settings), (prepare, "solver")), case, pathlib.Path(folder), 2)
+            assert found == record
+            return len(count.read_text())
+
+        assert [runs(), runs(), runs("b=1"), runs("b=1")] == [1, 1, 2, 2]
+        (source / "system/mesh.yaml").write_text("b")
+        assert [runs("b=1"), runs("b=1")] == [3, 3]
+        mesh.write_text("b")
+        assert [runs("b=1"), runs("b=1")] == [4, 4]
+        note = case / "settings.json"  # as it was before files counted
+        note.write_text(json.dumps(json.loads(note.read_text())[:3]))
+        mesh.write_text("c")
+        assert [runs("b=1"), runs("b=2")] == [4, 5]
+
+
+def test_ranks():
+    """A membrane's result is the file of the rank that has it."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = pathlib.Path(folder) / "results"
+        results.mkdir()
+        vtp.write(results / "0.vtp", [], [], [], 0.25, {})
+        vtp.write(results / "1.vtp", [(0.0, 0.0, 1.0)], [], [7], 0.25, {})
+        (results / "all.pvtp").write_text('<VTKFile><PPolyData><Piece Source="0.vtp"/><Piece Source="1.vtp"/></PPolyData></VTKFile>')
+        (results / "rbc.pvd").write_text('<VTKFile><Collection><DataSet timestep="2" file="all.pvtp"/></Collection></VTKFile>')
+        assert snapshots(pathlib.Path(folder), "rbc") == [(2.0, results / "1.vtp")]
 
 
 def test_orders():

@@ -4,6 +4,7 @@ By hand, since python3-vtk9 would be one more package to install, of 47 MB, for 
 larger for everybody: a capsule's surface by 17 %, its fluid by 36 %.
 """
 import pathlib
+import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
@@ -82,6 +83,12 @@ class File:
     def tuples(self, array):
         flat, width = self.values(array), int(array.get("NumberOfComponents", 1))
         return list(flat) if width == 1 else [flat[i : i + width] for i in range(0, len(flat), width)]
+
+
+def count(path):
+    """Points of a surface; nothing else is read."""
+    head = pathlib.Path(path).read_bytes().partition(b"<AppendedData")[0]
+    return sum(map(int, re.findall(rb'<Piece [^>]*NumberOfPoints="(\d+)', head)))
 
 
 def write(path, points, triangles, ids, spacing, texts):

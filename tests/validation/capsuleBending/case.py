@@ -2,8 +2,8 @@
 import math
 
 from capsules import BOX
-from membranes import COARSEST, PROGRAMS, RADIUS, Course, settings
-from suite import HERE, TUTORIALS, Figure, Plot, Run, at, permitted, published, relative
+from membranes import COARSEST, RADIUS, Course, settings
+from suite import HERE, PROGRAMS, TUTORIALS, Figure, Plot, Run, at, outside, permitted, published, relative
 
 TITLE = "capsule in shear flow, neo-Hookean with bending"
 ACROSS = "particles along the radius"
@@ -35,11 +35,6 @@ def band(strain):
     found = [at(table, strain, "D") for source, table in reference.items() if source not in (UNBOUNDED, BOXED)]
     found = [value for value in found if math.isfinite(value)]
     return min(found) - READING, max(found) + READING
-
-
-def outside(value, low, high):
-    """Per cent of the nearest edge; 0 inside."""
-    return 100 * (value / high - 1 if value > high else value / low - 1 if value < low else 0)
 
 
 def figures(done, n):

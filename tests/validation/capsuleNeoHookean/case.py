@@ -1,8 +1,8 @@
 """A spherical neo-Hookean capsule in shear flow, against the band of published curves and own boundary elements."""
 import math
 
-from capsules import STRAIN, Capsules
-from suite import HERE, Figure, at, published
+from capsules import Capsules
+from suite import HERE, Figure, at, outside, published
 
 TITLE = "capsule in shear flow, neo-Hookean"
 ACROSS = "particles along the radius"
@@ -25,11 +25,6 @@ def band(Ca, strain):
     found.append((at(capsules.reference(Ca), strain, "D12_inertia"), MESH))
     found = [(value, error) for value, error in found if math.isfinite(value)]
     return min(value - error for value, error in found), max(value + error for value, error in found)
-
-
-def outside(value, low, high):
-    """Per cent of the nearest edge; 0 inside."""
-    return 100 * (value / high - 1 if value > high else value / low - 1 if value < low else 0)
 
 
 def figures(done, n):

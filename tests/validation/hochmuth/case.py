@@ -7,7 +7,7 @@ import shutil
 
 import vtp
 from membranes import Course
-from suite import HERE, Figure, Plot, Run, permitted, relative, rows
+from suite import HERE, Figure, Plot, Run, outside, permitted, relative, rows, worst
 
 FOLDER = HERE / "hochmuth"
 TITLE = "recovery of a stretched red cell"
@@ -100,11 +100,10 @@ def figures(done, n):
         label = f"interior of {name[len('interior'):]} mPa s"
         times, ratios = ours(folder)
         _, tc, _ = fit(times, ratios, 1)
-        outside = 100 * (tc / high - 1 if tc > high else tc / low - 1 if tc < low else 0)
-        worst = max((r / sheet(t, ratios[0], ETA / GS, 1) - 1 for t, r in zip(times, ratios)), key=abs)
-        found += [Figure(f"{label}: time of recovery, outside the four cells' {low:.3f} to {high:.3f} s", outside, 0, "%", tc),
+        furthest = worst(r / sheet(t, ratios[0], ETA / GS, 1) - 1 for t, r in zip(times, ratios))
+        found += [Figure(f"{label}: time of recovery, outside the four cells' {low:.3f} to {high:.3f} s", outside(tc, low, high), 0, "%", tc),
                   relative(f"{label}: time of recovery, against eta/Gs", tc, ETA / GS, allowed),
-                  Figure(f"{label}: length over width, worst, against the sheet with eta/Gs", 100 * worst, WORST)]
+                  Figure(f"{label}: length over width, worst, against the sheet with eta/Gs", 100 * furthest, WORST)]
         found += Course(folder).kept(label)
     return found
 

@@ -7,7 +7,7 @@ and less in denser arrays; and K is the ratio of two numbers that both fall by a
 import math
 import pathlib
 
-from suite import Plot, Run, relative, rows
+from suite import PROGRAMS, Plot, Run, relative, rows
 
 HERE = pathlib.Path(__file__).parent
 TITLE = "drag of cubic arrays of spheres"
@@ -15,6 +15,7 @@ ACROSS = "particles along the diameter, about"
 RESOLUTIONS = (8, 12, 24)
 FRACTIONS = (0.027, 0.064, 0.125, 0.216, 0.45)
 ALLOWED = {8: (7.5, 36), 12: (5, 16), 24: (1, 3)}  # %: c <= 0.216; c = 0.45. At 24 the aim
+MISSED = {24: ("K at c = 0.216", "K at c = 0.45")}
 
 L, NU, RHO = 1e-3, 1e-6, 1000.0  # m, m^2/s, kg/m^3: of a cell; constant/fluid.yaml
 RE, LAYERS = 1e-3, 5  # Re = U a/nu
@@ -77,7 +78,7 @@ def run(c, n, prefix=""):
         f"system/observers.yaml:/flux/bins={N * LAYERS}",
         f"system/control.yaml:/endTime={3 * STEPS * tau:.8g} s",
         f"constant/fluid.yaml:/equationOfState={{type: tait, soundSpeed: {sound:.6g} m/s}}",
-        f"constant/flow.yaml:/bodyForce={force:.8g} m/s^2"], ("membraneMesh", "particleFill", "dmpFlow"))
+        f"constant/flow.yaml:/bodyForce={force:.8g} m/s^2"], PROGRAMS)
 
 
 def drag(folder, c, n):

@@ -4,7 +4,7 @@ The box is periodic along the wall and has a second one; what that changes is co
 """
 import math
 
-from suite import HERE, Plot, Run, module, permitted, relative, rows
+from suite import HERE, PROGRAMS, Plot, Run, module, permitted, relative, rows
 
 FOLDER = HERE / "sphereNearWall"
 TITLE = "sphere near a wall"
@@ -39,7 +39,7 @@ def run(way, x, n):
         f"system/control.yaml:/endTime={STEP * STEPS:g} s",
         f"system/mesh.yaml:/domain/size=[{side:g}, {side:g}, {1e6 * A * HIGH:g}] um",
         f"system/mesh.yaml:/bodies/0/centre=[0, 0, {1e6 * A * (x - HIGH / 2):g}] um",
-        f"constant/bodies.yaml:/sphere/motion/velocity={velocity} m/s"], ("membraneMesh", "particleFill", "dmpFlow"))
+        f"constant/bodies.yaml:/sphere/motion/velocity={velocity} m/s"], PROGRAMS)
 
 
 def expected(way, x):

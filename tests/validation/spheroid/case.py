@@ -2,7 +2,7 @@
 import math
 import pathlib
 
-from suite import TUTORIALS, Plot, Run, module, relative, rows
+from suite import PROGRAMS, TUTORIALS, Plot, Run, module, relative, rows
 
 HERE = pathlib.Path(__file__).parent
 TITLE = "spheroids in shear flow"
@@ -54,7 +54,7 @@ def run(name, n, r, direction, motion, strain):
         f"system/mesh.yaml:/bodies/0/axis={direction}",
         f"system/control.yaml:/endStrain={strain:g}",
         f"constant/flow.yaml:/inertia/Re={RE}",
-        f"constant/bodies.yaml:/body/motion={motion}"], ("membraneMesh", "particleFill", "dmpFlow"))
+        f"constant/bodies.yaml:/body/motion={motion}"], PROGRAMS)
 
 
 def torque(folder):
