@@ -104,9 +104,9 @@ class Verlet final : public ConjugateVerlet {
         Immersed::Vectors f = immersed_->force();
         double viscous = 0;
         if (immersed_->isViscous()) {
-            const Immersed::Vectors nodes = nodeVelocities(), elastic = f;
+            const Immersed::Vectors nodes = nodeVelocities(), elastic = keeps ? f : Immersed::Vectors();
             immersed_->addViscousForces(nodes, f);
-            for (std::size_t m = 0; m < f.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
+            for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
         }
         immersed_->spread(std::move(f), operators_.force());
         if (keeps) addMembraneRates(viscous);

@@ -167,11 +167,9 @@ void Immersed::findWeights() {
     fallbacks_ = 0;
     for (std::size_t m = 0; m < nodes_; ++m) {
         if (!(sums[m] > 0))
-            throw Failure(ExitCode::numerics,
-                          "node " + std::to_string(m) +
-                              " of the membranes, counted through all cells, has no fluid within " +
-                              std::to_string(radius_) +
-                              " m: the run has come apart. Start again from the last checkpoint with a smaller step");
+            throw Failure(ExitCode::numerics, "node " + std::to_string(m) +
+                                                  " of the membranes, counted through all cells, has no fluid within " +
+                                                  std::to_string(radius_) + " m: the run has come apart");
         if (!(absolute[m] <= largestWeights)) coefficients[m] = Vec4(1 / sums[m], 0, 0, 0);
         fallbacks_ += coefficients[m].tail<3>().isZero(0);
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k)
@@ -224,6 +222,10 @@ void Immersed::addStiffness(double factor, const Vectors& u, Vectors& f) const {
 
 void Immersed::addResistance(double time, const Vectors& u, Vectors& f) const {
     addStiffness(-time, u, f);
+    addDamping(u, f);
+}
+
+void Immersed::addDamping(const Vectors& u, Vectors& f) const {
     forCells([&](std::size_t c, std::size_t first, std::size_t last) {
         if (cells_[c].membrane.isViscous())
             damping_[c].addProduct(-1, {u.data() + first, last - first}, {f.data() + first, last - first});

@@ -43,6 +43,7 @@ class Immersed {
     Vectors interpolate(const Real* u) const;
     Vectors force() const;                                                 // of the membranes [N]
     void addStiffness(double factor, const Vectors& u, Vectors& f) const;  // f += factor K u
+    void addDamping(const Vectors& u, Vectors& f) const;                   // f -= C u
     void addResistance(double time, const Vectors& u, Vectors& f) const;   // f -= (time K + C) u
     double meanResistance(double time) const;  // a third of the trace of (time K + C), per node [N s/m]
     bool isViscous() const;

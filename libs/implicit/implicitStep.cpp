@@ -176,7 +176,7 @@ class Step final : public ImplicitStep {
             const Convergence c = solver_.solve(
                 scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
                 [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); });
-            statistics.innerIterations = membraneCorrection_.iterations();
+            statistics.innerIterations += membraneCorrection_.takeIterations();
             statistics.iterations += c.iterations;
             statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
             if (!c.reached) {

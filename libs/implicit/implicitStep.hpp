@@ -26,7 +26,7 @@
 // converge, or a bond would change by more than the case allows, the step is taken back and made in two halves by backward Euler.
 //
 // The state between steps: places at t^n, and in the store the acceleration a and the velocity there, u + (t^n - t_middle) a, of second
-// order as all else; the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
+// order as all else (after the first step u itself); the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
 // bodies are those of the middle.
 #pragma once
 #include <memory>

@@ -5,6 +5,8 @@
 // The system for x lives on the nodes alone. 1 + N K' is symmetric in the inner product of K', and conjugate gradients solve it there. So
 // the iterations of the whole become those of the fluid, however stiff the membrane is.
 #pragma once
+#include <utility>
+
 #include "coupling/immersed.hpp"
 #include "implicit/coarseGrid.hpp"
 
@@ -21,7 +23,7 @@ class MembraneCorrection {
     void apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time, const Field& inverse,
                const Field& r, Field& z);
 
-    long iterations() const { return iterations_; }  // so far
+    long takeIterations() { return std::exchange(iterations_, 0); }  // since it was asked last
 
   private:
     using Vectors = coupling::Immersed::Vectors;

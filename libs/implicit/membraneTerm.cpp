@@ -66,13 +66,12 @@ double MembraneTerm<Real>::power(const Field& v, const Field& w) {
 
 template <class Real>
 void MembraneTerm<Real>::addRates(sph::Account::Values& rates) const {
-    Vectors elastic = load_;
+    Vectors elastic = load_, viscous(nodes_.size(), Vec3::Zero());
     immersed_.addStiffness(-time_, nodes_, elastic);
-    Vectors both = load_;
-    immersed_.addResistance(time_, nodes_, both);
+    immersed_.addDamping(nodes_, viscous);
     for (std::size_t m = 0; m < nodes_.size(); ++m) {
         rates[sph::Account::elastic] -= nodes_[m].dot(elastic[m]);
-        rates[sph::Account::inMembranes] -= nodes_[m].dot(both[m] - elastic[m]);
+        rates[sph::Account::inMembranes] -= nodes_[m].dot(viscous[m]);
     }
 }
 

@@ -132,9 +132,9 @@ void RigidUnknowns<Real>::putProduct(double c1, const Field& u, const RealArray&
 }
 
 template <class Real>
-void RigidUnknowns<Real>::putResidual(double c1, double c2, const Field& u, const RealArray& force,
-                                      Field& residual) const {
+void RigidUnknowns<Real>::putResidual(double c1, double c2, const Field& u, const RealArray& force, Field& residual) {
     const sph::FluidModel& model = scene_.model();
+    gyroscopic_.resize(bodies().size());
     putRows(force, residual, [&](std::size_t b, const Wrench& sum) {
         Wrench row{sum.force + reaction_[b].force, sum.torque + reaction_[b].torque};
         if (!isRoot()) return row;
@@ -143,8 +143,8 @@ void RigidUnknowns<Real>::putResidual(double c1, double c2, const Field& u, cons
         const Mat3 I = inertiaInSpace(body);
         row.force += body.solid.mass * (c2 * rate.linear - c1 * (guess.linear - last.linear)) +
                      model.density * body.solid.volume * model.bodyForce;
-        row.torque +=
-            I * (c2 * rate.angular - c1 * (guess.angular - last.angular)) - guess.angular.cross(I * guess.angular);
+        gyroscopic_[b] = guess.angular.cross(I * guess.angular);
+        row.torque += I * (c2 * rate.angular - c1 * (guess.angular - last.angular)) - gyroscopic_[b];
         return row;
     });
 }
@@ -260,7 +260,7 @@ double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::
                    torque = inertiaInSpace(body) * (c1 * (now.angular - last.angular) - c2 * rate.angular);
         rates[sph::Account::kinetic] += now.linear.dot(force) + now.angular.dot(torque);
         rates[sph::Account::ofSolver] +=
-            now.linear.dot(body.wrench.force - force) + now.angular.dot(body.wrench.torque - torque);
+            now.linear.dot(body.wrench.force - force) + now.angular.dot(body.wrench.torque - torque - gyroscopic_[b]);
     }
     return continuation;
 }

@@ -63,7 +63,7 @@ class RigidUnknowns final : public Term<Real> {
     void extrapolate(double h, Field& u) const;
     // Rows of bodies in A u, and in the residual of u.
     void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
-    void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual) const;
+    void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual);
     // P^T of forces alone.
     void putForces(const particles::RealArray& force, Field& rows) const;
 
@@ -122,6 +122,7 @@ class RigidUnknowns final : public Term<Real> {
     std::vector<bodies::RigidState> saved_;         // at the beginning of the step
     std::vector<double> kappa_;                     // of groups().near [N s/m]
     std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies
+    std::vector<Vec3> gyroscopic_;                  // torque that the system has of each body, on the root
     std::vector<sph::Wrench> reaction_, residual_;  // of the continuation, this rank's part; of the last r, whole
     std::vector<Eigen::LLT<Matrix6>> inertia_, particles_;  // D, and P^T P
     Field shared_;

@@ -51,6 +51,9 @@ void CsvSeries::cutAfter(double time) {
         std::getline(written, line);
         kept = line + '\n';
         while (std::getline(written, line) && std::strtod(line.c_str(), nullptr) <= time) kept += line + '\n';
+        if (written.bad() || kept == "\n")
+            throw Failure(ExitCode::io,
+                          fmt::format("cannot read {}, which this run has written: was it moved?", path_.string()));
     }
     file_.close();
     writeFileAtomically(path_, kept);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/atomicFile.hpp"
 #include "core/communicator.hpp"
@@ -97,7 +98,10 @@ void VtkSeries::start() {
 
 void VtkSeries::goBack(double time) {
     if (!started_) return;
-    onRoot(comm_, [&] { keepBefore(time + slack * std::abs(time)); });
+    onRoot(comm_, [&] {
+        const double last = time + slack * std::abs(time);
+        if (!entries_.empty()) keepBefore(std::nextafter(last, std::numeric_limits<double>::infinity()));
+    });
     MPI_Bcast(&number_, 1, MPI_INT, 0, comm_);
 }
 

@@ -122,6 +122,16 @@ void checkScheme(const Case& c, Problems& problems) {
         problems.add(numerics, "operators",
                      "found corrected, which let particles clump without shifting; write 'shifting: {coefficient: 1}' "
                      "beside it, or operators: plain");
+    constexpr double furthestLayers = 20;  // largest over least viscosity: sph/operators.hpp
+    const auto [least, largest] = c.viscosities();
+    if (c.isConjugate() && largest > furthestLayers * least * (1 + 1e-9))
+        problems.add(
+            {"constant/fluid.yaml", 0, 0}, "layers",
+            fmt::format("found viscosities from {} to {}; the operators of 'integrator: {}' with 'operators: {}' "
+                        "keep motion bounded at a jump of at most {:g}: bring them nearer, or take 'integrator: "
+                        "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
+                        formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
+                        c.numerics.integrator, c.numerics.operators, furthestLayers));
     if (c.mesh.bodies.empty() || !c.isConjugate() || n.isImplicit()) return;
     problems.add(numerics, corrected ? "operators" : "coupling",
                  std::string("found ") + (corrected ? "corrected" : "immersed") +
@@ -186,8 +196,6 @@ void checkImmersed(const Case& c, const CellSettings& cell, const std::string& k
     }
 }
 
-constexpr double furthestLayers = 20;  // largest over least viscosity: sph/operators.hpp
-
 // Layers of other viscosities lie between two walls, each at least a spacing thick, without cells or bodies.
 void checkLayers(const Case& c, Problems& problems) {
     const Mark fluid{"constant/fluid.yaml", 0, 0};
@@ -207,15 +215,6 @@ void checkLayers(const Case& c, Problems& problems) {
                          (c.mesh.cells.empty() ? "bodies; remove these, or the layers"
                                                : "cells; remove these, or the layers (the fluid inside a cell has "
                                                  "'interior: {viscosityRatio}' in constant/membranes.yaml)"));
-    const auto [least, largest] = c.viscosities();
-    if (c.isConjugate() && largest > furthestLayers * least * (1 + 1e-9))
-        problems.add(
-            fluid, "layers",
-            fmt::format("found viscosities from {} to {}; the operators of 'integrator: {}' with 'operators: {}' "
-                        "keep motion bounded at a jump of at most {:g}: bring them nearer, or take 'integrator: "
-                        "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
-                        formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
-                        c.numerics.integrator, c.numerics.operators, furthestLayers));
     const double half = 0.5 * c.mesh.domain.size[wall], dx = c.spacing();
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const double below = i > 0 ? layers[i - 1].above : -half, above = layers[i].above;
@@ -285,14 +284,14 @@ void checkTogether(const Case& c, Problems& problems) {
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
-    std::set<std::string> names{"fluid", "walls", "bodies", "holes"};
+    std::set<std::string> names{"fluid", "walls", "bodies", "holes", "fault"};
     for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         const std::string& name = surface.settings.name;
-        if (!names.insert(name).second)
-            problems.add(
-                mesh, surface.key + ".name",
-                "the name '" + name +
-                    "' is taken; each cell and body needs its own, and fluid, walls, bodies and holes are reserved");
+        if (!names.insert(name).second || name.starts_with("fault_"))
+            problems.add(mesh, surface.key + ".name",
+                         "the name '" + name +
+                             "' is taken; each cell and body needs its own, and fluid, walls, bodies, holes, fault and "
+                             "what begins with fault_ are reserved");
         const std::string user = "the " + surface.kind + " '" + name + "' of system/mesh.yaml";
         if (surface.kind == "cell")
             requireEntry(c.membranes.types, static_cast<const CellSettings&>(surface.settings).type(), user,

@@ -105,9 +105,12 @@ void Integrator::resume(const State& state, Time& time) {
 }
 
 void Integrator::goBack(const State& state, Time& time) {
+    largestBalance_ = largestDensityBalance();
+    const auto statistics = implicit_ ? implicit_->statistics : implicit::ImplicitStep::Statistics{};
     rkl2_ = nullptr;
     scheme_.reset(), conjugate_.reset(), implicit_.reset(), scene_.coupling.reset();
     make();
+    if (implicit_) implicit_->statistics = statistics;
     resume(state, time);
 }
 
@@ -153,9 +156,11 @@ void Integrator::estimateRates() {
 }
 
 double Integrator::largestDensityBalance() const {
-    if (implicit_) return implicit_->largestDensityBalance();
-    if (conjugate_) return conjugate_->largestDensityBalance();
-    return scene_.coupling ? scene_.coupling->densityBalance().largest() : 0;
+    const double since = implicit_         ? implicit_->largestDensityBalance()
+                         : conjugate_      ? conjugate_->largestDensityBalance()
+                         : scene_.coupling ? scene_.coupling->densityBalance().largest()
+                                           : 0;
+    return std::max(since, largestBalance_);
 }
 
 void Integrator::updateLimits(Time& time) {

@@ -35,7 +35,7 @@ class Integrator {
     void resume(const State& state, Time& time);  // after a restart
     // The same where the scene has been put back within a run.
     void goBack(const State& state, Time& time);
-    // From the next step on: none longer than this [s], and of the implicit step backward Euler where damped.
+    // From the next step that is chosen on: none longer than this [s], and of the implicit step backward Euler where damped.
     void shorten(double longest, bool damped);
 
     // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics), on all ranks, where a step
@@ -62,6 +62,7 @@ class Integrator {
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
+    double largestBalance_ = 0;                                 // before the last way back
     double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
     long rebuilds_ = -1;
 };

@@ -29,7 +29,6 @@ std::optional<double> valueOf(const Case& input, const std::vector<Group>& group
     if (axis == "implicit.step") return numerics.isImplicit() ? std::optional(numerics.implicit.step) : std::nullopt;
     if (axis == "implicit.tolerance")
         return numerics.isImplicit() ? std::optional(numerics.implicit.tolerance) : std::nullopt;
-    if (axis == "safety") return numerics.isImplicit() ? std::nullopt : std::optional(numerics.safety);
     if (axis == "shifting.coefficient")
         return numerics.shifting ? std::optional(numerics.shifting->coefficient) : std::nullopt;
     if (axis == "fill.jitter") return input.mesh.fill.jitter;

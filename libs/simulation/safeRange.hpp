@@ -2,10 +2,9 @@
 // built into the library.
 //
 // axis                 | value
-// a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ...
+// a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of the first cell
 // implicit.step         | strain of an implicit step; with other integrators none
 // implicit.tolerance    | of the implicit step's solver; with other integrators none
-// safety                | of the explicit step's limits; with implicit none
 // bulkModulus           | that of the case over what `soundSpeed: auto` stands for
 // shifting.coefficient  | none without shifting
 // fill.jitter           | in spacings

@@ -38,7 +38,7 @@ class Schedule {
     // Of the state in the scene.
     void saveCheckpoint(const coupling::Scene& scene, const Time& time);
     RunRecord& record() { return record_; }
-    // Last results and checkpoint, table of figures; the exit code.
+    // Last checkpoint, table of figures; the exit code.
     ExitCode end(const coupling::Scene& scene, const Time& time);
 
   private:

@@ -43,7 +43,9 @@ void Rkl2Settings::addLimits(const FlowState& flow, double t, double lambda, Ste
 
 Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting, Account* account)
     : system_(system), forces_(forces), shifting_(shifting), account_(account) {
-    if (account_) forces_.keepAccount();
+    if (!account_) return;
+    forces_.keepAccount();
+    account_->lastKnown = false;  // of a checkpoint of another scheme
 }
 
 void Rkl2::start() {

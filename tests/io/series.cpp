@@ -130,8 +130,13 @@ TEST(VtkSeries, RestartDropsWhatComesAfterIt) {
 TEST(VtkSeries, GoesBackWithinARun) {
     TemporaryFolder folder;
     VtkSeries series(MPI_COMM_WORLD, folder.path(), "fluid", 0, 0);
+    series.start();
     series.goBack(0);  // nothing written yet
-    for (int i = 0; i < 5; ++i) series.write(0.1 * i, i, piece(i));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "results" / "fluid.pvd"));
+    series.write(0, 0, piece(0));
+    series.goBack(0);
+    EXPECT_EQ(times(folder.path()), std::vector<double>{0.0}) << "the first entry stays";
+    for (int i = 1; i < 5; ++i) series.write(0.1 * i, i, piece(i));
     series.goBack(0.1 * 3);
     EXPECT_EQ(times(folder.path()), (std::vector<double>{0.0, 0.1, 0.2, 0.1 * 3})) << "the entry at that time stays";
     series.write(0.35, 3.5, piece(3.5));

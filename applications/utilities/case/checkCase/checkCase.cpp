@@ -19,6 +19,7 @@
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
+#include "simulation/watch.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -126,6 +127,8 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
         burstSteps;
+    if (const simulation::Fault fault = simulation::Watch(input, scene).find(scene, time))
+        throw Failure(ExitCode::numerics, fault.text);
     const auto [steps, seconds] = predictRun(input, dt, integrator.limits().stages, perStep);
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
     app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)",
