@@ -1,6 +1,5 @@
 """Maps of the stability runs (SVG and PNG, by gnuplot) and the tables of docs/stability.md, from results.csv and libs/simulation/safeRange.csv."""
 import csv
-import math
 import pathlib
 import subprocess
 
@@ -134,7 +133,11 @@ def explicitScenes(table):
     for run in table:
         if run["times"] and run["map"] == "limits":
             found.setdefault((label(run), run["limit"]), []).append(run)
-    return {(name, limit if limit != "least" else next((r["boundBy"] for r in runs if r["boundBy"]), limit)): runs for (name, limit), runs in found.items()}
+    merged = {}  # where `least` is a limit that has runs by its name too
+    for (name, limit), runs in found.items():
+        binding = limit if limit != "least" else next((r["boundBy"] for r in runs if r["boundBy"]), limit)
+        merged.setdefault((name, binding), []).extend(runs)
+    return merged
 
 
 def drawExplicit(table, safe):
@@ -163,17 +166,18 @@ def drawChanges(table, safe):
     lines = list(dict.fromkeys((r["axis"], r["value"]) for r in runs))
     order = list(dict.fromkeys(axis for axis, _ in lines))
     lines.sort(key=lambda line: (order.index(line[0]), float(line[1]) if line[1].replace(".", "").replace("-", "").isdigit() else 0))
-    points, tics = [], []
-    for k, (axis, value) in enumerate(reversed(lines)):
-        tics.append(f"'{axis} {value}' {k}")
+    def verdicts(axis, value):
         for x, (scene, scheme) in enumerate(columns):
             here = [r for r in runs if (r["axis"], r["value"], r["scene"]) == (axis, value, scene)]
             if scheme == "implicit":
-                verdict = worst([r for r in here if r["scheme"] == "implicit" and r["twin"] and float(r["step"]) <= 0.05])
+                yield x, worst([r for r in here if r["scheme"] == "implicit" and r["twin"] and float(r["step"]) <= 0.05])
             else:
-                verdict = worst([r for r in here if r["times"] == "0.9"])
-            if verdict:
-                points.append((x, k, verdict))
+                yield x, worst([r for r in here if r["times"] == "0.9"])
+    lines = [line for line in lines if any(verdict for _, verdict in verdicts(*line))]
+    points, tics = [], []
+    for k, (axis, value) in enumerate(reversed(lines)):
+        tics.append(f"'{axis} {value}' {k}")
+        points += [(x, k, verdict) for x, verdict in verdicts(axis, value) if verdict]
     if not points:
         return
     names = [f'"{NAMES[scene]}\\n{"implicit, 0.05" if scheme == "implicit" else "Verlet, 0.9 x"}" {x}' for x, (scene, scheme) in enumerate(columns)]
@@ -233,17 +237,17 @@ def draw():
 
 
 def outside(table, safe):
-    """Runs that are not stable although every axis is inside its declared range."""
+    """Runs that are not stable although every axis is inside its declared range; explicit steps up to the least limit."""
     axes = {"jitter": "fill.jitter", "resolution": "a/dx", "bulk modulus": "bulkModulus", "shifting": "shifting.coefficient", "tolerance": "implicit.tolerance"}
     def inside(run):
         integrator = "implicit" if run["scheme"] == "implicit" else run["scheme"].split()[0]
-        values = {"Ca": run["Ca"], "Re": run["Re"], "lambda": run["lambda"], "implicit.step": run["step"], "safety": run["times"], axes.get(run["axis"], run["axis"]): run["value"]}
+        values = {"Ca": run["Ca"], "Re": run["Re"], "lambda": run["lambda"], "implicit.step": run["step"], axes.get(run["axis"], run["axis"]): run["value"]}
         for axis, value in values.items():
-            limits = safe.get((axis, integrator), safe.get((axis, "any")))
+            limits = safe.get((axis, integrator))
             try:
                 if limits and value and not limits[0] * 0.9999 <= float(value) <= limits[1] * 1.0001:
                     return False
             except ValueError:
                 return False
         return True
-    return [run for run in table if run["verdict"] != "stable" and inside(run)]
+    return [run for run in table if run["verdict"] != "stable" and (not run["times"] or (float(run["times"]) <= 1 and run["limit"] in ("least", run["boundBy"]))) and inside(run)]

@@ -11,12 +11,12 @@ new run is begun after so many core-seconds. results.csv has a row for each run,
     inaccurate   it ended, outside one of them; the first to be left, and at which strain, is its sign
     failed       it did not end: exit code 3, or more than LARGEST core-seconds; the message's kind is its sign
 """
+import argparse
 import concurrent.futures
 import csv
 import datetime
 import json
 import math
-import os
 import pathlib
 import re
 import resource
@@ -65,7 +65,7 @@ class Batch:
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="work.", dir=directory))
         known = subprocess.run([binaries / "listModels", "numerics"], capture_output=True, text=True).stdout if (binaries / "listModels").exists() else ""
         self.always = ["-set", "system/numerics.yaml:/retreats=0"] if "retreats" in known else []  # what fails is to be seen
-        self.environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+        self.environment = suite.ENVIRONMENT
 
     def call(self, run, case, program, ranks=1, more=()):
         """Exit code and what it said on standard error."""
@@ -142,9 +142,11 @@ def gathered(case, run, code):
     noise = None
     if not scenes.SCENES[run.scene][1] and code == 0:
         pieces = sorted((case / "results").glob("fluid/*.vtp")) or sorted((case / "results").glob("**/fluid*.vtp"))
-        last = vtp.File(pieces[-1])
-        gap = max(point[2] for point in last.points) - min(point[2] for point in last.points)
-        squares = [(u - scenes.RATE * z)**2 + v * v + w * w for (_, _, z), (u, v, w) in zip(last.points, last.arrays["velocity"])]
+        last = [vtp.File(piece) for piece in pieces if piece.parent == pieces[-1].parent]  # of all ranks
+        points = [point for piece in last for point in piece.points]
+        velocities = [u for piece in last for u in piece.arrays["velocity"]]
+        gap = max(point[2] for point in points) - min(point[2] for point in points)
+        squares = [(u - scenes.RATE * z)**2 + v * v + w * w for (_, _, z), (u, v, w) in zip(points, velocities)]
         noise = math.sqrt(sum(squares) / len(squares)) / (scenes.RATE * gap / 2)
     return {"shearRate": record.get("parameters", {}).get("shearRate_1_s"), "boundBy": binding[0] if binding else "", "noise": noise, "curves": curves, "halvings": performance.get("halvings"),
             "iterationsPerStep": performance.get("iterationsPerStep"), "mostIterations": record.get("extremes", {}).get("mostIterations"),
@@ -178,10 +180,11 @@ def cellKey(row, ending):
     return next((key for key in row if key.endswith(ending)), None)
 
 
-def late(curve):
-    """Mean effective viscosity over the second half."""
-    rows = [row["effectiveViscosity"] for row in curve if row["strain"] > 0.5 * curve[-1]["strain"]] if curve else []
-    return sum(rows) / len(rows) if rows else math.nan
+def late(curve, end):
+    """Mean effective viscosity over the second half of the strains to `end`, between looks along straight lines, so that it does not hang on where these fall."""
+    strains = [0.5 * end, *(row["strain"] for row in curve if 0.5 * end < row["strain"] < end), end]
+    values = [suite.at(curve, strain, "effectiveViscosity") for strain in strains]
+    return sum(0.5 * (a + b) * (t - s) for s, t, a, b in zip(strains, strains[1:], values, values[1:])) / (0.5 * end)
 
 
 def judge(run, left, twin):
@@ -222,7 +225,8 @@ def judge(run, left, twin):
         look("energy", [(row["strain"], row["kineticEnergy_J"] / suite.at(theirs["balance"], row["strain"], "kineticEnergy_J") - 1) for row in balance],
              ENERGY, "kinetic energy off")
         if left["code"] == 0 and wall:
-            figures["stressError"] = abs(late(wall) / late(theirs["wall"]) - 1)
+            end = min(wall[-1]["strain"], theirs["wall"][-1]["strain"])
+            figures["stressError"] = abs(late(wall, end) / late(theirs["wall"], end) - 1)
             if not figures["stressError"] <= STRESS:
                 found.append(("wall stress off", wall[-1]["strain"]))
     if left["noise"] is not None:
@@ -262,13 +266,13 @@ def row(run, left, twin):
 
 
 def tabulate(directory, runs):
-    """results.csv from all that DIRECTORY holds, but for runs that ended and whose twin has not been run."""
+    """results.csv from all that DIRECTORY holds, but for runs that ended and whose twin did not, or has not been run."""
     kept = {run.name: json.loads(path.read_text()) for run in runs if (path := directory / (run.name + ".json")).exists()}
     def twinOf(run):
         twin = kept.get(run.twin)
         return twin if twin and twin["code"] == 0 else None
     table = [row(run, kept[run.name], twinOf(run)) for run in runs
-             if run.name in kept and (kept[run.name]["code"] or len(kept[run.name]["curves"]["balance"]) > 2) and (not run.twin or run.twin in kept or kept[run.name]["code"])]
+             if run.name in kept and (kept[run.name]["code"] or len(kept[run.name]["curves"]["balance"]) > 2) and (not run.twin or twinOf(run) or kept[run.name]["code"])]
     with open(HERE / "results.csv", "w") as text:
         writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
         writer.writeheader()
@@ -277,19 +281,20 @@ def tabulate(directory, runs):
 
 
 def main(words):
-    def option(name, default):
-        return words.pop(words.index(name) + 1) if name in words else default
-    jobs, stage, seconds = int(option("-jobs", 1)), int(option("-stage", 99)), float(option("-seconds", math.inf))
-    only = words[words.index("-only") + 1 :] if "-only" in words else []
-    words = [word for word in (words[: words.index("-only")] if only else words) if word not in ("-jobs", "-stage", "-seconds", "-only")]
-    if len(words) != 2:
-        raise SystemExit(__doc__)
-    directory = pathlib.Path(words[1]).resolve()
-    batch, runs = Batch(pathlib.Path(words[0]).resolve(), directory), scenes.everyRun()
-    wanted = [run for run in runs if run.stage <= stage and all(word in run.name for word in only) and not (directory / (run.name + ".json")).exists()]
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("binaries", type=pathlib.Path)
+    parser.add_argument("directory", type=pathlib.Path)
+    parser.add_argument("-jobs", type=int, default=1)
+    parser.add_argument("-stage", type=int, default=99)
+    parser.add_argument("-seconds", type=float, default=math.inf)
+    parser.add_argument("-only", nargs="+", default=[])
+    asked = parser.parse_args(words)
+    directory = asked.directory.resolve()
+    batch, runs = Batch(asked.binaries.resolve(), directory), scenes.everyRun()
+    wanted = [run for run in runs if run.stage <= asked.stage and all(word in run.name for word in asked.only) and not (directory / (run.name + ".json")).exists()]
 
     def one(run):
-        if batch.spent > seconds:
+        if batch.spent > asked.seconds:
             return
         try:
             left = batch.make(run)
@@ -298,7 +303,7 @@ def main(words):
             return
         print(f"{run.name:90s} {left['code']} {left['coreSeconds']:.1f} s {left['message'][:100]}", flush=True)
     try:
-        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
             for done in [pool.submit(one, run) for run in wanted]:
                 done.result()
     finally:
