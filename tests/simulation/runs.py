@@ -483,6 +483,12 @@ def poiseuille(z, t):  # over F L^2/nu
     return 0.5 * y * (1 - y) - math.fsum(4 / (k * math.pi) ** 3 * math.sin(k * math.pi * y) * math.exp(-((k * math.pi) ** 2) * t) for k in n)
 
 
+def largest(errors):
+    errors = list(errors)
+    assert errors and all(map(math.isfinite, errors)), errors
+    return max(errors)
+
+
 def profile_error(case, exact, scale):
     """Largest, over the times, of the mean square error of u over that of the exact one; L = 1 mm, nu = 1e-6 m^2/s."""
     errors = []
@@ -491,13 +497,13 @@ def profile_error(case, exact, scale):
         pairs = [(row["u_m_s"], scale * exact(row["position_m"] / 1e-3, t)) for row in rows if row["time_s"] == t]
         errors.append(math.sqrt(sum((u - e) ** 2 for u, e in pairs) / sum(e * e for _, e in pairs)))
     assert len(errors) == 5, errors
-    return max(errors)
+    return largest(errors)
 
 
 def decay_error(case):
     rows, rate = table(case, "balance"), 4e-6 * (2 * math.pi / 1e-3) ** 2
     energy = [row["kineticEnergy_J"] for row in rows]
-    return max(abs(e / energy[0] - math.exp(-rate * row["time_s"])) for e, row in zip(energy, rows))
+    return largest(abs(e / energy[0] - math.exp(-rate * row["time_s"])) for e, row in zip(energy, rows))
 
 
 def test_rkl2(folder):
@@ -633,18 +639,23 @@ def test_automatic(folder):
 
 
 def close(a, b, tolerance):
-    assert len(a) == len(b), (len(a), len(b))
-    scale = [max(abs(float(row[k])) for row in a) or 1.0 for k in range(len(a[0]))]
-    worst = max(abs(float(x) - float(y)) / s for p, q in zip(a, b) for x, y, s in zip(p, q, scale))
-    assert worst <= tolerance, f"largest relative difference {worst:.3g}, allowed {tolerance}"
+    """Tables of the same shape, every number of b within `tolerance` of that of a, over the largest of its column in a."""
+    assert len(a) == len(b) > 0, (len(a), len(b))
+    assert {len(row) for row in (*a, *b)} == {len(a[0])}, "rows of unequal width"
+    for k, (mine, theirs) in enumerate(zip(zip(*a), zip(*b))):
+        mine, theirs = ([float(v) for v in column] for column in (mine, theirs))
+        scale = max(map(abs, mine)) or 1.0
+        off = [(row, x, y) for row, (x, y) in enumerate(zip(mine, theirs)) if not abs(x - y) <= tolerance * scale]
+        assert not off, f"column {k}, allowed {tolerance} of {scale:.6g}; row, number and other number: {off[:3]}"
 
 
 def same_motions(motions, length, rate, tolerance=1e-6):
     """Rows of the observer body: place, axis and rotation, velocity (of the order of 1 mm/s), angular velocity."""
     scales = 3 * [length] + 7 * [1] + 3 * [1e-3] + 3 * [rate]
     for other in motions[1:]:
-        assert len(other) == len(motions[0])
+        assert len(other) == len(motions[0]) > 0
         for a, b in zip(motions[0], other):
+            assert len(a) == len(b) >= 18, (len(a), len(b))
             assert all(abs(x - y) < tolerance * scale for x, y, scale in zip(a[2:18], b[2:18], scales)), (a, b)
 
 
@@ -749,10 +760,11 @@ def test_ranks(folder):
         for ranks in (1, 2, 4):
             case = copied(start, folder / f"{precision}{ranks}")
             run(case, "dmpFlow", "-set", f"system/numerics.yaml:/precision={precision}", ranks=ranks)
-            results[ranks] = (series(case, "balance"), series(case, "deformation"))
+            results[ranks] = {observer: table(case, observer) for observer in ("balance", "deformation")}
         for ranks in (2, 4):
-            for one, other in zip(results[1], results[ranks]):
-                close([row[:6] + row[13:] for row in one], [row[:6] + row[13:] for row in other], tolerance)
+            for observer, rows in results[1].items():
+                names = [name for name in rows[0] if name not in ("momentum_y_Ns", "momentum_z_Ns")]  # sums that all but cancel
+                close(*([[row[name] for name in names] for row in found[observer]] for found in (results[1], results[ranks])), tolerance)
 
 
 def test_stop(folder):
@@ -822,7 +834,6 @@ def test_endings(folder):
                    "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", "-set", "system/numerics.yaml:/retreats=0",
                    ranks=ranks, code=3).stderr
         assert said.count("diverged") == 1 and "[rank" not in said, said
-    before = sorted(case.rglob("*"))
     for extra in ("results", "postProcessing", "checkpoints"):
         shutil.rmtree(case / extra, ignore_errors=True)
     before = sorted(p for p in case.rglob("*") if "log" not in p.name)
