@@ -43,9 +43,8 @@ def main(cases):
         print(f"{case:28s}" + "".join(f"{100 * e:10.3f} %" for e in row))
     for first, second in zip(table, table[1:]):
         print(f"{'  order':28s}" + "".join(f"{math.log2(a / b):10.2f}  " for a, b in zip(first, second)))
-    worst = max(table[-1])
-    good = worst <= TOLERANCE
-    print(f"{'within' if good else 'OUTSIDE'} the tolerance: {100 * worst:.3f} % against {100 * TOLERANCE:g} % in {cases[-1]}")
+    good = all(error <= TOLERANCE for error in table[-1])
+    print(f"{'within' if good else 'OUTSIDE'} the tolerance: {100 * max(table[-1]):.3f} % against {100 * TOLERANCE:g} % in {cases[-1]}")
     return 0 if good else 1
 
 

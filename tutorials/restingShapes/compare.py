@@ -22,4 +22,4 @@ radius = math.sqrt(disc["area_m2"] / (4 * math.pi))
 errors = disc["energy"] / energy - 1, 0.5 * (disc["extentX_m"] + disc["extentY_m"]) / (2 * radius * diameter) - 1
 print(f"shape equations at the discocyte's reduced volume: energy {energy:.4f}, diameter {2e6 * radius * diameter:.3f} um; "
       f"differences {errors[0]:+.2%}, {errors[1]:+.2%}")
-raise SystemExit(max(map(abs, errors)) > 0.01)
+raise SystemExit(not all(abs(error) <= 0.01 for error in errors))

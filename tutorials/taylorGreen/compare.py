@@ -39,7 +39,8 @@ def main(cases):
     before = None
     for case in cases:
         points = decay(case)
-        error = max(abs(e - math.exp(-RATE * t)) for t, e in points)
+        found = [abs(e - math.exp(-RATE * t)) for t, e in points]
+        error = max(found) if all(map(math.isfinite, found)) else math.nan
         order = f"{math.log2(before / error):8.2f}" if before else " " * 8
         print(f"{case:28s}{100 * error:16.3f} %{order}{viscosity(points):12.4f}")
         before = error

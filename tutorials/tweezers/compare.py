@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Diameters of the stretched cell beside the experiment's error bars. Exit code 1 where one lies outside."""
+"""Diameters of the stretched cell beside the experiment's error bars. Exit code 1 where one lies outside, or none was computed at a force of the experiment."""
 import csv
 import sys
 
@@ -8,7 +8,7 @@ with open("reference/mills2004.csv", newline="") as file:
 with open("postProcessing/relax/0/rbc.csv", newline="") as file:
     computed = list(csv.DictReader(file))
 
-outside = 0
+compared = outside = 0
 print(f"{'force [pN]':>10}  {'axial [um]':>10} {'experiment':>22}  {'transverse [um]':>15} {'experiment':>20}")
 for row in computed:
     force = 1e12 * float(row["force_N"])
@@ -20,8 +20,11 @@ for row in computed:
         value = 1e6 * float(row[name + "Diameter_m"])
         low, high = float(bars[name + "Low_um"]), float(bars[name + "High_um"])
         inside = low <= value <= high
+        compared += 1
         outside += not inside
         line += f"  {value:{width}.2f} {'in' if inside else 'NOT in'} {low:.2f} .. {high:.2f}"
     print(line)
+if not compared:
+    sys.exit("no stage has a force of the experiment: nothing was compared")
 print("both diameters lie within the error bars at every force" if outside == 0 else f"{outside} diameters lie outside the error bars")
 sys.exit(outside > 0)
