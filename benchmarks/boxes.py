@@ -7,15 +7,13 @@ Runs what DIRECTORY does not hold yet, one folder for each row, and prints the t
 Boxes are along the flow, the vorticity and across the gap, in radii.
 """
 import json
-import os
 import pathlib
 import subprocess
 import sys
 
-from tutorialCase import RADIUS, TUTORIALS, prepare, sized
+from tutorialCase import RADIUS, TUTORIALS, prepare, sized  # and makes the modules of tests/validation known, these those of tutorials
 
-sys.path[:0] = [str(TUTORIALS), str(TUTORIALS.parent / "tests" / "validation")]
-from suite import at, rows
+from suite import ENVIRONMENT, at, rows, worst
 from summary import series, strainOfTurn
 
 CAPSULE = ("capsuleShear", "capsule", "/implicit/step=0.05")
@@ -54,7 +52,7 @@ def run(case, binaries, ranks, tutorial, cell, step, perRadius, box, strain, *se
         *sized([length * RADIUS for length in box], RADIUS / perRadius), "system/numerics.yaml:" + step,
         f"system/control.yaml:/endStrain={strain}", f"system/control.yaml:/write/strain={strain}", *settings])
     subprocess.run(["mpirun", "-np", str(ranks), binaries / "dmpFlow", "-case", case, *options], check=True,
-                   env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
+                   env=ENVIRONMENT)
 
 
 def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings):
@@ -68,9 +66,9 @@ def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings
     else:
         values = [row["D12_inertia"] for row in shape]
         result = f"{min(values):.4f} to {max(values):.4f}, period {strainOfTurn(shape):.2f}"
-        error = f"{max(abs(row['D12_inertia'] - at(reference, row['strain'], 'D12_inertia')) for row in shape if row['strain'] <= reference[-1]['strain']):.4f}"
-    volume = max(abs(row[f"{cell}_volumeChange"]) for row in balance)
-    density = max(abs(row["density_mean"] / balance[0]["density_mean"] - 1) for row in balance)
+        error = f"{abs(worst(row['D12_inertia'] - at(reference, row['strain'], 'D12_inertia') for row in shape if row['strain'] <= reference[-1]['strain'])):.4f}"
+    volume = abs(worst(row[f"{cell}_volumeChange"] for row in balance))
+    density = abs(worst(row["density_mean"] / balance[0]["density_mean"] - 1 for row in balance))
     crossed = max(row["changedSide"] for row in balance) + balance[-1]["guardMoves"]
     stress = [row["effectiveViscosity"] for row in series(case, "wall", "wallStress.csv") if row["strain"] > strain - 1]
     particles = record["parameters"]["particles"]

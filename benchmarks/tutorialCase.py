@@ -2,8 +2,11 @@
 import pathlib
 import shutil
 import subprocess
+import sys
 
-TUTORIALS = pathlib.Path(__file__).resolve().parents[1] / "tutorials"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tests" / "validation"))
+from suite import TUTORIALS, sets
+
 RADIUS = 4  # um, of the cells of capsuleShear and rbcShear
 
 
@@ -15,7 +18,7 @@ def sized(box, spacing):
 
 def prepare(case, binaries, tutorial, settings):
     """Meshed and filled, unless it exists. Returns the options that hold for every program of the case."""
-    options = ["-quiet", *(word for setting in settings for word in ("-set", setting))]
+    options = ["-quiet", *sets(settings)]
     if not case.exists():
         part = case.with_name(case.name + ".part")
         shutil.rmtree(part, ignore_errors=True)

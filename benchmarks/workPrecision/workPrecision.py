@@ -78,7 +78,7 @@ def largest(*parts):
     """Largest error of the case's figures in per cent, of those with one of these parts in their names if there are any."""
     def error(case, done, n):
         figures = [figure for figure in case.figures(done, n) if figure.unit == "%"]
-        return max(abs(figure.error) for figure in figures if not parts or any(part in figure.name for part in parts))
+        return abs(suite.worst(figure.error for figure in figures if not parts or any(part in figure.name for part in parts)))
     return error
 
 
@@ -105,7 +105,7 @@ def turned(case, done, n):
     ((Ca, course),) = case.cells.courses(done)
     theirs = case.cells.reference(Ca)
     shapes = [course.at(0.5 * k, "D12_inertia") / suite.at(theirs, 0.5 * k, "D12_inertia") - 1 for k in range(1, int(2 * QUARTER))]
-    return 100 * max(abs(error) for error in (course.turn(90) / turn(theirs, 90) - 1, *shapes))
+    return 100 * abs(suite.worst((course.turn(90) / turn(theirs, 90) - 1, *shapes)))
 
 
 FLUID = (16, 32, 64)
@@ -166,11 +166,11 @@ def recorded():
         return list(csv.DictReader(text))
 
 
-def keep(name, scheme, n, record, part, error):
+def keep(name, scheme, n, record, part, error, machine, day):
     """part: of the way that the run has gone, over 1 where it went further; its core-seconds are for the way."""
     point = {"case": name, "scheme": scheme, "resolution": n, "particles": round(record["parameters"]["particles"]),
              "error_percent": "" if error is None else f"{error:.4g}", "coreSeconds": f"{record['performance']['processorSeconds'] / part:.3g}",
-             "part": f"{part:.3g}", "machine": suite.machine(), "date": datetime.date.today().isoformat()}
+             "part": f"{part:.3g}", "machine": machine, "date": day}
     points = [p for p in recorded() if any(p[key] != str(point[key]) for key in ("case", "scheme", "resolution"))] + [point]
     points.sort(key=lambda p: (list(DIAGRAMS).index(p["case"]), list(DIAGRAMS[p["case"]].lines).index(p["scheme"]), int(p["resolution"])))
     with open(HERE / "results.csv", "w") as text:
@@ -198,7 +198,7 @@ def measure(name, scheme, n, binaries, ranks, folder, begin):
     run = replace(run, settings=[*run.settings, *diagram.settings, *own])
     done = {run.name: folder / (f"begun-{run.name}" if begun else run.name)}
     record = suite.execute(run, done[run.name], binaries, ranks)
-    keep(name, scheme, n, record, PART if begun else 1, None if begun else diagram.error(case, done, n))
+    keep(name, scheme, n, record, PART if begun else 1, None if begun else diagram.error(case, done, n), *suite.origin(record))
 
 
 def measurePeer(name, scheme, n, folder, begin):
@@ -209,12 +209,17 @@ def measurePeer(name, scheme, n, folder, begin):
     line = DIAGRAMS[name].lines[scheme]
     begun = begin or n in line.begun
     folder = folder / ("begun" if begun else "flow")
-    if not (folder / "run.json").exists():
+    note = folder / "run.json"
+    if not note.exists():
         more = ["-steps", "20"] if begun else []
         subprocess.run([PYTHON, HERE / "pysphPeer.py", name, str(n), folder, "-dimensions", str(line.dimensions), *more], check=True)
-    record = json.loads((folder / "run.json").read_text())
+        where = {"machine": suite.machine(), "day": datetime.date.today().isoformat()}
+        note.write_text(json.dumps({**json.loads(note.read_text()), **where}, indent=1) + "\n")
+    old = {"machine": suite.machine(), "day": datetime.date.fromtimestamp(note.stat().st_mtime).isoformat()}  # of runs that do not say it
+    record = {**old, **json.loads(note.read_text())}
     part = record["performance"]["steps"] / record["performance"]["stepsToEnd"] if begun else 1
-    keep(name, scheme, n, record, part, None if begun else DIAGRAMS[name].error(loaded(name), {"flow": folder}, n))
+    keep(name, scheme, n, record, part, None if begun else DIAGRAMS[name].error(loaded(name), {"flow": folder}, n),
+         record["machine"], record["day"])
 
 
 def title(name):
