@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "coupling/jumpCorrection.hpp"
 #include "coupling/transport.hpp"
 #include "sph/randomSigns.hpp"
 
@@ -27,6 +28,8 @@ class Verlet final : public ConjugateVerlet {
         if (scene.cells.empty()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
         noFlux_ = std::make_unique<NoFlux>(scene.cells, scene.spacing);
+        if (options.jumpCorrection)
+            jump_ = std::make_unique<JumpCorrection>(scene.cells, scene.spacing, scene.model().viscosity);
     }
 
     void start() override {
@@ -34,7 +37,7 @@ class Verlet final : public ConjugateVerlet {
         for (auto* a : {&s.fx, &s.fy, &s.fz, &s.densityRate}) std::fill(a->begin(), a->end(), 0.0);
         evaluate(0);
         accelerate(0, 0);
-        if (immersed_) immersed_->setVelocities(nodeVelocities());
+        if (immersed_) immersed_->setVelocities(withSlip(nodeVelocities()));
     }
 
     std::vector<RuptureEvent> advance(double dt) override {
@@ -65,6 +68,7 @@ class Verlet final : public ConjugateVerlet {
                 spreadAlone(f);
                 return -1.0;
             });
+        if (jump_) found.jump = largestSlipRate(iterations);
         const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(immersed_->force().size(), Vec3::Zero()));
         found.spring2 = largestEigenvalue(iterations, [&] { return springForces(rest); });
         return found;
@@ -102,14 +106,38 @@ class Verlet final : public ConjugateVerlet {
         immersed_->place(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
         Immersed::Vectors f = immersed_->force();
-        double viscous = 0;
-        if (immersed_->isViscous()) {
-            const Immersed::Vectors nodes = nodeVelocities(), elastic = keeps ? f : Immersed::Vectors();
-            immersed_->addViscousForces(nodes, f);
-            for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
-        }
+        const Immersed::Vectors elastic = keeps ? f : Immersed::Vectors();
+        const Immersed::Vectors nodes = findSlip(f);
+        double viscous = 0, slip = 0;
+        if (keeps && !nodes.empty())
+            for (std::size_t m = 0; m < f.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
+        if (keeps && jump_)
+            for (std::size_t m = 0; m < f.size(); ++m) slip += slip_[m].dot(f[m]);
         immersed_->spread(std::move(f), operators_.force());
-        if (keeps) addMembraneRates(viscous);
+        if (keeps) addMembraneRates(viscous, slip);
+    }
+
+    // Adds the force of the membranes' viscosity to their elastic one, f; the nodes' velocities, where one of the two asks for them; slip_.
+    Immersed::Vectors findSlip(Immersed::Vectors& f) {
+        if (!jump_ && !immersed_->isViscous()) return {};
+        Immersed::Vectors nodes = nodeVelocities();
+        const auto resist = [&](const Immersed::Vectors& u, Immersed::Vectors& force) {
+            if (immersed_->isViscous()) immersed_->addViscousForces(u, force);
+        };
+        if (!jump_) {
+            resist(nodes, f);
+            return nodes;
+        }
+        jump_->place();
+        slip_ = nodes;
+        jump_->solve(resist, nodes, f);
+        for (std::size_t m = 0; m < nodes.size(); ++m) slip_[m] = nodes[m] - slip_[m];
+        return nodes;
+    }
+    Immersed::Vectors withSlip(Immersed::Vectors nodes) const {
+        if (jump_)
+            for (std::size_t m = 0; m < nodes.size(); ++m) nodes[m] += slip_[m];
+        return nodes;
     }
 
     // Of the account (sph/account.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
@@ -127,11 +155,12 @@ class Verlet final : public ConjugateVerlet {
         rates_[sph::Account::compression] = compression;
         rates_[sph::Account::viscous] = -fluidPower_ - compression;
     }
-    // viscous: power of the membranes' viscosity, the same on all ranks.
-    void addMembraneRates(double viscous) {
-        const double own = scene_.system->decomposition().rank() == 0 ? viscous : 0;
-        rates_[sph::Account::inMembranes] = -own;
-        rates_[sph::Account::elastic] = own - (power() - fluidPower_);
+    // viscous: power of the membranes' viscosity; slip: of the kink at the membranes; the same on all ranks.
+    void addMembraneRates(double viscous, double slip) {
+        const bool counts = scene_.system->decomposition().rank() == 0;
+        rates_[sph::Account::inMembranes] = counts ? -viscous : 0;
+        rates_[sph::Account::elastic] = (counts ? viscous - slip : 0) - (power() - fluidPower_);
+        if (counts) rates_[sph::Account::viscous] += slip;
     }
     void addRatesOfParticle(std::size_t i, const Vec3& middle) {
         const Vec3 u = velocityUsed(i), f = force(i), x = store().position(i) - middle;
@@ -177,7 +206,7 @@ class Verlet final : public ConjugateVerlet {
     void findMoves(double dt) {
         transport_.shift(operators_, dt);
         if (!immersed_) return;
-        const Immersed::Vectors before = immersed_->velocities(), after = nodeVelocities();
+        const Immersed::Vectors before = immersed_->velocities(), after = withSlip(nodeVelocities());
         Immersed::Vectors mean = after;
         for (std::size_t m = 0; m < mean.size(); ++m) mean[m] = 0.5 * (before[m] + after[m]);
         immersed_->setVelocities(mean);
@@ -213,6 +242,31 @@ class Verlet final : public ConjugateVerlet {
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
         spreadAlone(f);
         return -1 / scale;
+    }
+
+    // Of the jump correction times K, on the nodes; by power iterations on differences of forces.
+    double largestSlipRate(int iterations) {
+        const std::size_t n = immersed_->force().size();
+        Immersed::Vectors v(n);
+        for (std::size_t m = 0; m < n; ++m)
+            for (int k = 0; k < 3; ++k) v[m][k] = sph::randomSign(static_cast<std::int64_t>(m), k);
+        double bond = 0, rate = 0;
+        for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
+        const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(n, Vec3::Zero()));
+        for (int it = 0; it < iterations; ++it) {
+            double longest = 0;
+            for (const Vec3& d : v) longest = std::max(longest, d.norm());
+            if (longest == 0) return rate;
+            for (Vec3& d : v) d *= probeInBonds * bond / longest;
+            Immersed::Vectors f = immersed_->forceAt(v), image(n, Vec3::Zero());
+            for (std::size_t m = 0; m < n; ++m) f[m] = rest[m] - f[m];
+            jump_->addSlip(f, image);
+            double before = 0, after = 0;
+            for (std::size_t m = 0; m < n; ++m) before += v[m].squaredNorm(), after += image[m].squaredNorm();
+            rate = std::sqrt(after / before);
+            v = std::move(image);
+        }
+        return rate;
     }
 
     // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the operators' force,
@@ -253,7 +307,9 @@ class Verlet final : public ConjugateVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
-    sph::Account::Values rates_{};  // of the last evaluation
+    std::unique_ptr<JumpCorrection> jump_;  // none where it is not wanted
+    Immersed::Vectors slip_;                // M f of the last evaluation
+    sph::Account::Values rates_{};          // of the last evaluation
     double fluidPower_ = 0;
 };
 

@@ -50,6 +50,7 @@ struct NumericsSettings {
     double spacing = 0;  // dx [m]
     Choice<sph::Kernel> kernel;
     std::string integrator, coupling, operators, precision;
+    bool jumpCorrection = false;
     std::optional<sph::ShiftingSettings> shifting;
     implicit::ImplicitSettings implicit;
     sph::Rkl2Settings rkl2;

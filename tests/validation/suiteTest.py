@@ -61,7 +61,8 @@ def test_missed():
             for figure in record["figures"]:
                 assert suite.holds(figure) or suite.missed(case, record["resolution"], figure), (name, record["resolution"], figure["name"])
                 if not suite.holds(figure):
-                    patterns |= {(record["resolution"], words) for words in case.MISSED[record["resolution"]] if fnmatchcase(figure["name"], words)}
+                    n = record["resolution"]
+                    patterns |= {(n, words) for words in case.MISSED[n] if fnmatchcase(figure["name"], words)}
         assert patterns == {(n, words) for n, all_ in getattr(case, "MISSED", {}).items() for words in all_}, f"{name}: missed no longer"
 
 
