@@ -117,7 +117,8 @@ def figures(done, n):
             found.append(spread(f"{name}: f/gammadot", steady.f, statistics.mean(cells), statistics.stdev(cells)))
         low, high = inclinations(rate)
         value = steady.inclination()
-        found.append(Figure(f"{name}: inclination, outside {low:.3g} to {high:.3g}", outside(value, low, high, percent=False), of(INCLINED, n), "degrees", value))
+        beyond = outside(value, low, high, percent=False)
+        found.append(Figure(f"{name}: inclination, outside {low:.3g} to {high:.3g}", beyond, of(INCLINED, n), "degrees", value))
         found += steady.course.kept(name)
     measured = [row["stress_Pa"] for row in rows(HERE / "transition.csv") if row["viscosity_mPa_s"] == THIN]
     for stress in of(STRESSES, n):
