@@ -13,6 +13,7 @@
 namespace corpuscle::simulation {
 
 using coupling::Cell;
+using coupling::middleOf;
 using coupling::Scene;
 using membrane::Bond;
 using membrane::Membrane;
@@ -24,6 +25,7 @@ constexpr double largestDensityChange = 0.3, largestSpeedUp = 10, largestVolumeC
 constexpr double largestBondChange = 0.3;                      // of ln l between two looks
 constexpr double sharpestFold = -0.5;                          // cosine between the normals of neighbours
 constexpr double beyondWall = 2;                               // spacings
+constexpr long looksBetweenPairs = 5;                          // that membranes are compared with each other
 constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
 
 double length(const Membrane& m, const Bond& bond) {
@@ -67,9 +69,10 @@ Fault Watch::find(const Scene& scene, const Time& time) {
     double fastest2 = 0;
     Fault fault = ofParticles(scene, time, fastest2);
     for (std::size_t c = 0; c < scene.cells.size() && !fault; ++c) {
-        if (isMine(scene, c))
+        if (isMine(scene, c)) {
             fault = ofCell(scene, c, time);
-        else
+            if (!fault && lookedAt_ % looksBetweenPairs == 0) fault = ofPairs(scene, c, time);
+        } else
             lengths_[c].clear();  // old by the time that this rank holds the cell again
     }
     const std::vector<double> most = ranks.max({fault ? 1.0 : 0.0, fastest2});
@@ -174,6 +177,39 @@ Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     const Vec3& x =
         m.position[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(cuts.front().first)][0])];
     return {when() + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
+}
+
+// With the cells after it that this rank holds, the nearest image of each. Asked where their bounds meet.
+Fault Watch::ofPairs(const Scene& scene, std::size_t index, const Time& time) {
+    const Membrane& m = scene.cells[index].membrane;
+    if (m.network().isOpen()) return {};
+    const Vec3 middle = middleOf(scene.cells[index]);
+    const auto bounds = [](const std::vector<Vec3>& nodes) {
+        Eigen::AlignedBox3d box;
+        for (const Vec3& x : nodes) box.extend(x);
+        return box;
+    };
+    const auto own = bounds(m.position);
+    for (std::size_t other = index + 1; other < scene.cells.size(); ++other) {
+        const Cell& cell = scene.cells[other];
+        if (!cell.held || cell.membrane.network().isOpen()) continue;
+        const Vec3 theirs = middleOf(cell), shift = coupling::imageNear(scene.system->box(), theirs, middle) - theirs;
+        auto box = bounds(cell.membrane.position);
+        if (!own.intersects(box.translate(shift))) continue;
+        geometry::TriangleMesh both{m.position, m.network().triangles()};
+        const int nodes = static_cast<int>(both.nodes.size()), triangles = static_cast<int>(both.triangles.size());
+        for (const Vec3& x : cell.membrane.position) both.nodes.push_back(x + shift);
+        for (const Index3& t : cell.membrane.network().triangles())
+            both.triangles.push_back({t[0] + nodes, t[1] + nodes, t[2] + nodes});
+        for (const auto& [a, b] : geometry::selfIntersections(both))
+            if ((a < triangles) != (b < triangles)) {
+                const Vec3& x = both.nodes[static_cast<std::size_t>(both.triangles[static_cast<std::size_t>(a)][0])];
+                return {fmt::format("step {}, t = {:.6g} s: the membranes '{}' and '{}' cut each other at {}",
+                                    time.step, time.t, m.name, cell.membrane.name, words(x)),
+                        x};
+            }
+    }
+    return {};
 }
 
 Vec3 Watch::suspect(const Scene& scene) {

@@ -10,6 +10,7 @@
 // volume of a closed membrane             | a third from that at the start
 // triangles of a closed membrane          | two that cut each other (geometry::selfIntersections), asked where neighbours fold by more than 120
 //                                         | degrees, and from time to time
+// triangles of two closed membranes       | the same, every fifth look, where their bounds meet
 // A membrane that has broken is not asked for its volume and its cuts: its surface is open.
 #pragma once
 #include <optional>
@@ -45,6 +46,7 @@ class Watch {
     bool isMine(const coupling::Scene& scene, std::size_t index) const;
     static const membrane::Bond* compareBonds(const membrane::Membrane& membrane, std::vector<double>& lengths);
     Fault ofCell(const coupling::Scene& scene, std::size_t index, const Time& time);
+    static Fault ofPairs(const coupling::Scene& scene, std::size_t index, const Time& time);
     bool isSuspicious(const membrane::Membrane& membrane) const;
 
     const Case& input_;

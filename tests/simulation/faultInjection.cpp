@@ -8,6 +8,7 @@
 // density   | its density is half
 // node      | it is thrown across the cell, to the other side of its middle
 // triangle  | it goes to the other side of the opposite edge of one of its triangles, which turns that over
+// cells     | the first cell of two goes half of the way to the second, with all of its nodes
 // The seed picks them, the same ones on any number of ranks. -always: at each time that the run comes to this step.
 #include <Eigen/Geometry>
 #include <random>
@@ -33,7 +34,9 @@ class Injection {
         if (step != at_ || (done_ && !always_)) return;
         done_ = true;
         std::mt19937_64 random = random_;  // the same choice each time
-        if (kind_ == "node" || kind_ == "triangle")
+        if (kind_ == "cells")
+            moveCell(scene);
+        else if (kind_ == "node" || kind_ == "triangle")
             moveNode(scene, random);
         else
             harmParticle(scene, random);
@@ -57,8 +60,14 @@ class Injection {
             else if (kind_ == "density")
                 s.density[i] *= 0.5;
             else
-                throw Failure(ExitCode::usage, "-kind " + kind_ + ": there are nan, speed, density, node, triangle");
+                throw Failure(ExitCode::usage,
+                              "-kind " + kind_ + ": there are nan, speed, density, node, triangle, cells");
         }
+    }
+
+    static void moveCell(Scene& scene) {
+        const Vec3 way = 0.5 * (coupling::middleOf(scene.cells.at(1)) - coupling::middleOf(scene.cells[0]));
+        for (Vec3& x : scene.cells[0].membrane.position) x += way;
     }
 
     void moveNode(Scene& scene, std::mt19937_64& random) const {
@@ -92,7 +101,7 @@ class Injection {
 
 int main(int argc, char* argv[]) {
     std::vector<Option> options = solverOptions();
-    options.push_back({"kind", "KIND", "nan, speed, density, node or triangle."});
+    options.push_back({"kind", "KIND", "nan, speed, density, node, triangle or cells."});
     options.push_back({"at", "STEP", "Before the step after this one."});
     options.push_back({"seed", "N", "Picks the place."});
     options.push_back({"always", "", "Each time that the run comes to this step."});

@@ -873,9 +873,22 @@ def test_retreat(folder):
         run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
         found, _ = figures(harmed)
         assert abs(found["D12_extent"] - expected["D12_extent"]) < 0.005 * expected["D12_extent"]
+        if name == "implicit":  # what is taken for a membrane is one
+            run(harmed, "renderCase", "-times", "0,0.3", "-output", str(harmed / "cells.png"))
         never = copied(case, folder / (name + "Never"))
         run(never, "faultInjection", *options, "-set", "system/numerics.yaml:/retreats=0", code=3)
         assert not list(never.glob("checkpoints/*.h5"))
+    # Two cells, one of them moved into the other.
+    cells = "".join(f"  - {{name: {name}, membrane: rbc, shape: {{type: sphere, radius: 2.5 um}}, edge: 1 um, centre: [{x} um, 0 um, 0 um]}}\n"
+                    for name, x in (("left", -3.5), ("right", 3.5)))
+    two = prepared(folder / "two", IMPLICIT_CASE, **{
+        "system/mesh.yaml": "domain: {size: [16, 12, 12] um, periodic: [true, true, false]}\ncells:\n" + cells,
+        "system/observers.yaml": "deformation: {type: shape, every: 0.1 strain}\n"})
+    for ranks in (1, 2):
+        harmed = copied(two, folder / f"two{ranks}")
+        run(harmed, "faultInjection", "-kind", "cells", "-at", "7", ranks=ranks)
+        assert "the membranes 'left' and 'right' cut each other" in (harmed / "log.faultInjection").read_text()
+        assert json.loads((harmed / "run.json").read_text())["performance"]["retreats"] >= 1
 
 
 def test_endings(folder):
