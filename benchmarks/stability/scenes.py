@@ -222,6 +222,7 @@ def explicitScenes():
             yield scene, scheme, "least", {"Ca": 10, "Re": 1}
             if not dual:
                 yield scene, scheme, "least", {"ratio": 50, "strain": 0.04}
+                yield scene, scheme, "least", {"ratio": 200, "strain": 0.01}
             yield scene, scheme, "least", {"ratio": 5 if dual else 0.2, "strain": 0.2}
             law = {"capsule": "{type: arealStrain, limit: 0.05}", "redCell": "{type: bondStretch, limit: 1.05}"}[scene]
             yield scene, scheme, "least", {"Ca": 2, "more": [MEMBRANES + f"{cell}/rupture={law}"], "axis": "rupture", "value": "on"}
