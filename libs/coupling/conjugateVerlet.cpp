@@ -68,8 +68,8 @@ class Verlet final : public ConjugateVerlet {
                 spreadAlone(f);
                 return -1.0;
             });
-        if (jump_) found.jump = largestSlipRate(iterations);
         const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(immersed_->force().size(), Vec3::Zero()));
+        if (jump_) found.jump = largestSlipRate(iterations, rest);
         found.spring2 = largestEigenvalue(iterations, [&] { return springForces(rest); });
         return found;
     }
@@ -106,11 +106,10 @@ class Verlet final : public ConjugateVerlet {
         immersed_->place(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
         Immersed::Vectors f = immersed_->force();
-        const Immersed::Vectors elastic = keeps ? f : Immersed::Vectors();
+        const Immersed::Vectors elastic = keeps && immersed_->isViscous() ? f : Immersed::Vectors();
         const Immersed::Vectors nodes = findSlip(f);
         double viscous = 0, slip = 0;
-        if (keeps && !nodes.empty())
-            for (std::size_t m = 0; m < f.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
+        for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
         if (keeps && jump_)
             for (std::size_t m = 0; m < f.size(); ++m) slip += slip_[m].dot(f[m]);
         immersed_->spread(std::move(f), operators_.force());
@@ -230,43 +229,43 @@ class Verlet final : public ConjugateVerlet {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
         immersed_->spread(f, operators_.force());
     }
-    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be multiplied to be -K P S field_.
-    double springForces(const Immersed::Vectors& rest) {
-        Immersed::Vectors displacement = nodeVelocities();
+    // Change of elastic force from `rest` with a small displacement along v; the result times the second is - K v.
+    std::pair<Immersed::Vectors, double> forceAlong(Immersed::Vectors v, const Immersed::Vectors& rest) const {
         double longest = 0, bond = 0;
-        for (const Vec3& d : displacement) longest = std::max(longest, d.norm());
+        for (const Vec3& d : v) longest = std::max(longest, d.norm());
         for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
         const double scale = longest > 0 ? probeInBonds * bond / longest : 1;
-        for (Vec3& d : displacement) d *= scale;
-        Immersed::Vectors f = immersed_->forceAt(displacement);
+        for (Vec3& d : v) d *= scale;
+        Immersed::Vectors f = immersed_->forceAt(v);
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
+        return {std::move(f), 1 / scale};
+    }
+    // S^T P of that along P S field_; by what it is to be multiplied to be K P S field_.
+    double springForces(const Immersed::Vectors& rest) {
+        const auto [f, factor] = forceAlong(nodeVelocities(), rest);
         spreadAlone(f);
-        return -1 / scale;
+        return -factor;
     }
 
-    // Of the jump correction times K, on the nodes; by power iterations on differences of forces.
-    double largestSlipRate(int iterations) {
-        const std::size_t n = immersed_->force().size();
-        Immersed::Vectors v(n);
-        for (std::size_t m = 0; m < n; ++m)
+    // Of the jump correction times K, on the nodes; by power iterations.
+    double largestSlipRate(int iterations, const Immersed::Vectors& rest) const {
+        Immersed::Vectors v(rest.size());
+        for (std::size_t m = 0; m < v.size(); ++m)
             for (int k = 0; k < 3; ++k) v[m][k] = sph::randomSign(static_cast<std::int64_t>(m), k);
-        double bond = 0, rate = 0;
-        for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
-        const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(n, Vec3::Zero()));
-        for (int it = 0; it < iterations; ++it) {
-            double longest = 0;
-            for (const Vec3& d : v) longest = std::max(longest, d.norm());
-            if (longest == 0) return rate;
-            for (Vec3& d : v) d *= probeInBonds * bond / longest;
-            Immersed::Vectors f = immersed_->forceAt(v), image(n, Vec3::Zero());
-            for (std::size_t m = 0; m < n; ++m) f[m] = rest[m] - f[m];
-            jump_->addSlip(f, image);
-            double before = 0, after = 0;
-            for (std::size_t m = 0; m < n; ++m) before += v[m].squaredNorm(), after += image[m].squaredNorm();
-            rate = std::sqrt(after / before);
-            v = std::move(image);
+        double rate = 0, length = lengthOf(v);
+        for (int it = 0; it < iterations && length > 0; ++it) {
+            for (Vec3& d : v) d /= length;
+            const auto [f, factor] = forceAlong(v, rest);
+            v.assign(v.size(), Vec3::Zero());
+            jump_->addSlip(f, v);
+            rate = length = factor * lengthOf(v);
         }
         return rate;
+    }
+    static double lengthOf(const Immersed::Vectors& v) {
+        double square = 0;
+        for (const Vec3& d : v) square += d.squaredNorm();
+        return std::sqrt(square);
     }
 
     // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the operators' force,

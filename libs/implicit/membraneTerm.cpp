@@ -18,11 +18,15 @@ void MembraneTerm<Real>::prepare(double time) {
 template <class Real>
 void MembraneTerm<Real>::findNodes(const Field& v, Vectors& nodes, Vectors& force) const {
     nodes = immersed_.interpolate(v.data());
-    const auto resist = [&](const Vectors& u, Vectors& f) { immersed_.addResistance(time_, u, f); };
     if (jump_)
-        jump_->solve(resist, nodes, force);
+        addSlip(nodes, force);
     else
-        resist(nodes, force);
+        immersed_.addResistance(time_, nodes, force);
+}
+
+template <class Real>
+void MembraneTerm<Real>::addSlip(Vectors& nodes, Vectors& force) const {
+    jump_->solve([&](const Vectors& u, Vectors& f) { immersed_.addResistance(time_, u, f); }, nodes, force);
 }
 
 template <class Real>
@@ -41,8 +45,8 @@ void MembraneTerm<Real>::addProduct(const Field& v, Forces& forces) {
 
 template <class Real>
 std::string MembraneTerm<Real>::refusal(const Field& v, double dt) {
-    Vectors f = load_;
-    findNodes(v, nodes_, f);
+    nodes_ = immersed_.interpolate(v.data());
+    if (Vectors f = load_; jump_) addSlip(nodes_, f);
     const double change = largestBondRate(immersed_.cells(), nodes_) * dt;
     if (change <= settings_.bondStrain) return {};
     return fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);

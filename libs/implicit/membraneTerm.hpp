@@ -48,8 +48,10 @@ class MembraneTerm final : public Term<Real> {
     const Vectors& velocities() const { return nodes_; }
 
   private:
-    // Velocity of the nodes and force, of the fluid's velocity and the load.
+    // Velocity of the nodes; force: the load on entry, the force at that velocity at the end.
     void findNodes(const Field& v, Vectors& nodes, Vectors& force) const;
+    // nodes: the velocity that they find in the fluid, on entry.
+    void addSlip(Vectors& nodes, Vectors& force) const;
 
     coupling::Immersed& immersed_;
     const particles::ParticleSystem& system_;

@@ -65,6 +65,11 @@ std::vector<SeriesEntry> readPvd(const std::filesystem::path& path) {
     return entries;
 }
 
+bool isReservedStream(std::string_view name) {
+    return name == "fluid" || name == "walls" || name == "bodies" || name == "holes" || name == "fault" ||
+           name.starts_with("fault_");
+}
+
 VtkSeries::VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime)
     : comm_(comm),
       results_(std::move(caseDir) / "results"),

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/polyData.hpp"
@@ -23,6 +24,10 @@ struct SeriesEntry {
     double time;                 // s
     std::filesystem::path file;  // the .pvtp (or .vtp), reachable from the current directory
 };
+
+// Whether results/ has a stream of this name that is no cell's and no body's: fluid, walls, bodies, holes, and what a failed run leaves, fault and
+// fault_<cell>.
+bool isReservedStream(std::string_view name);
 
 // The entries of a .pvd in their order. Throws Failure(ExitCode::io) when it is missing or no .pvd.
 std::vector<SeriesEntry> readPvd(const std::filesystem::path& path);

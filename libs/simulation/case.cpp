@@ -144,7 +144,10 @@ particles::Box Case::particleBox() const {
 
 Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.domain.size / spacing()).array().round(); }
 
-double Case::soundSpeed() const { return fluid.equationOfState->soundSpeed.value_or(automaticSoundSpeed()); }
+double Case::soundSpeed() const {
+    const std::optional<double>& given = fluid.equationOfState->soundSpeed;
+    return given ? *given : automaticSoundSpeed();
+}
 
 double Case::automaticSoundSpeed() const {
     const double nu = viscosities().largest / flow.density;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "coupling/noFlux.hpp"
+#include "io/vtkSeries.hpp"
 #include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
@@ -289,10 +290,10 @@ void checkTogether(const Case& c, Problems& problems) {
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
-    std::set<std::string> names{"fluid", "walls", "bodies", "holes", "fault"};
+    std::set<std::string> names;
     for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         const std::string& name = surface.settings.name;
-        if (!names.insert(name).second || name.starts_with("fault_"))
+        if (!names.insert(name).second || io::isReservedStream(name))
             problems.add(mesh, surface.key + ".name",
                          "the name '" + name +
                              "' is taken; each cell and body needs its own, and fluid, walls, bodies, holes, fault and "

@@ -1,7 +1,7 @@
 // Where the integrators are known to be safe, from the stability map (docs/stability.md, benchmarks/stability): the table safeRange.csv,
 // built into the library.
 //
-// axis                 | value
+// axis                  | value
 // a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of the first cell
 // implicit.step         | strain of an implicit step; with other integrators none
 // implicit.tolerance    | of the implicit step's solver; with other integrators none

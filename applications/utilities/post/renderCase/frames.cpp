@@ -11,15 +11,13 @@
 namespace corpuscle {
 namespace {
 
-// Names of the files <folder>/<name><extension> that hold membranes; the surroundings of a fault are left out.
+// Names of the files <folder>/<name><extension> that hold membranes.
 std::vector<std::string> membranesIn(const std::filesystem::path& folder, const std::string& extension) {
     std::vector<std::string> names;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == extension && name != "fluid" && name != "walls" && name != "holes" &&
-            name != "fault" && !name.starts_with("fault_"))
-            names.push_back(name);
+        if (entry.path().extension() == extension && !io::isReservedStream(name)) names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     return names;
