@@ -14,7 +14,6 @@ struct ConjugateOptions {
     std::optional<double> shifting{};  // C, strength per unit of strain
     std::optional<DensityBalance> densityBalance{};
     long balanceInterval = 0;  // steps between two balances
-    bool jumpCorrection = false;
     double largestBalance() const { return densityBalance ? densityBalance->largest() : 0; }
 };
 

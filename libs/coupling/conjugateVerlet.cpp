@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "coupling/jumpCorrection.hpp"
 #include "coupling/transport.hpp"
 #include "sph/randomSigns.hpp"
 
@@ -28,8 +27,6 @@ class Verlet final : public ConjugateVerlet {
         if (scene.cells.empty()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
         noFlux_ = std::make_unique<NoFlux>(scene.cells, scene.spacing);
-        if (options.jumpCorrection)
-            jump_ = std::make_unique<JumpCorrection>(scene.cells, scene.spacing, scene.model().viscosity);
     }
 
     void start() override {
@@ -37,7 +34,7 @@ class Verlet final : public ConjugateVerlet {
         for (auto* a : {&s.fx, &s.fy, &s.fz, &s.densityRate}) std::fill(a->begin(), a->end(), 0.0);
         evaluate(0);
         accelerate(0, 0);
-        if (immersed_) immersed_->setVelocities(withSlip(nodeVelocities()));
+        if (immersed_) immersed_->setVelocities(nodeVelocities());
     }
 
     std::vector<RuptureEvent> advance(double dt) override {
@@ -69,7 +66,6 @@ class Verlet final : public ConjugateVerlet {
                 return -1.0;
             });
         const Immersed::Vectors rest = immersed_->forceAt(Immersed::Vectors(immersed_->force().size(), Vec3::Zero()));
-        if (jump_) found.jump = largestSlipRate(iterations, rest);
         found.spring2 = largestEigenvalue(iterations, [&] { return springForces(rest); });
         return found;
     }
@@ -106,37 +102,14 @@ class Verlet final : public ConjugateVerlet {
         immersed_->place(*scene_.system, operators_.volumes());
         noFlux_->find(*scene_.system, immersed_->touched());
         Immersed::Vectors f = immersed_->force();
-        const Immersed::Vectors elastic = keeps && immersed_->isViscous() ? f : Immersed::Vectors();
-        const Immersed::Vectors nodes = findSlip(f);
-        double viscous = 0, slip = 0;
-        for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
-        if (keeps && jump_)
-            for (std::size_t m = 0; m < f.size(); ++m) slip += slip_[m].dot(f[m]);
-        immersed_->spread(std::move(f), operators_.force());
-        if (keeps) addMembraneRates(viscous, slip);
-    }
-
-    // Adds the force of the membranes' viscosity to their elastic one, f; the nodes' velocities, where one of the two asks for them; slip_.
-    Immersed::Vectors findSlip(Immersed::Vectors& f) {
-        if (!jump_ && !immersed_->isViscous()) return {};
-        Immersed::Vectors nodes = nodeVelocities();
-        const auto resist = [&](const Immersed::Vectors& u, Immersed::Vectors& force) {
-            if (immersed_->isViscous()) immersed_->addViscousForces(u, force);
-        };
-        if (!jump_) {
-            resist(nodes, f);
-            return nodes;
+        double viscous = 0;
+        if (immersed_->isViscous()) {
+            const Immersed::Vectors nodes = nodeVelocities(), elastic = keeps ? f : Immersed::Vectors();
+            immersed_->addViscousForces(nodes, f);
+            for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
         }
-        jump_->place();
-        slip_ = nodes;
-        jump_->solve(resist, nodes, f);
-        for (std::size_t m = 0; m < nodes.size(); ++m) slip_[m] = nodes[m] - slip_[m];
-        return nodes;
-    }
-    Immersed::Vectors withSlip(Immersed::Vectors nodes) const {
-        if (jump_)
-            for (std::size_t m = 0; m < nodes.size(); ++m) nodes[m] += slip_[m];
-        return nodes;
+        immersed_->spread(std::move(f), operators_.force());
+        if (keeps) addMembraneRates(viscous);
     }
 
     // Of the account (sph/account.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
@@ -154,12 +127,11 @@ class Verlet final : public ConjugateVerlet {
         rates_[sph::Account::compression] = compression;
         rates_[sph::Account::viscous] = -fluidPower_ - compression;
     }
-    // viscous: power of the membranes' viscosity; slip: of the kink at the membranes; the same on all ranks.
-    void addMembraneRates(double viscous, double slip) {
-        const bool counts = scene_.system->decomposition().rank() == 0;
-        rates_[sph::Account::inMembranes] = counts ? -viscous : 0;
-        rates_[sph::Account::elastic] = (counts ? viscous - slip : 0) - (power() - fluidPower_);
-        if (counts) rates_[sph::Account::viscous] += slip;
+    // viscous: power of the membranes' viscosity, the same on all ranks.
+    void addMembraneRates(double viscous) {
+        const double own = scene_.system->decomposition().rank() == 0 ? viscous : 0;
+        rates_[sph::Account::inMembranes] = -own;
+        rates_[sph::Account::elastic] = own - (power() - fluidPower_);
     }
     void addRatesOfParticle(std::size_t i, const Vec3& middle) {
         const Vec3 u = velocityUsed(i), f = force(i), x = store().position(i) - middle;
@@ -205,7 +177,7 @@ class Verlet final : public ConjugateVerlet {
     void findMoves(double dt) {
         transport_.shift(operators_, dt);
         if (!immersed_) return;
-        const Immersed::Vectors before = immersed_->velocities(), after = withSlip(nodeVelocities());
+        const Immersed::Vectors before = immersed_->velocities(), after = nodeVelocities();
         Immersed::Vectors mean = after;
         for (std::size_t m = 0; m < mean.size(); ++m) mean[m] = 0.5 * (before[m] + after[m]);
         immersed_->setVelocities(mean);
@@ -229,43 +201,18 @@ class Verlet final : public ConjugateVerlet {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
         immersed_->spread(f, operators_.force());
     }
-    // Change of elastic force from `rest` with a small displacement along v; the result times the second is - K v.
-    std::pair<Immersed::Vectors, double> forceAlong(Immersed::Vectors v, const Immersed::Vectors& rest) const {
+    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be multiplied to be K P S field_.
+    double springForces(const Immersed::Vectors& rest) {
+        Immersed::Vectors displacement = nodeVelocities();
         double longest = 0, bond = 0;
-        for (const Vec3& d : v) longest = std::max(longest, d.norm());
+        for (const Vec3& d : displacement) longest = std::max(longest, d.norm());
         for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
         const double scale = longest > 0 ? probeInBonds * bond / longest : 1;
-        for (Vec3& d : v) d *= scale;
-        Immersed::Vectors f = immersed_->forceAt(v);
+        for (Vec3& d : displacement) d *= scale;
+        Immersed::Vectors f = immersed_->forceAt(displacement);
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];
-        return {std::move(f), 1 / scale};
-    }
-    // S^T P of that along P S field_; by what it is to be multiplied to be K P S field_.
-    double springForces(const Immersed::Vectors& rest) {
-        const auto [f, factor] = forceAlong(nodeVelocities(), rest);
         spreadAlone(f);
-        return -factor;
-    }
-
-    // Of the jump correction times K, on the nodes; by power iterations.
-    double largestSlipRate(int iterations, const Immersed::Vectors& rest) const {
-        Immersed::Vectors v(rest.size());
-        for (std::size_t m = 0; m < v.size(); ++m)
-            for (int k = 0; k < 3; ++k) v[m][k] = sph::randomSign(static_cast<std::int64_t>(m), k);
-        double rate = 0, length = lengthOf(v);
-        for (int it = 0; it < iterations && length > 0; ++it) {
-            for (Vec3& d : v) d /= length;
-            const auto [f, factor] = forceAlong(v, rest);
-            v.assign(v.size(), Vec3::Zero());
-            jump_->addSlip(f, v);
-            rate = length = factor * lengthOf(v);
-        }
-        return rate;
-    }
-    static double lengthOf(const Immersed::Vectors& v) {
-        double square = 0;
-        for (const Vec3& d : v) square += d.squaredNorm();
-        return std::sqrt(square);
+        return -1 / scale;
     }
 
     // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the operators' force,
@@ -306,9 +253,7 @@ class Verlet final : public ConjugateVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
-    std::unique_ptr<JumpCorrection> jump_;  // none where it is not wanted
-    Immersed::Vectors slip_;                // M f of the last evaluation
-    sph::Account::Values rates_{};          // of the last evaluation
+    sph::Account::Values rates_{};  // of the last evaluation
     double fluidPower_ = 0;
 };
 

@@ -40,7 +40,6 @@ class ConjugateVerlet {
     struct Rates {
         double viscous = 0;   // largest eigenvalue of M^-1 L [1/s]
         double membrane = 0;  // of M^-1 S^T P C P S [1/s]
-        double jump = 0;      // of the jump correction M times K (jumpCorrection.hpp) [1/s]
         double spring2 = 0;   // of M^-1 S^T P K P S, K the membranes' stiffness by differences of their forces [1/s^2]
     };
     virtual Rates rates(int iterations) = 0;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,7 +15,7 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr int fewest = 8;  // particles for linear weights
+constexpr int fewest = 10;  // particles for more than Shepard's weights
 
 double wendland(double r) {
     const double s = 1 - r, s2 = s * s;
@@ -96,12 +97,15 @@ void Immersed::place(const ParticleSystem& system, const std::vector<double>& vo
     findWeights();
     findTouched(volume.size());
     gradient_.assign(nodes_, Vec3::Zero());
+    normal_.assign(nodes_, Vec3::Zero());
     forCells([&](std::size_t c, std::size_t first, std::size_t) {
         membrane::Membrane& m = cells_[c].membrane;
         m.force.assign(m.force.size(), Vec3::Zero());
         m.addElasticForces(m.position, m.force);
-        if (m.network().isOpen()) return;
         const Vectors g = membrane::volumeGradient(m.position, m.network().triangles());
+        std::transform(g.begin(), g.end(), normal_.begin() + static_cast<std::ptrdiff_t>(first),
+                       [](const Vec3& area) { return area.stableNormalized(); });
+        if (m.network().isOpen()) return;
         std::copy(g.begin(), g.end(), gradient_.begin() + static_cast<std::ptrdiff_t>(first));
     });
 }
@@ -126,10 +130,10 @@ void Immersed::findEntries(const ParticleSystem& system, const std::vector<doubl
         for (const Vec3& x : cell.membrane.position) {
             forImages(system, x, reach, [&](const Vec3& image) {
                 system.forOwnedNear(image, reach, [&](int i) {
-                    const Vec3 d = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
-                    const double r2 = d.squaredNorm();
+                    const Vec3 q = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
+                    const double r2 = q.squaredNorm();
                     if (r2 < 1)
-                        entries_.push_back({i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), d});
+                        entries_.push_back({i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), 0, q});
                 });
             });
             first_.push_back(entries_.size());
@@ -137,43 +141,58 @@ void Immersed::findEntries(const ParticleSystem& system, const std::vector<doubl
 }
 
 void Immersed::findWeights() {
-    using Vec4 = Eigen::Vector4d;
-    constexpr std::size_t moments = 11;  // upper triangle of sum w (1, d)(1, d)^T, and how many
+    using Vec5 = Eigen::Matrix<double, 5, 1>;
+    const auto basis = [](const Vec3& q) { return Vec5(1, q[0], q[1], q[2], q.squaredNorm()); };
+    constexpr std::size_t moments = 16;  // upper triangle of sum W b b^T with the basis b, and how many
     std::vector<double> sums(moments * nodes_, 0.0);
     for (std::size_t m = 0; m < nodes_; ++m)
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Vec4 v(1, entries_[k].d[0], entries_[k].d[1], entries_[k].d[2]);
+            const Vec5 of = basis(entries_[k].q);
             double* sum = &sums[moments * m];
-            for (int a = 0; a < 4; ++a)
-                for (int b = a; b < 4; ++b) *sum++ += entries_[k].weight * v[a] * v[b];
+            for (int a = 0; a < of.size(); ++a)
+                for (int b = a; b < of.size(); ++b) *sum++ += entries_[k].along * of[a] * of[b];
             *sum += 1;
         }
     addUp(sums.data(), sums.size(), comm_);
-    std::vector<Vec4> coefficients(nodes_);
-    std::vector<double> absolute(nodes_, 0.0);
+    std::vector<Vec5> along(nodes_), extra(nodes_);
+    std::vector<double> absolute(2 * nodes_, 0.0);  // sum |w|, sum |w'|
     for (std::size_t m = 0; m < nodes_; ++m) {
         const double* sum = &sums[moments * m];
-        Eigen::Matrix4d A;
-        for (int a = 0; a < 4; ++a)
-            for (int b = a; b < 4; ++b) A(a, b) = A(b, a) = *sum++;
-        coefficients[m] = *sum < fewest ? Vec4(1 / A(0, 0), 0, 0, 0) : Vec4(A.ldlt().solve(Vec4::UnitX()));
+        Eigen::Matrix<double, 5, 5> A;
+        for (int a = 0; a < A.rows(); ++a)
+            for (int b = a; b < A.cols(); ++b) A(a, b) = A(b, a) = *sum++;
+        if (*sum < fewest) {
+            absolute[2 * m] = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        const auto factors = A.ldlt();
+        along[m] = factors.solve(Vec5(1, 0, 0, 0, momentAlong));
+        extra[m] = factors.solve(Vec5(0, 0, 0, 0, momentAcross - momentAlong));
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
             const Entry& e = entries_[k];
-            absolute[m] += std::abs(e.weight * (coefficients[m][0] + coefficients[m].tail<3>().dot(e.d)));
+            const double w = e.along * along[m].dot(basis(e.q));
+            absolute[2 * m] += std::abs(w);
+            absolute[2 * m + 1] += std::abs(w + e.along * extra[m].dot(basis(e.q)));
         }
-        sums[m] = sums[moments * m];  // of constants alone: those of earlier nodes are no longer needed
     }
     addUp(absolute.data(), absolute.size(), comm_);
     fallbacks_ = 0;
     for (std::size_t m = 0; m < nodes_; ++m) {
-        if (!(sums[m] > 0))
+        const double all = sums[moments * m];
+        if (!(all > 0))
             throw Failure(ExitCode::numerics, "node " + std::to_string(m) +
                                                   " of the membranes, counted through all cells, has no fluid within " +
                                                   std::to_string(radius_) + " m: the run has come apart");
-        if (!(absolute[m] <= largestWeights)) coefficients[m] = Vec4(1 / sums[m], 0, 0, 0);
-        fallbacks_ += coefficients[m].tail<3>().isZero(0);
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k)
-            entries_[k].weight *= coefficients[m][0] + coefficients[m].tail<3>().dot(entries_[k].d);
+        if (!(absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights)) {
+            along[m] = Vec5(1 / all, 0, 0, 0, 0), extra[m] = Vec5::Zero();
+            ++fallbacks_;
+        }
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
+            Entry& e = entries_[k];
+            const Vec5 of = basis(e.q);
+            e.extra = e.along * extra[m].dot(of);
+            e.along *= along[m].dot(of);
+        }
     }
 }
 
@@ -196,11 +215,18 @@ void Immersed::project(Vectors& v) const {
 template <class Real>
 Immersed::Vectors Immersed::interpolate(const Real* u) const {
     Vectors v(nodes_, Vec3::Zero());
-    for (std::size_t m = 0; m < nodes_; ++m)
+    for (std::size_t m = 0; m < nodes_; ++m) {
+        const Vec3& n = normal_[m];
+        double across = 0;
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Real* of = u + 4 * static_cast<std::size_t>(entries_[k].particle);
-            v[m] += entries_[k].weight * Vec3(of[0], of[1], of[2]);
+            const Entry& e = entries_[k];
+            const Real* of = u + 4 * static_cast<std::size_t>(e.particle);
+            const Vec3 here(of[0], of[1], of[2]);
+            v[m] += e.along * here;
+            across += e.extra * n.dot(here);
         }
+        v[m] += across * n;
+    }
     addUp(v.front().data(), 3 * nodes_, comm_);
     project(v);
     return v;
@@ -266,11 +292,14 @@ Immersed::Vectors Immersed::forceAt(const Vectors& displacement) const {
 
 void Immersed::spread(Vectors f, particles::RealArray& force) const {
     project(f);
-    for (std::size_t m = 0; m < nodes_; ++m)
+    for (std::size_t m = 0; m < nodes_; ++m) {
+        const Vec3 across = normal_[m].dot(f[m]) * normal_[m];
         for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            double* to = force.data() + 4 * static_cast<std::size_t>(entries_[k].particle);
-            for (int a = 0; a < 3; ++a) to[a] += entries_[k].weight * f[m][a];
+            const Entry& e = entries_[k];
+            double* to = force.data() + 4 * static_cast<std::size_t>(e.particle);
+            for (int a = 0; a < 3; ++a) to[a] += e.along * f[m][a] + e.extra * across[a];
         }
+    }
 }
 
 }  // namespace corpuscle::coupling

@@ -1,8 +1,13 @@
 // Immersed coupling: fluid fills space through the membrane; a node has no fluid of its own. It moves with the velocity that it finds
 // in the fluid around it, and its force goes to that fluid with the same weights:
 //
-//     S : u_m = sum_j w_mj u_j,  w_mj = V_j W(r/R) (c0 + c.d_j/R),  W Wendland C2,  r = |d_j|,  d_j = x_j - x_m,  R = 2 dx
-// with (c0, c) such that constant and linear fields are found exactly; where that would need sum_j |w_mj| > 1.5, c = 0 (Shepard).
+//     S : u_m = sum_j [w_mj (1 - n n^T) + w'_mj n n^T] u_j,   n the membrane's normal at the node
+//     w_mj = V_j W(r/R) (c0 + c.q + c2 q^2),   W Wendland C2,   q = d_j/R,  r = |d_j|,  d_j = x_j - x_m,  R = 2.5 dx
+//     sum_j w_mj = 1,   sum_j w_mj q = 0,   sum_j w_mj q^2 = s along the membrane (w), s' across it (w')
+// Constant and linear fields are found exactly. The second moments make up for the reach of the weights: those of W itself, 0.2, would leave a node
+// behind the membrane, since the velocity bends there where the membrane pulls along it, and what the weights spread is weaker by as much
+// (docs/coupling.md; tests/implicit/loadedSphere.cpp has the figures). Where sum_j |w_mj| > 4, as on one side of fluid alone, or
+// fewer than 10 particles are near: c = 0, c2 = 0 (Shepard).
 //
 // A closed cell keeps its volume exactly: of velocities and forces the part along the gradient of its volume is taken away,
 //     P = I - g g^T/(g.g),  g = dV/dx;     u_m = P S u,   f_fluid = S^T P f_m
@@ -22,7 +27,8 @@ namespace corpuscle::coupling {
 class Immersed {
   public:
     using Vectors = std::vector<Vec3>;  // one of every node, cell after cell
-    static constexpr double radiusInSpacings = 2.0, largestWeights = 1.5;
+    static constexpr double radiusInSpacings = 2.5, largestWeights = 4.0;
+    static constexpr double momentAlong = -0.04, momentAcross = 0.04;  // s, s'
 
     Immersed(std::vector<Cell>& cells, double spacing);
 
@@ -59,8 +65,8 @@ class Immersed {
   private:
     struct Entry {
         int particle;
-        double weight;
-        Vec3 d;  // x_j - x_m in radii
+        double along, extra;  // w, w' - w
+        Vec3 q;
     };
     template <class F>
     void forCells(F&& f) const;  // f(cell, its first and last node)
@@ -75,6 +81,7 @@ class Immersed {
     MPI_Comm comm_ = MPI_COMM_NULL;
     std::vector<std::size_t> first_;  // of each node in entries_, and one behind the last
     std::vector<Entry> entries_;
+    Vectors normal_;                                             // of each node; 0 where it has no area
     std::vector<membrane::BlockStiffness> stiffness_, damping_;  // K and C of each cell
     Vectors gradient_;                                           // g of closed cells, 0 of open ones
     std::vector<int> touched_;

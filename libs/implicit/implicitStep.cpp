@@ -40,10 +40,8 @@ class Step final : public ImplicitStep {
         if (!scene.cells.empty()) {
             immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
             noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
-            if (options.jumpCorrection)
-                jump_ = std::make_unique<coupling::JumpCorrection>(scene.cells, scene.spacing, scene.model().viscosity);
             membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(),
-                                                              options_.settings, jump_.get());
+                                                              options_.settings);
             terms_.push_back(membranes_.get());
         }
         if (scene.bodies) {
@@ -270,7 +268,7 @@ class Step final : public ImplicitStep {
     }
     void preconditionParticles(const Field& r, Field& z) {
         if (withMembrane_) {
-            membraneCorrection_.apply(scene_.system->comm(), *immersed_, jump_.get(), *grid_, time_, inverse_, r, z);
+            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
             return;
         }
         for (std::size_t i = 0; i < inverse_.size(); ++i) {
@@ -408,10 +406,9 @@ class Step final : public ImplicitStep {
     bool backward_, isLinear_, withMembrane_ = false, ends_ = false;  // ends_: everything at the end of this step
     std::string fault_;
     FluidTerm<Real> fluid_;
-    std::unique_ptr<coupling::JumpCorrection> jump_;  // none where it is not wanted
-    std::unique_ptr<MembraneTerm<Real>> membranes_;   // none without cells
-    std::unique_ptr<RigidUnknowns<Real>> rigid_;      // none without bodies
-    std::vector<Term<Real>*> terms_;                  // of these, the fluid's first
+    std::unique_ptr<MembraneTerm<Real>> membranes_;  // none without cells
+    std::unique_ptr<RigidUnknowns<Real>> rigid_;     // none without bodies
+    std::vector<Term<Real>*> terms_;                 // of these, the fluid's first
     std::unique_ptr<CoarseGrid> grid_;
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;

@@ -21,8 +21,7 @@ void add(Vectors& a, double factor, const Vectors& b) {
 }  // namespace
 
 template <class Real>
-void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& immersed,
-                                     const coupling::JumpCorrection* jump, CoarseGrid& grid, double time,
+void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time,
                                      const Field& inverse, const Field& r, Field& z) {
     const std::vector<int>& near = immersed.touched();
     const std::size_t size = r.size();
@@ -62,8 +61,7 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
         grid.gather(scattered_.data(), &near);
         grid.solve(comm);
         ofGrid_.assign(values.begin(), values.end());
-        Vectors t = onNodes([&](std::size_t at) { return scattered_[at]; });  // N K' direction
-        if (jump) jump->addSlip(s, t);
+        const Vectors t = onNodes([&](std::size_t at) { return scattered_[at]; });  // N K' direction
         const double alpha = square / (dot(s, direction) + dot(s, t));
         add(y, alpha, s);
         for (std::size_t g = 0; g < solution_.size(); ++g) solution_[g] -= alpha * ofGrid_[g];

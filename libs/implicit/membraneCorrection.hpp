@@ -3,13 +3,11 @@
 //
 //     (B^-1 + S^T K' S)^-1 = B - B S^T y,   y = K' x,   (1 + N K') x = S B r,   N = S B S^T
 // The system for x lives on the nodes alone. 1 + N K' is symmetric in the inner product of K', and conjugate gradients solve it there. So
-// the iterations of the whole become those of the fluid, however stiff the membrane is. With a jump correction M (coupling/jumpCorrection.hpp) the
-// fluid feels (K'^-1 + M)^-1 in place of K', and N + M stands for N.
+// the iterations of the whole become those of the fluid, however stiff the membrane is.
 #pragma once
 #include <utility>
 
 #include "coupling/immersed.hpp"
-#include "coupling/jumpCorrection.hpp"
 #include "implicit/coarseGrid.hpp"
 
 namespace corpuscle::implicit {
@@ -22,9 +20,8 @@ class MembraneCorrection {
     static constexpr int most = 60;
 
     // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle. Collective.
-    // jump: null: none.
-    void apply(MPI_Comm comm, const coupling::Immersed& immersed, const coupling::JumpCorrection* jump,
-               CoarseGrid& grid, double time, const Field& inverse, const Field& r, Field& z);
+    void apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time, const Field& inverse,
+               const Field& r, Field& z);
 
     long takeIterations() { return std::exchange(iterations_, 0); }  // since it was asked last
 

@@ -10,43 +10,28 @@ template <class Real>
 void MembraneTerm<Real>::prepare(double time) {
     time_ = time;
     immersed_.build(system_, volumes_);
-    if (jump_) jump_->place();
     load_ = immersed_.force();
     immersed_.addStiffness(time_, immersed_.velocities(), load_);  // of f(x) at x* + time (v - u_m)
 }
 
 template <class Real>
-void MembraneTerm<Real>::findNodes(const Field& v, Vectors& nodes, Vectors& force) const {
-    nodes = immersed_.interpolate(v.data());
-    if (jump_)
-        addSlip(nodes, force);
-    else
-        immersed_.addResistance(time_, nodes, force);
-}
-
-template <class Real>
-void MembraneTerm<Real>::addSlip(Vectors& nodes, Vectors& force) const {
-    jump_->solve([&](const Vectors& u, Vectors& f) { immersed_.addResistance(time_, u, f); }, nodes, force);
-}
-
-template <class Real>
 void MembraneTerm<Real>::addForces(const Field& v, Forces& forces) {
+    nodes_ = immersed_.interpolate(v.data());
     Vectors f = load_;
-    findNodes(v, nodes_, f);
+    immersed_.addResistance(time_, nodes_, f);
     immersed_.spread(std::move(f), forces);
 }
 
 template <class Real>
 void MembraneTerm<Real>::addProduct(const Field& v, Forces& forces) {
-    Vectors nodes, f(load_.size(), Vec3::Zero());
-    findNodes(v, nodes, f);
+    Vectors f(load_.size(), Vec3::Zero());
+    immersed_.addResistance(time_, immersed_.interpolate(v.data()), f);
     immersed_.spread(std::move(f), forces);
 }
 
 template <class Real>
 std::string MembraneTerm<Real>::refusal(const Field& v, double dt) {
     nodes_ = immersed_.interpolate(v.data());
-    if (Vectors f = load_; jump_) addSlip(nodes_, f);
     const double change = largestBondRate(immersed_.cells(), nodes_) * dt;
     if (change <= settings_.bondStrain) return {};
     return fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);
@@ -72,8 +57,8 @@ void MembraneTerm<Real>::takeDefect() {
 template <class Real>
 double MembraneTerm<Real>::power(const Field& v, const Field& w) {
     const Vectors disturbance = immersed_.interpolate(w.data());
-    Vectors nodes, f = load_;
-    findNodes(v, nodes, f);
+    Vectors f = load_;
+    immersed_.addResistance(time_, immersed_.interpolate(v.data()), f);
     double sum = 0;
     for (std::size_t m = 0; m < f.size(); ++m) sum += disturbance[m].dot(f[m]);
     return sum;

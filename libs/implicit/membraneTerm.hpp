@@ -1,7 +1,6 @@
 // The membranes' term, through the immersed coupling (coupling/immersed.hpp):
 //
-//     load = S^T P (f(x*) + time k u_m),   A = S^T P R P S,   R = time k + C
-// with a jump correction: the nodes' velocity is P S v + M f, and A = S^T P (R^-1 + M)^-1 P S (coupling/jumpCorrection.hpp)
+//     load = S^T P (f(x*) + time k u_m),   A = S^T P (time k + C) P S
 //
 // symbol | meaning
 // S, P   | interpolation to the nodes, with the volume of closed cells kept
@@ -13,7 +12,6 @@
 // along it (docs/implicit.md, Figures); membraneCorrection.hpp has it in full.
 #pragma once
 #include "coupling/immersed.hpp"
-#include "coupling/jumpCorrection.hpp"
 #include "implicit/implicitSettings.hpp"
 #include "implicit/term.hpp"
 #include "sph/account.hpp"
@@ -29,8 +27,8 @@ class MembraneTerm final : public Term<Real> {
 
     // volumes: of the particles, as they are at x*. All must stay where they are.
     MembraneTerm(coupling::Immersed& immersed, const particles::ParticleSystem& system,
-                 const std::vector<double>& volumes, const ImplicitSettings& settings, coupling::JumpCorrection* jump)
-        : immersed_(immersed), system_(system), volumes_(volumes), settings_(settings), jump_(jump) {}
+                 const std::vector<double>& volumes, const ImplicitSettings& settings)
+        : immersed_(immersed), system_(system), volumes_(volumes), settings_(settings) {}
 
     void prepare(double time) override;
     void addForces(const Field& v, Forces& forces) override;
@@ -48,16 +46,10 @@ class MembraneTerm final : public Term<Real> {
     const Vectors& velocities() const { return nodes_; }
 
   private:
-    // Velocity of the nodes; force: the load on entry, the force at that velocity at the end.
-    void findNodes(const Field& v, Vectors& nodes, Vectors& force) const;
-    // nodes: the velocity that they find in the fluid, on entry.
-    void addSlip(Vectors& nodes, Vectors& force) const;
-
     coupling::Immersed& immersed_;
     const particles::ParticleSystem& system_;
     const std::vector<double>& volumes_;
     const ImplicitSettings& settings_;
-    coupling::JumpCorrection* jump_;  // null: none
     double time_ = 0;
     Vectors load_, defect_, nodes_;
 };

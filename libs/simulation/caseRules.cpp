@@ -116,11 +116,6 @@ void checkScheme(const Case& c, Problems& problems) {
     if (cells && n.isImplicit() && !n.isImmersed())
         problems.add(numerics, "coupling",
                      "found dualIdentity, which goes with 'integrator: velocityVerlet'; write coupling: immersed");
-    if (n.jumpCorrection && !(cells && n.isImmersed()))
-        problems.add(numerics, "jumpCorrection",
-                     std::string("found true, which is for membranes with 'coupling: immersed', but ") +
-                         (cells ? "the coupling is dualIdentity; write coupling: immersed, or leave the key out"
-                                : "there are no cells; leave the key out"));
     if (cells && !n.isImplicit() && corrected && !n.isImmersed())
         problems.add(numerics, "operators",
                      "found corrected, which go with 'coupling: immersed'; write that, or operators: plain");

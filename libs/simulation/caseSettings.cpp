@@ -107,11 +107,6 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
                   "form of the pair operators: of the kernel alone, or exact for linear fields; automatic: corrected "
                   "with immersed membranes and with the implicit step",
                   {.fallback = "automatic"})
-            .boolean(
-                "jumpCorrection", &NumericsSettings::jumpCorrection,
-                "with immersed membranes: give nodes back the velocity that their weights smear over the kink at the "
-                "membrane, so that the coupling is of second order",
-                {.fallback = "false"})
             .word("precision", &NumericsSettings::precision, {"double", "mixed"},
                   "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state "
                   "and sums are double",

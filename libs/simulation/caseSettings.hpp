@@ -50,7 +50,6 @@ struct NumericsSettings {
     double spacing = 0;  // dx [m]
     Choice<sph::Kernel> kernel;
     std::string integrator, coupling, operators, precision;
-    bool jumpCorrection = false;
     std::optional<sph::ShiftingSettings> shifting;
     implicit::ImplicitSettings implicit;
     sph::Rkl2Settings rkl2;

@@ -115,8 +115,6 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     if (!input.numerics.isImplicit() && input.isConjugate())
         file.writeReplicated("conjugate",
                              std::vector<std::int64_t>{static_cast<std::int64_t>(state.integrator.conjugateSteps)});
-    if (!input.numerics.isImplicit() && input.numerics.jumpCorrection)
-        file.writeReplicated("jumpRate", std::vector<double>{state.integrator.jumpRate});
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.coupling) {
@@ -162,17 +160,12 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     time.t = file.template attribute<double>("time");
     time.step = file.template attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.template attribute<double>("viscousRate"), file.template attribute<double>("membraneRate"),
-                        file.template attribute<double>("springRate2"), 0,
-                        file.template attribute<double>("dt"),          {}};
+    state.integrator = {file.template attribute<double>("viscousRate"),
+                        file.template attribute<double>("membraneRate"),
+                        file.template attribute<double>("springRate2"),
+                        file.template attribute<double>("dt"),
+                        {}};
     const bool isImplicit = input.numerics.isImplicit();
-    if (!isImplicit && input.numerics.jumpCorrection) {
-        if (!file.has("jumpRate"))
-            throw Failure(ExitCode::io, where +
-                                            " was written without 'jumpCorrection: true', which limits the step; start "
-                                            "from firstTime, or leave the key out of system/numerics.yaml");
-        state.integrator.jumpRate = file.template readReplicated<double>("jumpRate").at(0);
-    }
     if (file.has("implicit") != isImplicit)
         throw Failure(ExitCode::io,
                       where + " was written by 'integrator: " + (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +

@@ -64,7 +64,6 @@ void Integrator::makeConjugate() {
     if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
     if (numerics.balanceInterval() > 0) options.densityBalance = densityBalance(scene_);
     options.balanceInterval = numerics.balanceInterval();
-    options.jumpCorrection = numerics.jumpCorrection;
     if (numerics.isImplicit())
         implicit_ = implicit::ImplicitStep::make(scene_, {options, numerics.implicit});
     else
@@ -81,7 +80,6 @@ Integrator::State Integrator::state(const Time& time) const {
     return {viscousRate_,
             membraneRate_,
             springRate2_,
-            jumpRate_,
             time.dt,
             implicit_ ? implicit_->state : implicit::ImplicitStep::State{},
             conjugate_ ? conjugate_->steps() : 0};
@@ -101,7 +99,6 @@ void Integrator::resume(const State& state, Time& time) {
     viscousRate_ = state.viscousRate;
     membraneRate_ = state.membraneRate;
     springRate2_ = state.springRate2;
-    jumpRate_ = state.jumpRate;
     if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     updateLimits(time);
     time.dt = state.dt;
@@ -149,7 +146,6 @@ void Integrator::estimateRates() {
         const coupling::ConjugateVerlet::Rates rates = conjugate_->rates(powerIterations);
         viscousRate_ = powerReserve * rates.viscous, membraneRate_ = powerReserve * rates.membrane;
         springRate2_ = powerReserve * rates.spring2;
-        jumpRate_ = powerReserve * rates.jump;
         return;
     }
     viscousRate_ = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
@@ -196,7 +192,6 @@ void Integrator::updateLimits(Time& time) {
                 (rkl2_ ? sph::Rkl2::acousticReach : 1) * sph::acousticStep(h, model.soundSpeed + std::sqrt(most)));
     if (!model.bodyForce.isZero()) limits_.add("body force", sph::bodyForceStep(h, model.bodyForce.norm()));
     if (springRate2_ > 0) limits_.add("spring", safety * sph::springStep(drag, springRate2_));
-    if (jumpRate_ > 0) limits_.add("jump correction", safety / jumpRate_);
     if (longest_ < std::numeric_limits<double>::infinity()) limits_.add("retreat", longest_);
     time.dt = limits_.binding().seconds;
     if (rkl2_) limits_.stages = rkl2_->stages(time.dt);

@@ -27,7 +27,7 @@ class Integrator {
 
     void start(Time& time);  // forces at the initial state, first step
     struct State {
-        double viscousRate = 0, membraneRate = 0, springRate2 = 0, jumpRate = 0, dt = 0;
+        double viscousRate = 0, membraneRate = 0, springRate2 = 0, dt = 0;
         implicit::ImplicitStep::State implicit;
         long conjugateSteps = 0;
     };
@@ -61,7 +61,7 @@ class Integrator {
     std::unique_ptr<coupling::ConjugateVerlet> conjugate_;
     std::unique_ptr<implicit::ImplicitStep> implicit_;
     sph::StepLimits limits_;
-    double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0, jumpRate_ = 0;
+    double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
     double largestBalance_ = 0;                                 // before the last way back
     double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
     long rebuilds_ = -1;

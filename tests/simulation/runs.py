@@ -452,64 +452,6 @@ def test_integrators(folder):
         assert b[key] > 0 and abs(a[key] / b[key] - 1) < 0.02, (key, ends)
 
 
-def test_jumpCorrection(folder):
-    """With the jump correction: the implicit step and velocity Verlet agree on a capsule of viscous membrane and viscosity ratio 5, which turns faster than without; the
-    same on 1, 2 and 4 ranks; the account closes; a run in two parts has the same bits; a stiff red cell and one that tears; refused where there is nothing to correct."""
-    jump = ("-set", "system/numerics.yaml:/jumpCorrection=true")
-    observers = "deformation: {type: shape, every: 0.1 strain}\nbalance: {type: conservation, every: 0.1 strain}\n"
-    capsule = {**IMPLICIT_CASE, "system/observers.yaml": observers, "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.4"),
-               "constant/membranes.yaml": "rbc:\n  interior: {viscosityRatio: 5}\n  triangles: {type: skalak, Gs: 5e-6 N/m, C: 1}\n  viscosity: {shear: 1e-9 N s/m}\n",
-               "constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n"}
-    start = prepared(folder / "capsule", capsule)
-    fine, verlet = ("-set", "system/numerics.yaml:/implicit={step: 0.02, tolerance: 1e-6, error: 1}"), ("-set", "system/numerics.yaml:/integrator=velocityVerlet")
-    found = {}
-    for name, words, ranks in (("implicit", (*fine, *jump), 1), ("implicit2", (*fine, *jump), 2), ("implicit4", (*fine, *jump), 4), ("without", fine, 2),
-                               ("verlet", (*verlet, *jump), 1), ("verlet2", (*verlet, *jump), 2)):
-        case = copied(start, folder / name)
-        run(case, "dmpFlow", *words, ranks=ranks)
-        found[name] = [{**shape, **balance} for shape, balance in zip(table(case, "deformation"), table(case, "balance"))]
-        assert len(found[name]) == 5 and found[name][-1]["changedSide"] == 0, found[name]
-        assert abs(found[name][-1]["rbc_volume_m3"] / found[name][0]["rbc_volume_m3"] - 1) < 1e-7
-        last = table(case, "balance", "account.csv")[-1]
-        assert last["residualShare"] < 2e-3 and last["dissipated_J"] > 0, (name, last)
-        print(name, *(f"{found[name][-1][key]:.6f}" for key in ("D12_inertia", "inclination_rad", "treadPhase_rad")), f"{last['residualShare']:.1e}")
-    keys = ("D12_inertia", "inclination_rad", "treadPhase_rad", "kineticEnergy_J", "rbc_area_m2")
-    columns = {name: [[row[key] for key in keys] for row in rows] for name, rows in found.items()}
-    close(columns["implicit"], columns["implicit2"], 1e-5)
-    close(columns["implicit"], columns["implicit4"], 1e-5)
-    close(columns["verlet"], columns["verlet2"], 1e-7)
-    a, b, without = (found[name][-1] for name in ("implicit", "verlet", "without"))
-    assert abs(b["strain"] - a["strain"]) < 2e-3
-    for key in ("D12_inertia", "inclination_rad", "treadPhase_rad"):
-        assert abs(b[key] / a[key] - 1) < 0.01, (key, a[key], b[key])
-    assert abs(a["treadPhase_rad"] - without["treadPhase_rad"]) > 0.01 * abs(without["treadPhase_rad"]), (a["treadPhase_rad"], without["treadPhase_rad"])
-    short = ("-set", "system/control.yaml:/endStrain=0.1", *verlet, *jump)
-    whole = copied(start, folder / "whole")
-    run(whole, "dmpFlow", *short)
-    same_in_parts(whole, start, "dmpFlow", 57, *short, observers=("deformation", "balance"))
-    # Stiff, where the preconditioner takes the membrane in; and one that tears, the same on two ranks.
-    red = {**capsule, "system/observers.yaml": observers + "tear: {type: rupture, every: 0.05 strain}\n",
-           "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
-           "constant/flow.yaml": "type: shear\nCa: 0.002\ninertia: {Re: 0.1}\n"}
-    stiff = prepared(folder / "stiff", red)
-    run(stiff, "dmpFlow", *jump, ranks=2)
-    record = json.loads((stiff / "run.json").read_text())
-    assert record["performance"]["innerIterationsPerStep"] > 0 and record["performance"]["halvings"] == 0, record["performance"]
-    assert record["performance"]["iterationsPerStep"] < 25 and record["performance"]["retreats"] == 0, record["performance"]
-    tearing = prepared(folder / "tearing", {**red, "constant/membranes.yaml": red["constant/membranes.yaml"] + "  rupture: {type: bondStretch, limit: 1.05}\n",
-                                            "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.1}\n"})
-    losses = []
-    for ranks in (1, 2):
-        case = copied(tearing, folder / f"tearing{ranks}")
-        run(case, "dmpFlow", *jump, "-set", "system/numerics.yaml:/implicit={step: 0.01, tolerance: 1e-5, error: 1}", ranks=ranks)
-        losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
-    print("stiff", record["performance"]["iterationsPerStep"], record["performance"]["innerIterationsPerStep"], "torn", losses)
-    assert losses[0] == losses[1] > 0, losses
-    said = run(copied(start, folder / "refused"), "dmpFlow", *verlet, *jump, "-set", "system/numerics.yaml:/coupling=dualIdentity",
-               "-set", "system/numerics.yaml:/operators=plain", code=2).stderr
-    assert "jumpCorrection: found true, which is for membranes with 'coupling: immersed'" in said, said
-
-
 # Fluid alone that changes by itself: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
 PLATES = {
     "system/control.yaml": "application: sphFlow\nendTime: 0.1 s\ncheckpoint: {wallClock: never}\n",
