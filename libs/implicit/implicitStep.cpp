@@ -43,6 +43,7 @@ class Step final : public ImplicitStep {
             membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(),
                                                               options_.settings);
             terms_.push_back(membranes_.get());
+            allowed_ = firstStep(options_.settings, scene.flow.rate);
         }
         if (scene.bodies) {
             rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, operators(), grid_ != nullptr);

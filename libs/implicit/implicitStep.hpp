@@ -65,6 +65,7 @@ class ImplicitStep {
     State state;
     void resume(const State& saved, long crossings) {  // crossings: of this rank
         state = saved;
+        allowed_ = {};
         if (noFlux_) noFlux_->restore(crossings);
     }
 

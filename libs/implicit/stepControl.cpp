@@ -13,6 +13,8 @@ namespace {
 
 constexpr double most = 2, least = 0.2;  // change from step to step
 
+bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }
+
 // Largest difference of two velocities, in radii of the nodes' cell.
 double largestDifference(const std::vector<Cell>& cells, const Immersed::Vectors& a, const Immersed::Vectors& b) {
     double largest = 0;
@@ -41,6 +43,11 @@ double largestBondRate(const std::vector<Cell>& cells, const Immersed::Vectors& 
     return largest;
 }
 
+AllowedSteps firstStep(const ImplicitSettings& settings, double rate) {
+    if (!isStrict(settings)) return {};
+    return {.error = settings.step / rate * std::sqrt(settings.error / ImplicitSettings{}.error)};
+}
+
 AllowedSteps allowedSteps(const ImplicitSettings& settings, const coupling::Scene& scene, double dt, bool backwardEuler,
                           const Immersed::Vectors& found, const Immersed::Vectors& extrapolated) {
     AllowedSteps allowed;
@@ -50,6 +57,8 @@ AllowedSteps allowedSteps(const ImplicitSettings& settings, const coupling::Scen
     if (error > 0) {
         const double ratio = settings.error / error;
         allowed.error = dt * std::clamp(backwardEuler ? ratio : std::sqrt(ratio), least, most);
+    } else if (isStrict(settings)) {
+        allowed.error = most * dt;
     }
     return allowed;
 }

@@ -350,7 +350,7 @@ def test_stepControl(folder):
     assert performance["coarse"]["steps"] == 6 and performance["error"]["steps"] >= 12, performance
     assert performance["bonds"]["halvings"] > 0 == performance["coarse"]["halvings"], performance
     assert performance["long"]["refinements"] > 0 == performance["fine"]["refinements"], performance
-    assert abs(D["error"] - D["fine"]) < 0.4 * abs(D["coarse"] - D["fine"]), D
+    assert abs(D["error"] - D["fine"]) < 0.2 * abs(D["coarse"] - D["fine"]), D
     assert abs(D["bonds"] - D["fine"]) < 0.02 * D["fine"] and abs(D["long"] - D["fine"]) < 0.03 * D["fine"], D
 
 
