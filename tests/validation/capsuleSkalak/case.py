@@ -10,7 +10,6 @@ ACROSS = "particles along the radius"
 RESOLUTIONS = (6, 8, 12)
 ALLOWED = {6: {"0.3": 2}, 8: {"0.3": 2, "0.6": 2.5, "1.2": 5}}  # % of D12; 2 % at the finest is the aim
 PERIOD = {6: 4, 8: 3}  # %; likewise
-MISSED = {12: ("Ca 1.2: D12 at *",)}
 
 capsules = Capsules("capsuleSkalak", ("0.3", "0.6", "1.2"))
 runs = capsules.runs
