@@ -67,8 +67,8 @@ def worst(course, reference, key, strains, scale=1.0):
 class Sheared:
     """A case: one membrane in shear flow over Ca, against the curves reference_Ca*.csv of its folder.
 
-    name: the folder. source: the tutorial. scenes: by Ca (a word), strain of the end and box. coarse: the Ca that the coarsest resolution runs.
-    more: settings of every run. edge: of the mesh, in spacings.
+    name: the folder. source: the tutorial. scenes: by Ca (a word), strain of the end and boxes by the resolution from which on they hold.
+    coarse: the Ca that the coarsest resolution runs. more: settings of every run. edge: of the mesh, in spacings.
     """
 
     def __init__(self, name, source, scenes, coarse, more, edge=0.5, programs=PROGRAMS):
@@ -76,8 +76,9 @@ class Sheared:
         self.edge, self.programs = edge, programs
 
     def runs(self, n):
-        return [Run(f"Ca{Ca}", self.source, settings(n, box, strain, [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge), self.programs)
-                for Ca, (strain, box) in self.scenes.items() if n > COARSEST or Ca == self.coarse]
+        return [Run(f"Ca{Ca}", self.source, settings(n, boxes[max(k for k in boxes if k <= n)], strain,
+                                                         [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge), self.programs)
+                for Ca, (strain, boxes) in self.scenes.items() if n > COARSEST or Ca == self.coarse]
 
     def courses(self, done):
         """(Ca, its course) of runs that have ended."""
