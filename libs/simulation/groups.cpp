@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,65 +10,95 @@
 
 namespace corpuscle::simulation {
 
+namespace {
+
+class Groups {
+  public:
+    // Of everything, or of a cell or body: what another has already, with the same value, is not repeated.
+    void add(const std::string& symbol, double number, std::string text, const std::string& whose = "") {
+        std::string value = fmt::format("{:.4g}", number);
+        const auto of = [&](const Group& g) { return g.symbol == symbol; };
+        if (!whose.empty() &&
+            std::any_of(groups_.begin(), groups_.end(), [&](const Group& g) { return of(g) && g.value == value; }))
+            return;
+        const bool first = std::none_of(groups_.begin(), groups_.end(), of);
+        groups_.push_back({first ? symbol : fmt::format("{} ({})", symbol, whose), std::move(value), std::move(text),
+                           number, symbol});
+    }
+    std::vector<Group> take() { return std::move(groups_); }
+
+  private:
+    std::vector<Group> groups_;
+};
+
+std::string reynoldsText(const Case& c) {
+    return c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
+                                              formatQuantity(c.flow.density, unit::kilogramPerMetre3))
+                                : "rho gammadot a^2/mu";
+}
+
+void addGap(Groups& groups, const Case& c, double a, const std::string& whose, const char* text) {
+    if (const int k = c.flowModel->wallAxis(); k >= 0) groups.add("L/a", c.mesh.domain.size[k] / a, text, whose);
+}
+
+void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
+    const membrane::MembraneSettings& laws = c.membraneOf(cell);
+    const std::string& whose = cell.name;
+    const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear, rate = c.flow.rate;
+    groups.add("Re", c.flow.density * rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
+    groups.add("Ca", c.fluid.viscosity * rate * a / Gs,
+               fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
+                           laws.bonds ? ", hexagonal network" : ""),
+               whose);
+    const bool jump = laws.interior.viscosityRatio != 1 && !c.isConjugate();
+    groups.add("lambda", laws.interior.viscosityRatio,
+               jump ? "viscosity inside/outside; dual identity holds back the rotation of the inside, coupling: "
+                      "immersed does not"
+                    : "viscosity inside/outside",
+               whose);
+    if (laws.viscosity)
+        groups.add("Bq", laws.viscosity->shear / (c.fluid.viscosity * a),
+                   "Boussinesq number: shear viscosity of the membrane over mu a", whose);
+    if (laws.bending) {
+        const double kappa = laws.bending->bendingModulus({Gs, a});
+        groups.add("E_b", kappa / (Gs * a * a),
+                   fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)), whose);
+    }
+    addGap(groups, c, a, whose, "gap between the walls over cell radius");
+    groups.add("a/dx", a / c.spacing(), "particles per cell radius", whose);
+    groups.add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing", whose);
+}
+
+void addBody(Groups& groups, const Case& c, const BodyPlaceSettings& body) {
+    const std::string& whose = body.name;
+    const double a = body.shape->radius();
+    groups.add("Re", c.flow.density * c.flow.rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
+    groups.add("rho_b/rho", c.densityOf(body) / c.flow.density, "density of the body over that of the fluid", whose);
+    addGap(groups, c, a, whose, "gap between the walls over the body's radius");
+    groups.add("a/dx", a / c.spacing(), "particles per radius of the body", whose);
+}
+
+}  // namespace
+
 std::vector<Group> dimensionlessGroups(const Case& c) {
-    std::vector<Group> groups;
-    const auto add = [&](const char* name, double value, std::string text) {
-        groups.push_back({name, fmt::format("{:.4g}", value), std::move(text), value});
-    };
-    const double nu = c.fluid.viscosity / c.flow.density, c0 = c.soundSpeed();
-    if (!c.mesh.cells.empty()) {
-        const CellSettings& cell = c.mesh.cells.front();
-        const membrane::MembraneSettings& laws = c.membraneOf(cell);
-        const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear;
-        const double rate = c.flow.rate;
-        add("Re", c.flow.density * rate * a * a / c.fluid.viscosity,
-            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
-                                               formatQuantity(c.flow.density, unit::kilogramPerMetre3))
-                                 : "rho gammadot a^2/mu");
-        add("Ca", c.fluid.viscosity * rate * a / Gs,
-            fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
-                        laws.bonds ? ", hexagonal network" : ""));
-        const bool jump = laws.interior.viscosityRatio != 1 && !c.isConjugate();
-        add("lambda", laws.interior.viscosityRatio,
-            jump ? "viscosity inside/outside; dual identity holds back the rotation of the inside, coupling: immersed "
-                   "does not"
-                 : "viscosity inside/outside");
-        if (laws.viscosity)
-            add("Bq", laws.viscosity->shear / (c.fluid.viscosity * a),
-                "Boussinesq number: shear viscosity of the membrane over mu a");
-        if (laws.bending) {
-            const double kappa = laws.bending->bendingModulus({Gs, a});
-            add("E_b", kappa / (Gs * a * a),
-                fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)));
-        }
-        if (const int k = c.flowModel->wallAxis(); k >= 0)
-            add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over cell radius");
-        add("a/dx", a / c.spacing(), "particles per cell radius");
-        add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing");
-    } else if (!c.mesh.bodies.empty()) {
-        const BodyPlaceSettings& body = c.mesh.bodies.front();
-        const double a = body.shape->radius();
-        add("Re", c.flow.rate * a * a / nu,
-            c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
-                                               formatQuantity(c.flow.density, unit::kilogramPerMetre3))
-                                 : "rho gammadot a^2/mu");
-        add("rho_b/rho", c.densityOf(body) / c.flow.density, "density of the body over that of the fluid");
-        if (const int k = c.flowModel->wallAxis(); k >= 0)
-            add("L/a", c.mesh.domain.size[k] / a, "gap between the walls over the body's radius");
-        add("a/dx", a / c.spacing(), "particles per radius of the body");
-    } else
-        add("Re", c.flow.speed * c.flow.length / nu, "speed x length/nu");
+    Groups groups;
+    for (const CellSettings& cell : c.mesh.cells) addCell(groups, c, cell);
+    if (c.mesh.cells.empty())
+        for (const BodyPlaceSettings& body : c.mesh.bodies) addBody(groups, c, body);
+    if (c.mesh.cells.empty() && c.mesh.bodies.empty())
+        groups.add("Re", c.flow.speed * c.flow.length * c.flow.density / c.fluid.viscosity, "speed x length/nu");
     if (!c.fluid.layers.empty())
-        add("mu_max/mu_min", c.viscosities().largest / c.viscosities().least,
-            fmt::format("of {} layers; Re has the viscosity of the lowest", c.fluid.layers.size() + 1));
-    add("H_s/dx", c.support() / c.spacing(),
-        fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",
-                    c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
-                    100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
-    add("Ma", c.flow.speed / c0,
-        fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
-                    c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
-    return groups;
+        groups.add("mu_max/mu_min", c.viscosities().largest / c.viscosities().least,
+                   fmt::format("of {} layers; Re has the viscosity of the lowest", c.fluid.layers.size() + 1));
+    groups.add("H_s/dx", c.support() / c.spacing(),
+               fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",
+                           c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
+                           100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
+    const double c0 = c.soundSpeed();
+    groups.add("Ma", c.flow.speed / c0,
+               fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
+                           c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
+    return groups.take();
 }
 
 ParticleEstimate estimateParticles(const Case& c) {

@@ -1,4 +1,5 @@
-// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json.
+// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json. Cells (or bodies) after the first have those that
+// differ, under their own name: "Ca (stiff)".
 #pragma once
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@ namespace corpuscle::simulation {
 struct Group {
     std::string name, value, text;
     double number;
+    std::string symbol;  // the name without whose it is
 };
 std::vector<Group> dimensionlessGroups(const Case& input);
 

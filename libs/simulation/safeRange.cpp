@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "simulation/groups.hpp"
 #include "simulation/safeRangeTable.hpp"
@@ -24,7 +25,7 @@ double number(const std::string& word, const std::string& line) {
     return value;
 }
 
-std::optional<double> valueOf(const Case& input, const std::vector<Group>& groups, const std::string& axis) {
+std::optional<double> valueOf(const Case& input, const std::string& axis) {
     const NumericsSettings& numerics = input.numerics;
     if (axis == "implicit.step") return numerics.isImplicit() ? std::optional(numerics.implicit.step) : std::nullopt;
     if (axis == "implicit.tolerance")
@@ -36,8 +37,17 @@ std::optional<double> valueOf(const Case& input, const std::vector<Group>& group
         const double ratio = input.soundSpeed() / input.automaticSoundSpeed();
         return ratio * ratio;
     }
-    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.name == axis; });
-    return group != groups.end() ? std::optional(group->number) : std::nullopt;
+    return std::nullopt;
+}
+
+// Of a case on an axis, by name: one value, or those of all cells.
+std::vector<std::pair<std::string, double>> valuesOf(const Case& input, const std::vector<Group>& groups,
+                                                     const std::string& axis) {
+    std::vector<std::pair<std::string, double>> values;
+    if (const auto value = valueOf(input, axis)) values.emplace_back(axis, *value);
+    for (const Group& g : groups)
+        if (g.symbol == axis) values.emplace_back(g.name, g.number);
+    return values;
 }
 
 }  // namespace
@@ -80,12 +90,13 @@ std::vector<std::string> outsideSafeRanges(const Case& input, const std::vector<
     const std::vector<Group> groups = dimensionlessGroups(input);
     for (const SafeRange& range : ranges) {
         if (range.integrator != input.numerics.integrator) continue;
-        const std::optional<double> value = valueOf(input, groups, range.axis);
-        // A number such as 0.05 comes out of units and quotients with rounding.
-        if (!value || (*value >= range.low * (1 - 1e-6) && *value <= range.high * (1 + 1e-6))) continue;
-        words.push_back(
-            fmt::format("{} = {:.4g} is outside {:g} to {:g}, where {} is known to be safe: {} (docs/stability.md)",
-                        range.axis, *value, range.low, range.high, range.integrator, range.outside));
+        for (const auto& [name, value] : valuesOf(input, groups, range.axis)) {
+            // A number such as 0.05 comes out of units and quotients with rounding.
+            if (value >= range.low * (1 - 1e-6) && value <= range.high * (1 + 1e-6)) continue;
+            words.push_back(
+                fmt::format("{} = {:.4g} is outside {:g} to {:g}, where {} is known to be safe: {} (docs/stability.md)",
+                            name, value, range.low, range.high, range.integrator, range.outside));
+        }
     }
     return words;
 }

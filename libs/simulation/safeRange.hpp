@@ -2,7 +2,7 @@
 // built into the library.
 //
 // axis                  | value
-// a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of the first cell
+// a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of every cell
 // implicit.step         | strain of an implicit step; with other integrators none
 // implicit.tolerance    | of the implicit step's solver; with other integrators none
 // bulkModulus           | that of the case over what `soundSpeed: auto` stands for

@@ -207,6 +207,23 @@ TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
     EXPECT_NE(outside.err.find("is known to be safe"), std::string::npos) << outside.err;
 }
 
+TEST_F(Utilities, EveryCellHasItsGroups) {
+    const std::string cells =
+        "-set 'system/mesh.yaml:/cells=[{name: one, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, "
+        "centre: [-5, 0, 0] um}, {name: same, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
+        "{name: stiff, membrane: rbc, shape: {type: sphere, radius: 1 um}, edge: 0.5 um, centre: [5, 0, 0] um}]' "
+        "-set system/numerics.yaml:/integrator=implicit -set system/numerics.yaml:/coupling=immersed -json "
+        "-set constant/flow.yaml:/Ca=12";
+    const Result result = run("checkCase", cells);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const json groups = json::parse(result.out).at("groups");
+    EXPECT_NEAR(groups.at("Ca").get<double>(), 12, 1e-9);
+    EXPECT_NEAR(groups.at("Ca (stiff)").get<double>(), 6, 1e-9);
+    EXPECT_FALSE(groups.contains("Ca (same)")) << groups;
+    EXPECT_FALSE(groups.contains("lambda (stiff)")) << groups;
+    EXPECT_TRUE(groups.contains("a/dx (stiff)")) << groups;
+}
+
 TEST_F(Utilities, ModelsAreListed) {
     const Result all = run("listModels");
     EXPECT_EQ(all.code, 0);
