@@ -46,7 +46,7 @@ void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
     const std::string& whose = cell.name;
     const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear, rate = c.flow.rate;
     groups.add("Re", c.flow.density * rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
-    groups.add("Ca", c.fluid.viscosity * rate * a / Gs,
+    groups.add("Ca", capillaryNumber(c, cell),
                fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                            laws.bonds ? ", hexagonal network" : ""),
                whose);
@@ -79,6 +79,10 @@ void addBody(Groups& groups, const Case& c, const BodyPlaceSettings& body) {
 }
 
 }  // namespace
+
+double capillaryNumber(const Case& c, const CellSettings& cell) {
+    return c.fluid.viscosity * c.flow.rate * cell.shape->radius() / c.membraneOf(cell).moduli(cell.edge).shear;
+}
 
 std::vector<Group> dimensionlessGroups(const Case& c) {
     Groups groups;

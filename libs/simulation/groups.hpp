@@ -14,6 +14,7 @@ struct Group {
     std::string symbol;  // the name without whose it is
 };
 std::vector<Group> dimensionlessGroups(const Case& input);
+double capillaryNumber(const Case& input, const CellSettings& cell);  // mu gammadot a/Gs, Gs of the closed form
 
 // Particles of the case by the lattice and the meshes' edge lengths, before anything is made.
 struct ParticleEstimate {

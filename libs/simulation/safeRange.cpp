@@ -16,6 +16,7 @@ namespace corpuscle::simulation {
 
 namespace {
 
+constexpr double stiffest = 0.02;  // largest Ca of a stiff cell
 constexpr const char* header = "axis,integrator,low,high,outside";
 
 double number(const std::string& word, const std::string& line) {
@@ -45,6 +46,10 @@ std::vector<std::pair<std::string, double>> valuesOf(const Case& input, const st
                                                      const std::string& axis) {
     std::vector<std::pair<std::string, double>> values;
     if (const auto value = valueOf(input, axis)) values.emplace_back(axis, *value);
+    if (axis == "stiffEdge")
+        for (const CellSettings& cell : input.mesh.cells)
+            if (capillaryNumber(input, cell) <= stiffest)
+                values.emplace_back("edge/dx of '" + cell.name + "'", cell.edge / input.spacing());
     for (const Group& g : groups)
         if (g.symbol == axis) values.emplace_back(g.name, g.number);
     return values;

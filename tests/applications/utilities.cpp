@@ -196,15 +196,19 @@ TEST_F(Utilities, ErrorsSayWhatToDo) {
 TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
     const std::string scheme =
         "-set system/numerics.yaml:/integrator=implicit -set system/numerics.yaml:/coupling=immersed -json ";
-    const Result inside = run("checkCase", scheme);
+    const Result inside = run("checkCase", scheme + "-set constant/flow.yaml:/Ca=0.1");
     ASSERT_EQ(inside.code, 0) << inside.err;
     EXPECT_FALSE(json::parse(inside.out).contains("outsideSafeRange")) << inside.out;
-    const Result outside = run("checkCase", scheme + "-set constant/flow.yaml:/Ca=1e4");
-    ASSERT_EQ(outside.code, 0) << outside.err;
-    const json words = json::parse(outside.out).at("outsideSafeRange");
-    ASSERT_EQ(words.size(), 1u) << words;
-    EXPECT_NE(words[0].get<std::string>().find("Ca = 1e+04 is outside"), std::string::npos) << words;
-    EXPECT_NE(outside.err.find("is known to be safe"), std::string::npos) << outside.err;
+    const auto outside = [&](const std::string& setting, const char* words) {
+        const Result result = run("checkCase", scheme + "-set " + setting);
+        ASSERT_EQ(result.code, 0) << result.err;
+        const json found = json::parse(result.out).at("outsideSafeRange");
+        ASSERT_EQ(found.size(), 1u) << found;
+        EXPECT_NE(found[0].get<std::string>().find(words), std::string::npos) << found;
+        EXPECT_NE(result.err.find("is known to be safe"), std::string::npos) << result.err;
+    };
+    outside("constant/flow.yaml:/Ca=1e4", "Ca = 1e+04 is outside");
+    outside("constant/flow.yaml:/Ca=0.02", "edge/dx of 'rbc' = 0.8 is outside");
 }
 
 TEST_F(Utilities, EveryCellHasItsGroups) {

@@ -31,9 +31,15 @@ TEST(SafeRanges, AreRefusedWhereTheyAreNone) {
 }
 
 TEST(SafeRanges, BuiltInNameWhatACaseHas) {
-    const std::set<std::string> axes{
-        "Ca",         "Re", "lambda", "implicit.step", "implicit.tolerance", "bulkModulus", "shifting.coefficient",
-        "fill.jitter"},
+    const std::set<std::string> axes{"Ca",
+                                     "Re",
+                                     "lambda",
+                                     "stiffEdge",
+                                     "implicit.step",
+                                     "implicit.tolerance",
+                                     "bulkModulus",
+                                     "shifting.coefficient",
+                                     "fill.jitter"},
         integrators{"implicit", "velocityVerlet"};
     EXPECT_FALSE(safeRanges().empty());
     for (const SafeRange& range : safeRanges()) {
