@@ -63,14 +63,20 @@ def strainOfTurn(shape, degrees=360):
     return math.nan
 
 
+def extreme(pick, values):
+    """pick(values), nan if one of them is: min and max would drop it or not by where it stands."""
+    values = list(values)
+    return math.nan if any(map(math.isnan, values)) else pick(values)
+
+
 def summary(case):
     with open(os.path.join(case, "run.json")) as text:
         run = json.load(text)
     shape = series(case, "deformation", "*.csv")
     balance = series(case, "balance", "conservation.csv")
-    extremes = {f"{name}_{word}": pick(row[name] for row in shape) for name in ("D12_extent", "D12_inertia")
+    extremes = {f"{name}_{word}": extreme(pick, (row[name] for row in shape)) for name in ("D12_extent", "D12_inertia")
                 for word, pick in (("min", min), ("max", max))}
-    drift = lambda end: max((row[key] for row in balance for key in row if key.endswith(end)), key=abs)
+    drift = lambda end: extreme(lambda values: max(values, key=abs), (row[key] for row in balance for key in row if key.endswith(end)))
     return {
         "Ca": float(f"{run['groups']['Ca']:.6g}"),
         "strain": shape[-1]["strain"],
@@ -81,7 +87,7 @@ def summary(case):
         "areaDrift": drift("_areaChange"),
         "volumeDrift": drift("_volumeChange"),
         "guardMoves": balance[-1]["guardMoves"],
-        "changedSide": max(row["changedSide"] for row in balance),
+        "changedSide": extreme(max, (row["changedSide"] for row in balance)),
         "wallClock_s": run["wallClock_s"] or math.nan,
     }
 
