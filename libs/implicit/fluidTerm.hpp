@@ -1,6 +1,6 @@
 // The fluid's term: viscosity, and pressure with the stiffness of the bulk.
 //
-//     load = D^T V p^n,   A = L + time D^T V K D,   K = rho c^2
+//     load = D^T V (p^n + lead K D v0),   A = L + (middle + lead) D^T V K D,   K = rho c^2      (Reach of term.hpp)
 // By the operators of sph/operators.hpp, which see walls and bodies as well. It sets the forces that other terms add to.
 #pragma once
 #include "coupling/conjugate.hpp"
@@ -19,14 +19,22 @@ class FluidTerm final : public Term<Real> {
     FluidTerm(const coupling::Scene& scene, sph::OperatorForm form)
         : scene_(scene), operators_(scene.model(), *scene.system, form) {}
 
-    void prepare(double time) override {
+    void prepare(const Reach& reach) override {
         operators_.build(*scene_.system);
         coupling::findPressures(scene_, pressure_);
         const sph::FluidModel& model = scene_.model();
         stiffness_.resize(pressure_.size());
         for (std::size_t i = 0; i < stiffness_.size(); ++i)
-            stiffness_[i] =
-                time * model.equationOfState->bulkModulus(scene_.store().density[i], model.density, model.soundSpeed);
+            stiffness_[i] = reach.total() * model.equationOfState->bulkModulus(scene_.store().density[i], model.density,
+                                                                               model.soundSpeed);
+        lead_ = reach.lead / reach.total();
+    }
+    void addFirstForces(const Field& v0, Forces& forces) override {
+        operators_.apply(*scene_.system, v0, [&](std::size_t i, double rate) {
+            pressure_[i] += lead_ * stiffness_[i] * rate;
+            return pressure_[i] - stiffness_[i] * rate;
+        });
+        give(forces);
     }
     void addForces(const Field& v, Forces& forces) override {
         operators_.apply(*scene_.system, v,
@@ -43,7 +51,7 @@ class FluidTerm final : public Term<Real> {
 
     sph::Operators<Real>& operators() { return operators_; }
     const sph::Operators<Real>& operators() const { return operators_; }
-    double pressure(std::size_t i) const { return pressure_[i]; }  // at the beginning of the step [Pa]
+    double pressure(std::size_t i) const { return pressure_[i]; }  // in the load [Pa]
     double pressure(std::size_t i, double divergence) const {
         return pressure_[i] - stiffness_[i] * divergence;
     }  // as it acts
@@ -57,7 +65,8 @@ class FluidTerm final : public Term<Real> {
     const coupling::Scene& scene_;
     sph::Operators<Real> operators_;
     particles::RealArray pressure_;
-    std::vector<double> stiffness_;  // time K [Pa s]
+    std::vector<double> stiffness_;  // (middle + lead) K [Pa s]
+    double lead_ = 0;                // its share
 };
 
 }  // namespace corpuscle::implicit

@@ -11,7 +11,8 @@ const Schema<ImplicitSettings>& ImplicitSettings::schema() {
                       "largest error of the solver, relative to the disturbance of the flow, in the norm of energy",
                       {.fallback = "1e-3", .range = between(1e-10, 0.1)})
             .quantity("error", &ImplicitSettings::error, unit::none,
-                      "error that steps may make in the places of nodes, in radii of the cell per unit of strain",
+                      "error that steps may make in the places of nodes, in radii of the cell per unit of strain; "
+                      "without cells in those of bodies or of the fluid",
                       {.fallback = "1e-3", .range = between(1e-8, 1)})
             .quantity("bondStrain", &ImplicitSettings::bondStrain, unit::none,
                       "largest change of a bond's length in one step, relative",

@@ -43,12 +43,12 @@ class Step final : public ImplicitStep {
             membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(),
                                                               options_.settings);
             terms_.push_back(membranes_.get());
-            allowed_ = firstStep(options_.settings, scene.flow.rate);
         }
         if (scene.bodies) {
             rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, operators(), grid_ != nullptr);
             terms_.push_back(rigid_.get());
         }
+        allowed_ = firstStep(options_.settings, scene.flow.rate);
         isLinear_ = std::all_of(terms_.begin(), terms_.end(), [](const Term<Real>* term) { return term->isLinear(); });
     }
 
@@ -103,26 +103,27 @@ class Step final : public ImplicitStep {
             if (rigid_) rigid_->takeBack();
             return false;
         }
-        if (immersed_) {
-            const bool extrapolated = state.steps > 1;  // with an acceleration
-            const Vectors& nodes = membranes_->velocities();
-            allowed_ = allowedSteps(options_.settings, scene_, dt, ends_, nodes, extrapolated ? guessed_ : nodes);
-        }
+        const double bondRate = immersed_ ? largestBondRate(scene_.cells, membranes_->velocities()) : 0;
+        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, dt, ends_, hasAcceleration() ? difference() : 0,
+                                bondRate);
         finish(dt, share);
         return true;
     }
 
     void setTimes(double dt, double share) {
-        time_ = share * dt;
         ends_ = share == 1;
-        h_ = time_ + state.behind;
+        reach_ = {share * dt, !ends_ && hasAcceleration() ? leadShare * dt : 0};
+        h_ = reach_.middle + state.behind;
         const double w = ends_ || state.lastSpacing == 0 ? 0 : h_ / state.lastSpacing;
         c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
     }
 
-    // By how much the store's velocity is later than the middle of the last step. After the first step not at all: its acceleration may
-    // be the jump from a velocity that did not know of the forces, which does not go on.
-    double ahead() const { return state.steps > 1 ? state.behind : 0; }
+    // Whether the velocities of two middles are known. After the first step only where the flow begins as it goes on: beside cells and bodies, and where
+    // walls or a body force set in, its acceleration is the jump from a velocity that did not know of the forces, which does not go on.
+    bool hasAcceleration() const { return state.steps > (beginsAsItGoesOn() ? 0 : 1); }
+    bool beginsAsItGoesOn() const { return !immersed_ && !rigid_ && !scene_.flow.settles; }
+    // By how much the store's velocity is later than the middle of the last step.
+    double ahead() const { return hasAcceleration() ? state.behind : 0; }
     // Along the acceleration: between the middle of a step and its end.
     void moveVelocities(double seconds) {
         ParticleStore& s = scene_.store();
@@ -138,7 +139,7 @@ class Step final : public ImplicitStep {
     }
 
     void prepare() {
-        for (Term<Real>* term : terms_) term->prepare(time_);
+        for (Term<Real>* term : terms_) term->prepare(reach_);
         if (noFlux_) noFlux_->find(*scene_.system, immersed_->touched());
     }
 
@@ -159,8 +160,7 @@ class Step final : public ImplicitStep {
             put(guess_, i, u);
         }
         if (rigid_) rigid_->extrapolate(h_, guess_);
-        findForces(guess_);
-        if (membranes_) guessed_ = membranes_->velocities();
+        for (Term<Real>* term : terms_) term->addFirstForces(guess_, forces_);
         const Vec3& g = scene_.model().bodyForce;
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
@@ -194,6 +194,29 @@ class Step final : public ImplicitStep {
             takeDefect();
             ++statistics.refinements;
         }
+    }
+
+    // Of the velocity found and the extrapolated one, by the lengths of stepControl.hpp [1/s]. Without cells the system is linear: correction_ is all
+    // of it.
+    double difference() const {
+        if (!immersed_ && !rigid_) {
+            const double length = scene_.flow.length;
+            return length > 0 ? rootMeanSquare(correction_) / length : 0;
+        }
+        double largest = 0;
+        if (immersed_) largest = largestDifference(scene_.cells, membranes_->velocities(), membranes_->extrapolated());
+        if (rigid_) largest = std::max(largest, rigid_->largestDifference(h_, guess_));
+        return largest;
+    }
+    double rootMeanSquare(const Field& v) const {
+        double sums[2] = {0, 0};
+        for (std::size_t i = 0; i < store().size(); ++i) {
+            if (isFixed(i)) continue;
+            sums[0] += get(v, i).squaredNorm();
+            ++sums[1];
+        }
+        MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, scene_.system->comm());
+        return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
     }
 
     // What solutions leave of the equations, which the next right-hand side does not take up.
@@ -253,12 +276,12 @@ class Step final : public ImplicitStep {
         const std::string& named = options_.settings.preconditioner;
         const double fluid = scene_.model().viscosity * scene_.spacing;  // around a node
         return named == "withMembrane" ||
-               (named == "automatic" && immersed_->meanResistance(time_) > stiffMembrane * fluid);
+               (named == "automatic" && immersed_->meanResistance(reach_.total()) > stiffMembrane * fluid);
     }
     void placeOnGrid() {
         const sph::FluidModel& model = scene_.model();
         const double bulk = model.equationOfState->bulkModulus(model.density, model.density, model.soundSpeed);
-        grid_->setCoefficients(c1_ * model.density, model.viscosity, time_ * bulk);
+        grid_->setCoefficients(c1_ * model.density, model.viscosity, reach_.total() * bulk);
         grid_->begin(inverse_.size());
         for (std::size_t i = 0; i < inverse_.size(); ++i)
             if (!isFixed(i)) grid_->place(i, store().position(i));
@@ -269,7 +292,7 @@ class Step final : public ImplicitStep {
     }
     void preconditionParticles(const Field& r, Field& z) {
         if (withMembrane_) {
-            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, time_, inverse_, r, z);
+            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, reach_.total(), inverse_, r, z);
             return;
         }
         for (std::size_t i = 0; i < inverse_.size(); ++i) {
@@ -413,12 +436,12 @@ class Step final : public ImplicitStep {
     std::unique_ptr<CoarseGrid> grid_;
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
-    double time_ = 0, h_ = 0, c1_ = 0, c2_ = 0;  // share dt, and of dv/dt
+    Reach reach_{};
+    double h_ = 0, c1_ = 0, c2_ = 0;  // of dv/dt
     Field guess_, residual_, correction_, inverse_, left_;
     RealArray forces_;          // of the terms, at the velocity given to them last
     std::vector<double> rate_;  // divergence of the velocity found
     coupling::Transport transport_;
-    Vectors guessed_;  // velocities of the nodes, extrapolated
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // One implicit step for fluid and membrane: a symmetric positive-definite system for the velocity v in the middle of the step,
 //
-//     [c1 M + L + dt/2 D^T V K D + S^T P (dt/2 k + C) P S] v =
-//         M (c1 u + c2 a) + D^T V p^n + f_body + S^T P (f(x*) + dt/2 k u_m)
+//     [c1 M + L + (dt/2 + e) D^T V K D + S^T P ((dt/2 + e) k + C) P S] v =
+//         M (c1 u + c2 a) + D^T V (p^n + e K D v0) + f_body + S^T P (f(x*) + k (dt/2 u_m + e P S v0))
 //     x <- x + dt v,   rho <- rho (1 - dt/2 D v)/(1 + dt/2 D v),   x_m <- x_m + dt P S v
 //
 // symbol       | meaning
@@ -12,21 +12,26 @@
 // C            | damping by the membrane's own viscosity
 // x*           | x^n + dt/2 u with the velocity u of the middle of the last step; u_m likewise of nodes
 // a            | acceleration from the middle of the step before the last to that of the last
+// e, v0        | 0.02 dt, and u + h a, the velocity extrapolated from the last two steps
 //
 // Each of these but inertia is a Term (term.hpp); a scene has those of what is in it.
 //
 // dv/dt in the middle of the step is c1 (v - u) - c2 a, the backward difference of second order over the middles of three steps: with
 // h the time between the last two and w = h/h_before, c1 = (1 + 2w)/(h (1 + w)), c2 = w/(1 + w). It damps what is stiff, which the
-// midpoint rule u^(n+1) = 2v - u^n would leave ringing. Walls have prescribed velocities: their rows and columns are taken out, which
+// midpoint rule u^(n+1) = 2v - u^n would leave ringing. Likewise with what is elastic, membranes and bulk: a deviation x^n far stiffer than the fluid
+// would come back as -x^n from step to step, with a velocity 2 x^n/dt that looks the worse the shorter the step. Elastic forces are therefore
+// those at x* + dt/2 (v - u) + e (v - v0): the second difference of the velocity is an error of third order in the step, and the stiffest
+// deviation comes back as half of itself (the largest root of 0.52 r^3 + 0.44 r^2 + 0.06 r - 0.02; of all e, 0.0185 dt has the least). In the first two
+// steps, where v0 knows nothing of the forces, e is 0. Walls have prescribed velocities: their rows and columns are taken out, which
 // keeps the system symmetric. Pressure needs no saddle point: density carries it from step to step.
-// Backward Euler: everything at the end of the step, dt in place of dt/2, c1 = 1/dt and c2 = 0.
+// Backward Euler: everything at the end of the step, dt in place of dt/2, c1 = 1/dt, c2 = 0 and e = 0.
 //
 // Membranes are not linear: what their forces at the places found differ from the linear ones is solved for again, with the same matrix,
 // while it is above `linearisation` of the disturbance in the norm of energy, and at most `mostRefinements` times. Where the solver does not
 // converge, or a bond would change by more than the case allows, the step is taken back and made in two halves by backward Euler.
 //
 // The state between steps: places at t^n, and in the store the acceleration a and the velocity there, u + (t^n - t_middle) a, of second
-// order as all else (after the first step u itself); the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
+// order as all else (after the first step u itself, but for a flow of its own, without cells, bodies and what sets in); the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
 // bodies are those of the middle.
 #pragma once
 #include <memory>
@@ -46,6 +51,7 @@ class ImplicitStep {
         ImplicitSettings settings;
     };
     virtual ~ImplicitStep() = default;
+    static constexpr double leadShare = 0.02;  // e/dt
     static constexpr double linearisation = 0.01;
     static constexpr int mostRefinements = 3, mostHalvings = 5;
     // Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one (docs/implicit.md).

@@ -1,6 +1,6 @@
 // The membranes' term, through the immersed coupling (coupling/immersed.hpp):
 //
-//     load = S^T P (f(x*) + time k u_m),   A = S^T P (time k + C) P S
+//     load = S^T P (f(x*) + k (middle u_m + lead P S v0)),   A = S^T P ((middle + lead) k + C) P S      (Reach of term.hpp)
 //
 // symbol | meaning
 // S, P   | interpolation to the nodes, with the volume of closed cells kept
@@ -30,7 +30,8 @@ class MembraneTerm final : public Term<Real> {
                  const std::vector<double>& volumes, const ImplicitSettings& settings)
         : immersed_(immersed), system_(system), volumes_(volumes), settings_(settings) {}
 
-    void prepare(double time) override;
+    void prepare(const Reach& reach) override;
+    void addFirstForces(const Field& v0, Forces& forces) override;
     void addForces(const Field& v, Forces& forces) override;
     void addProduct(const Field& v, Forces& forces) override;
     std::string refusal(const Field& v, double dt) override;  // a bond would change by more than the settings allow
@@ -42,16 +43,18 @@ class MembraneTerm final : public Term<Real> {
     // What the velocity last given does for the account, the same on all ranks: power against elasticity and against viscosity.
     void addRates(sph::Account::Values& rates) const;
 
-    // Of all nodes, for the velocity last given to addForces or refusal.
+    // Of all nodes, for the velocity last given to addForces or refusal; for that given to addFirstForces, before it their own.
     const Vectors& velocities() const { return nodes_; }
+    const Vectors& extrapolated() const { return extrapolated_; }
 
   private:
+    void give(const Vectors& nodes, Forces& forces) const;  // those of the velocities of the nodes
     coupling::Immersed& immersed_;
     const particles::ParticleSystem& system_;
     const std::vector<double>& volumes_;
     const ImplicitSettings& settings_;
-    double time_ = 0;
-    Vectors load_, defect_, nodes_;
+    Reach reach_{};
+    Vectors load_, defect_, nodes_, extrapolated_;
 };
 
 extern template class MembraneTerm<double>;

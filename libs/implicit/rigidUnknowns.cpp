@@ -1,6 +1,8 @@
 #include "implicit/rigidUnknowns.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace corpuscle::implicit {
 
@@ -61,7 +63,7 @@ void RigidUnknowns<Real>::takeBack() {
 // L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1 within bodies has at
 // their particles the sum of l_ij over all others.
 template <class Real>
-void RigidUnknowns<Real>::prepare(double) {
+void RigidUnknowns<Real>::prepare(const Reach&) {
     scene_.bodies->moved(*scene_.system, 0, true);
     Field marks(behind(), Real(0));
     for (const auto& m : members()) {
@@ -82,10 +84,29 @@ void RigidUnknowns<Real>::prepare(double) {
 template <class Real>
 void RigidUnknowns<Real>::extrapolate(double h, Field& u) const {
     for (std::size_t b = 0; b < bodies().size(); ++b) {
-        const RigidMotion &last = bodies()[b].state.motion, &rate = bodies()[b].acceleration;
-        put(u, b, last.linear + h * rate.linear, last.angular + h * rate.angular);
+        const RigidMotion guess = extrapolated(h, b);
+        put(u, b, guess.linear, guess.angular);
     }
     spread(u);
+}
+
+template <class Real>
+RigidMotion RigidUnknowns<Real>::extrapolated(double h, std::size_t body) const {
+    const RigidMotion &last = bodies()[body].state.motion, &rate = bodies()[body].acceleration;
+    return {last.linear + h * rate.linear, last.angular + h * rate.angular};
+}
+
+template <class Real>
+double RigidUnknowns<Real>::largestDifference(double h, const Field& u) const {
+    double largest = 0;
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        if (!isFree(b)) continue;
+        const double radius = std::cbrt(3 * bodies()[b].solid.volume / (4 * std::numbers::pi));
+        const RigidMotion found = motion(u, b), guess = extrapolated(h, b);
+        largest =
+            std::max(largest, (found.linear - guess.linear).norm() / radius + (found.angular - guess.angular).norm());
+    }
+    return largest;
 }
 
 template <class Real>

@@ -55,12 +55,14 @@ class RigidUnknowns final : public Term<Real> {
     void takeBack();
 
     // As a term: the continuation. It adds -kappa_i w_i to the fluid's forces; bodies get theirs in the next rows.
-    void prepare(double time) override;
+    void prepare(const Reach& reach) override;
     void addForces(const Field& u, Forces& forces) override { addProduct(u, forces); }
     void addProduct(const Field& u, Forces& forces) override;
 
     // First guess: the velocity extrapolated over h.
     void extrapolate(double h, Field& u) const;
+    // By which the velocity u differs from it: the largest |dU| + a |dOmega| of free bodies, over a, the radius of the sphere of their volume [1/s].
+    double largestDifference(double h, const Field& u) const;
     // Rows of bodies in A u, and in the residual of u.
     void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
     void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual);
@@ -109,6 +111,7 @@ class RigidUnknowns final : public Term<Real> {
     std::vector<Matrix6> continuationBlocks() const;
     void invert(double c1, std::vector<Matrix6>& blocks);
     sph::RigidMotion motion(const Field& u, std::size_t body) const;
+    sph::RigidMotion extrapolated(double h, std::size_t body) const;
     void put(Field& f, std::size_t body, const Vec3& linear, const Vec3& angular) const;
     void spread(Field& u) const;  // P
     template <class Row>

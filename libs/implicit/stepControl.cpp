@@ -15,7 +15,8 @@ constexpr double most = 2, least = 0.2;  // change from step to step
 
 bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }
 
-// Largest difference of two velocities, in radii of the nodes' cell.
+}  // namespace
+
 double largestDifference(const std::vector<Cell>& cells, const Immersed::Vectors& a, const Immersed::Vectors& b) {
     double largest = 0;
     for (const Cell& cell : cells) {
@@ -26,8 +27,6 @@ double largestDifference(const std::vector<Cell>& cells, const Immersed::Vectors
     }
     return largest;
 }
-
-}  // namespace
 
 double largestBondRate(const std::vector<Cell>& cells, const Immersed::Vectors& velocity) {
     double largest = 0;
@@ -48,12 +47,11 @@ AllowedSteps firstStep(const ImplicitSettings& settings, double rate) {
     return {.error = settings.step / rate * std::sqrt(settings.error / ImplicitSettings{}.error)};
 }
 
-AllowedSteps allowedSteps(const ImplicitSettings& settings, const coupling::Scene& scene, double dt, bool backwardEuler,
-                          const Immersed::Vectors& found, const Immersed::Vectors& extrapolated) {
+AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, double dt, bool backwardEuler,
+                          double difference, double bondRate) {
     AllowedSteps allowed;
-    if (const double rate = largestBondRate(scene.cells, found); rate > 0) allowed.bond = settings.bondStrain / rate;
-    const double error =
-        largestDifference(scene.cells, found, extrapolated) / ((backwardEuler ? 2 : 24) * scene.flow.rate);
+    if (bondRate > 0) allowed.bond = settings.bondStrain / bondRate;
+    const double error = difference / ((backwardEuler ? 2 : 24) * rate);
     if (error > 0) {
         const double ratio = settings.error / error;
         allowed.error = dt * std::clamp(backwardEuler ? ratio : std::sqrt(ratio), least, most);

@@ -16,6 +16,13 @@
 
 namespace corpuscle::implicit {
 
+// How far along the velocity v found the elastic part of a force is taken, from x* = x^n + middle u: at x* + middle (v - u) + lead (v - v0), with v0
+// extrapolated from the steps before. lead (v - v0) is of third order in the step, and damps what is stiff (implicitStep.hpp).
+struct Reach {
+    double middle, lead = 0;  // [s]
+    double total() const { return middle + lead; }
+};
+
 template <class Real>
 class Term {
   public:
@@ -24,8 +31,10 @@ class Term {
 
     virtual ~Term() = default;
 
-    // At x*, where lists are up to date; time: dt/2, or dt where the step is of backward Euler [s]. Collective.
-    virtual void prepare(double time) = 0;
+    // At x*, where lists are up to date. Collective.
+    virtual void prepare(const Reach& reach) = 0;
+    // addForces of the extrapolated velocity, which the load takes up where it is stiff. The first after prepare. Collective.
+    virtual void addFirstForces(const Field& v0, Forces& forces) { addForces(v0, forces); }
     // forces += load - A v, and forces -= A v. Collective.
     virtual void addForces(const Field& v, Forces& forces) = 0;
     virtual void addProduct(const Field& v, Forces& forces) = 0;

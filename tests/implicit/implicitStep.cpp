@@ -101,6 +101,30 @@ TEST(ImplicitStep, midpointIsOfSecondOrder) {
     EXPECT_NEAR(std::log2(fine / finest), 2, 0.1);
 }
 
+// A wave goes on as it begins: already after the first step the store has the velocity of its end, not that of its middle.
+TEST(ImplicitStep, firstStepOfADecayingFlowEndsAtItsEnd) {
+    const ShearWave wave;
+    const double step = 0.1;  // of 1/rate
+    EXPECT_NEAR(wave.error("midpoint", step / wave.rate, 1), 0, step * step);
+}
+
+// The wave decays alike everywhere: v - v0 is (rate dt)^2 of its root mean square, and the next step is what makes a 24th of that, over the length and the
+// rate of the flow, the error that is allowed.
+TEST(ImplicitStep, stepOfAFluidIsAsLongAsItsErrorAllows) {
+    const ShearWave wave;
+    const double dt = 0.05 / wave.rate, flowRate = 0.3, length = 2;
+    ImplicitSettings settings = exactly("midpoint");
+    settings.error = 1e-8;
+    ImplicitFluid fluid(wave.all, wave.size, wave.model, flowRate, settings);
+    fluid.scene.flow.length = length;
+    const int steps = 8;
+    fluid.run(steps * dt, steps);
+    const double v = ShearWave::amplitude * std::sqrt(0.5) * std::exp(-wave.rate * (steps - 0.5) * dt);
+    const double error = std::pow(wave.rate * dt, 2) * v / (24 * flowRate * length);
+    EXPECT_NEAR(fluid.step->allowed().error, dt * std::sqrt(settings.error / error), 0.1 * fluid.step->allowed().error);
+    EXPECT_EQ(fluid.step->allowed().bond, 0);
+}
+
 TEST(ImplicitStep, backwardEulerIsOfFirstOrder) {
     const ShearWave wave;
     const double time = 1 / wave.rate;

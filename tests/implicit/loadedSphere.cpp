@@ -79,7 +79,7 @@ struct LoadedSphere {
     LoadedSphere() {
         particles::ParticleStore& s = f.scene.store();
         std::fill(s.density.begin(), s.density.end(), 1.0);
-        term.prepare(bulk);
+        term.prepare({bulk});
         membrane::MembraneSettings laws;
         laws.bonds = coupling::testing::choice<membrane::BondLaw>("{type: harmonic, k: 1 N/m}");
         auto mesh = membrane::testing::icosphere(3);

@@ -37,7 +37,7 @@ struct System {
           operators(sphere.scene.model(), *sphere.scene.system, sph::OperatorForm::corrected),
           rigid(sphere.scene, operators, onGrid) {
         operators.build(*sphere.scene.system);
-        rigid.prepare(time);
+        rigid.prepare({time});
         const auto diagonal = [&](std::size_t i) {
             return operators.viscousDiagonal(i) + time * 9 * operators.bulkDiagonal(i);
         };
@@ -202,6 +202,23 @@ TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
     EXPECT_LT(s.body().wrench.force[0], -0.1);
     EXPECT_LT(s.body().wrench.torque[1], -0.1);
     EXPECT_GT(s.fluidMomentum()[0], 0.1);
+}
+
+// A sphere that the fluid slows down. The step found must not depend on the one that it was found with: the error is of second order.
+TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
+    const auto found = [](double dt) {
+        SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "free", 2.5);
+        f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, {Vec3(0.02, 0, 0), Vec3::Zero()});
+        RigidSphereScene s(std::move(f), 0.02);
+        const auto step = s.step(1e-9, "midpoint", sph::OperatorForm::corrected, 1e-4);
+        const double time = 4;
+        run(*step, time, static_cast<int>(std::lround(time / dt)));
+        return step->allowed().error;
+    };
+    const double fine = found(0.2);
+    EXPECT_NEAR(found(0.4), fine, 0.3 * fine);
+    EXPECT_GT(fine, 0.2);
+    EXPECT_LT(fine, 0.4);
 }
 
 TEST(RigidBodies, areTheSameOnOneRankAndOnAll) {

@@ -22,10 +22,11 @@ struct RigidSphereScene {
     bodies::Body& body() { return scene.bodies->all()[0]; }
 
     std::unique_ptr<ImplicitStep> step(double tolerance, const std::string& method = "midpoint",
-                                       sph::OperatorForm form = sph::OperatorForm::corrected) {
+                                       sph::OperatorForm form = sph::OperatorForm::corrected,
+                                       double error = ImplicitSettings{}.error) {
         ImplicitStep::Options options;
         options.form = form;
-        options.settings = {.step = 0.1, .tolerance = tolerance, .method = method};
+        options.settings = {.step = 0.1, .tolerance = tolerance, .error = error, .method = method};
         return ImplicitStep::make(scene, options);
     }
 

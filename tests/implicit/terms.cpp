@@ -55,6 +55,24 @@ void expectSymmetricAndLinear(Term<double>& term, const ParticleStore& s) {
     EXPECT_LE(worst, 1e-11 * largest);
 }
 
+// With a lead the force at the extrapolated velocity is what it is without, and further on as stiff as A says.
+void expectLeadFromTheExtrapolated(Term<double>& term, const ParticleStore& s) {
+    const Field v0 = field(s, 1, 1e-3), v = field(s, 2, 1e-3);
+    RealArray without(v.size(), 0.0), first(v.size(), 0.0), forces(v.size(), 0.0), again(v.size(), 0.0);
+    term.prepare({duration}), term.addForces(v0, without);
+    term.prepare({duration, 0.3 * duration}), term.addFirstForces(v0, first);
+    term.addForces(v, forces), term.addForces(v0, again);
+    const RealArray Av = times(term, v), Av0 = times(term, v0);
+    double worst = 0, largest = 0;
+    for (std::size_t k = 0; k < v.size(); ++k) {
+        largest = std::max(largest, std::abs(Av[k]));
+        worst = std::max({worst, std::abs(first[k] - without[k]), std::abs(again[k] - without[k]),
+                          std::abs(forces[k] - first[k] - Av[k] + Av0[k])});
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LE(worst, 1e-11 * largest);
+}
+
 struct Membranes : coupling::testing::SphereScene {
     coupling::Immersed immersed;
     std::vector<double> volumes;
@@ -68,7 +86,7 @@ struct Membranes : coupling::testing::SphereScene {
           term(immersed, *system, volumes, settings) {
         for (Vec3& x : cells[0].membrane.position) x[0] += 0.05 * (x[0] - 5);
         cells[0].initialVolume = cells[0].membrane.volume();
-        term.prepare(duration);
+        term.prepare({duration});
     }
     Field stretching(double rate) const {
         const ParticleStore& s = system->store();
@@ -96,10 +114,11 @@ TEST(Terms, fluidIsSymmetricAndLinear) {
                                     sph::testing::model("wendlandC2", "linear"), 1e-4, 0, MPI_COMM_WORLD,
                                     particles::Precision::full);
     FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
-    term.prepare(duration);
+    term.prepare({duration});
     expectSymmetricAndLinear(term, f.scene.store());
     EXPECT_TRUE(term.isLinear());
     for (std::size_t i = 0; i < f.scene.store().size(); ++i) EXPECT_GT(term.diagonal(i), 0);
+    expectLeadFromTheExtrapolated(term, f.scene.store());
 }
 
 TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
@@ -110,6 +129,7 @@ TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
     RealArray forces(v.size(), 0.0);
     m.term.addForces(v, forces);
     EXPECT_NEAR(m.term.power(v, w), product(w, forces), 1e-10 * std::abs(product(w, forces)));
+    expectLeadFromTheExtrapolated(m.term, m.system->store());
 }
 
 // What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise stiffness leaves out
