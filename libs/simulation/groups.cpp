@@ -44,8 +44,8 @@ void addGap(Groups& groups, const Case& c, double a, const std::string& whose, c
 void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
     const membrane::MembraneSettings& laws = c.membraneOf(cell);
     const std::string& whose = cell.name;
-    const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear, rate = c.flow.rate;
-    groups.add("Re", c.flow.density * rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
+    const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear;
+    groups.add("Re", c.flow.density * c.flow.rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
     groups.add("Ca", capillaryNumber(c, cell),
                fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                            laws.bonds ? ", hexagonal network" : ""),

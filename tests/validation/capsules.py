@@ -10,4 +10,4 @@ class Capsules(Sheared):
     """law: settings of the membrane, where it is not the tutorial's."""
 
     def __init__(self, name, capillary, law=()):
-        super().__init__(name, TUTORIALS / "capsuleShear", {Ca: (STRAIN, {6: BOX}) for Ca in capillary}, "0.3", law, edge=1.0)
+        super().__init__(name, TUTORIALS / "capsuleShear", {Ca: (STRAIN, {6: BOX}) for Ca in capillary}, "0.3", law)

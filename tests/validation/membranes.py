@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import suite
 import vtp
-from suite import HERE, PROGRAMS, Figure, Plot, Run, at, rows
+from suite import HERE, PROGRAMS, Figure, Plot, Run, at, fromOn, rows
 from summary import axisTurned, series
 
 RADIUS = 4  # um
@@ -65,19 +65,19 @@ def worst(course, reference, key, strains, scale=1.0):
 
 
 class Sheared:
-    """A case: one membrane in shear flow over Ca, against the curves reference_Ca*.csv of its folder.
+    """A case: one membrane in shear flow over Ca, against curves reference_Ca*.csv.
 
-    name: the folder. source: the tutorial. scenes: by Ca (a word), strain of the end and boxes by the resolution from which on they hold.
+    name: the folder of the curves. source: the tutorial. scenes: by Ca (a word), strain of the end and boxes by the resolution from which on they hold.
     coarse: the Ca that the coarsest resolution runs. more: settings of every run. edge: of the mesh, in spacings.
     """
 
-    def __init__(self, name, source, scenes, coarse, more, edge=0.5, programs=PROGRAMS):
+    def __init__(self, name, source, scenes, coarse, more, edge=1.0, programs=PROGRAMS):
         self.folder, self.source, self.scenes, self.coarse, self.more = HERE / name, source, scenes, coarse, more
         self.edge, self.programs = edge, programs
 
     def runs(self, n):
-        return [Run(f"Ca{Ca}", self.source, settings(n, boxes[max(k for k in boxes if k <= n)], strain,
-                                                         [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge), self.programs)
+        return [Run(f"Ca{Ca}", self.source, settings(n, fromOn(boxes, n), strain, [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge),
+                    self.programs)
                 for Ca, (strain, boxes) in self.scenes.items() if n > COARSEST or Ca == self.coarse]
 
     def courses(self, done):

@@ -10,7 +10,7 @@ class RedCells(Sheared):
     """law: settings of the membrane. allowed: by resolution and Ca, of D12_inertia, angles [degrees], strains of turns [%] and the change of
     area [points]."""
 
-    def __init__(self, name, scenes, allowed, law, edge=0.5, programs=PROGRAMS):
+    def __init__(self, name, scenes, allowed, law, edge=1.0, programs=PROGRAMS):
         super().__init__(name, TUTORIALS / "rbcShear" / "Ca0.02", scenes, "3",
                          ["constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.05 strain", *law], edge, programs)
         self.allowed = allowed

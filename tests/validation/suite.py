@@ -109,6 +109,11 @@ def permitted(table, n, order):
     return table.get(n, table[coarsest] * (coarsest / n) ** order)
 
 
+def fromOn(table, n):
+    """What a table holds from a resolution on: the entry of the largest that is not above n, of its coarsest below that."""
+    return table[max((k for k in table if k <= n), default=min(table))]
+
+
 def at(table, x, value, key="strain"):
     """Column `value` between the rows around key = x, or the function `value` of a row; nan outside."""
     of = value if callable(value) else lambda row: row[value]

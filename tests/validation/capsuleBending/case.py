@@ -27,7 +27,7 @@ def run(name, n):
     bending = f"{{type: helfrich, Eb: {EB}, spontaneousCurvature: {1e6 * curvature / RADIUS} 1/m}}"
     return Run(name, TUTORIALS / "capsuleShear", settings(n, box, STRAIN, [
         f"constant/flow.yaml:/Ca={CA}", "constant/membranes.yaml:/capsule/triangles={type: neoHookean, Gs: 1e-5 N/m}",
-        f"constant/membranes.yaml:/capsule/bending={bending}"], 0.5), PROGRAMS)
+        f"constant/membranes.yaml:/capsule/bending={bending}"]), PROGRAMS)
 
 
 def band(strain):

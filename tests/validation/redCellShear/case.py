@@ -12,6 +12,6 @@ ALLOWED = {  # D12, degrees, % of turns, points of area
     12: {"0.002": (0.005, 2, 1, 0.5), "0.02": (0.02, 2, 2, 1), "3": (0.02, 2, 0, 4)}}
 MESH = HERE / "redCellShear" / "mesh642.off"  # of the reference at Ca 0.002 and 0.02; at Ca 3 it had the same with edges halved
 
-cells = RedCells("redCellShear", {"0.002": (11, STIFF), "0.02": (11, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [], edge=1.0,
+cells = RedCells("redCellShear", {"0.002": (11, STIFF), "0.02": (11, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [],
                  programs=("membraneMesh", otherMesh(MESH, "rbc"), "particleFill", "dmpFlow"))
 runs, figures, curves = cells.runs, cells.figures, cells.curves

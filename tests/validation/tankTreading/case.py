@@ -8,7 +8,7 @@ import shutil
 import statistics
 
 from membranes import Course, settings, treadPeriod
-from suite import Figure, Plot, Run, outside, rows
+from suite import Figure, Plot, Run, fromOn, outside, rows
 
 HERE = pathlib.Path(__file__).resolve().parent
 TITLE = "red cell, its own moduli: tank-treading against experiments"
@@ -22,18 +22,13 @@ BOX = {5: (5, 5, 5), 6: (5, 5, 5), 8: (7, 5, 5)}  # 4 um, along the flow, the vo
 STRAIN = {5: 6.5, 6: 18, 8: 18}
 DRAWN = 5  # strain by which a cell has been drawn out
 TURN = {5: 6.5, 6: 6.5, 8: 10}  # strain to which the runs for STRESSES go: by Jeffery's orbit a rigid cell is upright at 5
-EDGE = 0.75  # of the mesh, in spacings
+EDGE = 1  # of the mesh, in spacings
 SPREAD = 2  # standard deviations of the measured cells
 INCLINED = {5: 4, 6: 0, 8: 0}  # degrees outside the range of the donors; at 5, what a run to strain 6.5 reaches
 MISSED = {6: ("35 mPa s, 28.6 1/s: f/gammadot, *", "35 mPa s, 171.4 1/s: f/gammadot, *",
               *(f"{viscosity:g} mPa s, {rate:g} 1/s: inclination, *" for viscosity, rate in ((35, 28.6), (28.9, 16.9))))}
 BESIDE = (23.9, 55.9)  # mPa s, where inclinations were measured, to either side of 28.9 and 35
 INSIDE = 10  # mPa s
-
-
-def of(table, n):
-    """What a table has for a resolution; for one that it does not have, that of its finest."""
-    return table.get(n, table[max(table)])
 
 
 def skeleton(folder):
@@ -46,7 +41,7 @@ def skeleton(folder):
 
 def run(n, viscosity, rate, strain):
     edge = f"{EDGE * 4 / n:.8g} um"
-    return Run(label(viscosity, rate), HERE, settings(n, of(BOX, n), strain, [
+    return Run(label(viscosity, rate), HERE, settings(n, fromOn(BOX, n), strain, [
         f"system/relax.yaml:/cell/edge={edge}", f"constant/flow.yaml:/shearRate={rate:g} 1/s", f"constant/fluid.yaml:/viscosity={viscosity:g} mPa s",
         f"constant/membranes.yaml:/rbc/interior/viscosityRatio={INSIDE / viscosity:.6g}"], EDGE),
         ("membraneMesh", "membraneRelax", skeleton, "particleFill", "dmpFlow"))
@@ -57,8 +52,8 @@ def label(viscosity, rate):
 
 
 def runs(n):
-    treading = [run(n, viscosity, rate, of(STRAIN, n)) for viscosity, rate in of(TREADING, n)]
-    return treading + [run(n, THIN, stress / THIN * 1e3, of(TURN, n)) for stress in of(STRESSES, n)]
+    treading = [run(n, viscosity, rate, fromOn(STRAIN, n)) for viscosity, rate in fromOn(TREADING, n)]
+    return treading + [run(n, THIN, stress / THIN * 1e3, fromOn(TURN, n)) for stress in fromOn(STRESSES, n)]
 
 
 class Steady:
@@ -106,7 +101,7 @@ def inclinations(rate):
 
 def figures(done, n):
     found = []
-    for viscosity, rate in of(TREADING, n):
+    for viscosity, rate in fromOn(TREADING, n):
         name, steady = f"{viscosity:g} mPa s, {rate:g} 1/s", Steady(done[label(viscosity, rate)])
         if viscosity == 35:
             (row,) = near(rows(HERE / "tranSonTay1984.csv"), "shearRate_1_s", rate, 0.01)
@@ -119,10 +114,10 @@ def figures(done, n):
         low, high = inclinations(rate)
         value = steady.inclination()
         beyond = outside(value, low, high, percent=False)
-        found.append(Figure(f"{name}: inclination, outside {low:.3g} to {high:.3g}", beyond, of(INCLINED, n), "degrees", value))
+        found.append(Figure(f"{name}: inclination, outside {low:.3g} to {high:.3g}", beyond, fromOn(INCLINED, n), "degrees", value))
         found += steady.course.kept(name)
     measured = [row["stress_Pa"] for row in rows(HERE / "transition.csv") if row["viscosity_mPa_s"] == THIN]
-    for stress in of(STRESSES, n):
+    for stress in fromOn(STRESSES, n):
         course = Course(done[label(THIN, stress / THIN * 1e3)])
         tumbles = math.isfinite(course.turn(90))
         treads = not tumbles and course.shape[-1]["treadPhase_rad"] > math.pi / 2
@@ -148,8 +143,8 @@ def bands(table):
 def curves(done):
     n = int(next(iter(done.values())).parent.name)
     ours = []
-    for viscosity in sorted({viscosity for viscosity, _ in of(TREADING, n)}):
-        points = sorted((rate, Steady(done[label(v, rate)]).f) for v, rate in of(TREADING, n) if v == viscosity)
+    for viscosity in sorted({viscosity for viscosity, _ in fromOn(TREADING, n)}):
+        points = sorted((rate, Steady(done[label(v, rate)]).f) for v, rate in fromOn(TREADING, n) if v == viscosity)
         ours.append((f"ours, {viscosity:g} mPa s", *map(list, zip(*points))))
     means, cells = rows(HERE / "tranSonTay1984.csv"), bands(rows(HERE / "fischer2015.csv"))
     rates = [row["shearRate_1_s"] for row in means]
