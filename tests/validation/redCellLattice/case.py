@@ -8,7 +8,6 @@ ALLOWED = {  # D12, degrees, % of turns, points of area
     6: {"3": (0.04, 3, 0, 6)},
     8: {"0.02": (0.02, 2, 3, 1), "0.2": (0.02, 2, 3, 1), "3": (0.02, 2, 0, 4)},
     12: {"0.02": (0.02, 2, 2, 1), "0.2": (0.02, 2, 2, 1), "3": (0.02, 2, 0, 3)}}
-MISSED = {8: ("Ca 0.2: D12 *", "Ca 0.2: inclination *")}
 
 cells = RedCells("redCellLattice", {"0.02": (8, TUMBLING), "0.2": (13.6, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
     "constant/membranes.yaml:/rbc/bonds=none", "constant/membranes.yaml:/rbc/triangles={type: lattice, k: 5e-4 N/m}"])
