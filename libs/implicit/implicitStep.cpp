@@ -118,10 +118,13 @@ class Step final : public ImplicitStep {
         c1_ = (1 + 2 * w) / (h_ * (1 + w)), c2_ = w / (1 + w);
     }
 
-    // Whether the velocities of two middles are known. After the first step only where the flow begins as it goes on: beside cells and bodies, and where
-    // walls or a body force set in, its acceleration is the jump from a velocity that did not know of the forces, which does not go on.
+    // Whether the velocities of two middles are known. After the first step only where the flow begins as it goes on: beside
+    // cells and bodies, where walls or a body force set in and where the viscosity jumps, its acceleration is the jump from
+    // a velocity that did not know of the forces, which does not go on.
     bool hasAcceleration() const { return state.steps > (beginsAsItGoesOn() ? 0 : 1); }
-    bool beginsAsItGoesOn() const { return !immersed_ && !rigid_ && !scene_.flow.settles; }
+    bool beginsAsItGoesOn() const {
+        return !immersed_ && !rigid_ && !scene_.flow.settles && !store().optional().viscosity;
+    }
     // By how much the store's velocity is later than the middle of the last step.
     double ahead() const { return hasAcceleration() ? state.behind : 0; }
     // Along the acceleration: between the middle of a step and its end.

@@ -30,9 +30,10 @@
 // while it is above `linearisation` of the disturbance in the norm of energy, and at most `mostRefinements` times. Where the solver does not
 // converge, or a bond would change by more than the case allows, the step is taken back and made in two halves by backward Euler.
 //
-// The state between steps: places at t^n, and in the store the acceleration a and the velocity there, u + (t^n - t_middle) a, of second
-// order as all else (after the first step u itself, but for a flow of its own, without cells, bodies and what sets in); the next step takes it back to u. Nodes of membranes keep the velocity of the middle, and forces on walls and
-// bodies are those of the middle.
+// The state between steps: places at t^n, and in the store the acceleration a and the velocity there, u + (t^n - t_middle) a, of
+// second order as all else; the next step takes it back to u. After the first step it is u itself, but for a flow that goes on as
+// it begins, without cells, bodies, jumps of viscosity and what sets in. Nodes of membranes keep the velocity of the middle, and
+// forces on walls and bodies are those of the middle.
 #pragma once
 #include <memory>
 

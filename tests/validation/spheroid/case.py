@@ -47,7 +47,7 @@ def run(name, n, r, direction, motion, strain):
         f"system/numerics.yaml:/spacing={2e6 * A / n:.10g} um",
         "system/numerics.yaml:/kernel/support=2.4 dx",
         "system/numerics.yaml:/integrator=implicit",
-        f"system/numerics.yaml:/implicit/step={STEP}",
+        f"system/numerics.yaml:/implicit={{step: {STEP}, error: 1}}",  # equal steps: rates are means over those from START on
         f"system/mesh.yaml:/domain/size=[{size}] um",
         f"system/mesh.yaml:/bodies/0/shape={{type: spheroid, a: {1e6 * A:g} um, c: {1e6 * A * r:g} um}}",
         f"system/mesh.yaml:/bodies/0/edge={1e6 * A / 24:.6g} um",
