@@ -14,6 +14,7 @@
 #include <random>
 
 #include "core/registry.hpp"
+#include "core/startMpi.hpp"
 #include "particles/isa.hpp"
 #include "sph/velocityVerlet.hpp"
 
@@ -81,7 +82,7 @@ std::shared_ptr<const Family> choose(const std::string& text) {
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    MPI_Init(&argc, &argv);
+    corpuscle::startMpi(argc, argv);
     const int n = argc > 1 ? std::atoi(argv[1]) : 80;
     const double support = argc > 2 ? std::atof(argv[2]) : 2.5;
     const int steps = argc > 3 ? std::atoi(argv[3]) : 50;

@@ -5,13 +5,13 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_
 
 build=${CORPUSCLE_BUILD:-$root/build}
 
-# Installs the packages of etc/packages that are missing, through sudo when not root.
+# Installs the packages of a list that are missing (etc/packages unless named), through sudo when not root.
 install_packages() {
     local missing=() package
     while read -r package; do
         case $package in '' | '#'*) continue ;; esac
         dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
-    done <"$root/etc/packages"
+    done <"$root/etc/${1:-packages}"
     [ ${#missing[@]} -eq 0 ] && return 0
     echo "Installing: ${missing[*]}"
     local sudo=

@@ -11,6 +11,7 @@
 
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
+#include "core/startMpi.hpp"
 
 namespace corpuscle {
 namespace {
@@ -45,13 +46,7 @@ std::vector<Option> solverOptions() {
 
 Application::Application(std::string name, std::string text, int argc, char** argv, Usage usage)
     : name_(std::move(name)), text_(std::move(text)), usage_(std::move(usage)) {
-    int initialised = 0;
-    MPI_Initialized(&initialised);
-    if (!initialised) {
-        int provided = 0;
-        MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-        ownsMpi_ = true;
-    }
+    ownsMpi_ = startMpi(argc, argv);
     communicator_.emplace();
     MPI_Comm_dup(MPI_COMM_WORLD, &meeting_);
     try {

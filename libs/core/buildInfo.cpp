@@ -1,15 +1,37 @@
 #include "core/buildInfo.hpp"
 
+#include <mpi.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <fstream>
+#include <sstream>
 
 namespace corpuscle {
 
+namespace {
+
+// Of "Eigen 3.4.0,VTK 9.1.0", and MPI's own words up to the first comma: "Open MPI v4.1.4".
+std::vector<std::pair<std::string, std::string>> libraries(const std::string& list) {
+    std::vector<std::pair<std::string, std::string>> all;
+    std::istringstream entries(list);
+    for (std::string entry; std::getline(entries, entry, ',');) {
+        const std::size_t space = entry.rfind(' ');
+        all.emplace_back(entry.substr(0, space), entry.substr(space + 1));
+    }
+    char words[MPI_MAX_LIBRARY_VERSION_STRING];
+    int length = 0;
+    MPI_Get_library_version(words, &length);
+    const std::string mpi(words, static_cast<std::size_t>(length));
+    all.emplace_back("MPI", mpi.substr(0, mpi.find(',')));
+    return all;
+}
+
+}  // namespace
+
 const BuildInfo& buildInfo() {
-    static const BuildInfo info{CORPUSCLE_VERSION, CORPUSCLE_GIT, CORPUSCLE_COMPILER, CORPUSCLE_FLAGS,
-                                CORPUSCLE_BUILD_TYPE};
+    static const BuildInfo info{CORPUSCLE_VERSION, CORPUSCLE_GIT,        CORPUSCLE_COMPILER,
+                                CORPUSCLE_FLAGS,   CORPUSCLE_BUILD_TYPE, libraries(CORPUSCLE_LIBRARIES)};
     return info;
 }
 

@@ -35,6 +35,7 @@ RunRecord::RunRecord(std::filesystem::path file, const std::string& application,
         {"end", nullptr},
         {"wallClock_s", nullptr},
         {"version", build.version},
+        {"versions", nlohmann::ordered_json::object()},
         {"build",
          {{"git", build.gitDescribe}, {"compiler", build.compiler}, {"flags", build.flags}, {"type", build.type}}},
         {"machine",
@@ -43,6 +44,7 @@ RunRecord::RunRecord(std::filesystem::path file, const std::string& application,
           {"cores", machine.cores},
           {"system", machine.system}}},
         {"ranks", communicator.size()}};
+    for (const auto& [library, version] : build.libraries) setJson("versions", library, version);
 }
 
 RunRecord::~RunRecord() = default;
@@ -55,11 +57,17 @@ void RunRecord::setJson(const std::string& section, const std::string& key, cons
     (section.empty() ? *record_ : (*record_)[section])[key] = value;
 }
 
+// The library writes numbers that are not finite as null.
+std::string RunRecord::text() const {
+    return record_->dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 void RunRecord::write() const {
-    // The library writes numbers that are not finite as null.
-    if (isRoot_)
-        writeFileAtomically(file_,
-                            record_->dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    if (isRoot_) writeFileAtomically(file_, text());
+}
+
+void RunRecord::print() const {
+    if (isRoot_) fmt::print("{}", text());
 }
 
 void RunRecord::finish(ExitCode code, const std::string& reason) {

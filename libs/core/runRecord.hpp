@@ -1,10 +1,9 @@
 // run.json: what was run, on what, from which settings, and how it ended. Rewritten as a whole at every change that
 // matters, so that a killed run leaves a record with the status "running".
 //
-//     {"application", "status": "running|done|failed|stopped", "reason", "start", "end", "wallClock_s", "version",
-//     "build": {...},
-//      "machine": {...}, "ranks", and the sections that the application adds: "parameters", "groups", "performance",
-//      ...}
+//     {"application", "status": "running|done|failed|stopped|dryRun", "reason", "start", "end", "wallClock_s", "version", "versions" of the
+//      libraries, "build": {...}, "machine": {...}, "ranks", and the sections that the application adds: "parameters", "groups",
+//      "performance", ...}
 #pragma once
 #include <chrono>
 #include <filesystem>
@@ -42,11 +41,13 @@ class RunRecord {
     void setJson(const std::string& section, const std::string& key, const nlohmann::ordered_json& value);
 
     void write() const;
+    void print() const;  // on standard output
     // Fills in status, reason and end, and writes.
     void finish(ExitCode code, const std::string& reason);
     bool finished() const { return finished_; }
 
   private:
+    std::string text() const;
     void put(const std::string& section, const std::string& key, const Value& value);
 
     std::filesystem::path file_;

@@ -27,11 +27,11 @@ class FluidTerm final : public Term<Real> {
         for (std::size_t i = 0; i < stiffness_.size(); ++i)
             stiffness_[i] = reach.total() * model.equationOfState->bulkModulus(scene_.store().density[i], model.density,
                                                                                model.soundSpeed);
-        lead_ = reach.lead / reach.total();
+        leadShare_ = reach.lead / reach.total();
     }
     void addFirstForces(const Field& v0, Forces& forces) override {
         operators_.apply(*scene_.system, v0, [&](std::size_t i, double rate) {
-            pressure_[i] += lead_ * stiffness_[i] * rate;
+            pressure_[i] += leadShare_ * stiffness_[i] * rate;
             return pressure_[i] - stiffness_[i] * rate;
         });
         give(forces);
@@ -66,7 +66,7 @@ class FluidTerm final : public Term<Real> {
     sph::Operators<Real> operators_;
     particles::RealArray pressure_;
     std::vector<double> stiffness_;  // (middle + lead) K [Pa s]
-    double lead_ = 0;                // its share
+    double leadShare_ = 0;           // lead/(middle + lead)
 };
 
 }  // namespace corpuscle::implicit

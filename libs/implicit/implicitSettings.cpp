@@ -10,10 +10,11 @@ const Schema<ImplicitSettings>& ImplicitSettings::schema() {
             .quantity("tolerance", &ImplicitSettings::tolerance, unit::none,
                       "largest error of the solver, relative to the disturbance of the flow, in the norm of energy",
                       {.fallback = "1e-3", .range = between(1e-10, 0.1)})
-            .quantity("error", &ImplicitSettings::error, unit::none,
-                      "error that steps may make in the places of nodes, in radii of the cell per unit of strain; "
-                      "without cells in those of bodies or of the fluid",
-                      {.fallback = "1e-3", .range = between(1e-8, 1)})
+            .quantity(
+                "error", &ImplicitSettings::error, unit::none,
+                "error that steps may make per unit of strain in the places of nodes and of free bodies, in their "
+                "radii; without either in those of the fluid, in lengths of the flow",
+                {.fallback = "1e-3", .range = between(1e-8, 1)})
             .quantity("bondStrain", &ImplicitSettings::bondStrain, unit::none,
                       "largest change of a bond's length in one step, relative",
                       {.fallback = "0.1", .range = between(1e-4, 1)})

@@ -54,7 +54,7 @@ class Step final : public ImplicitStep {
 
     Events advance(double dt) override {
         moveVelocities(-ahead());
-        Events events = advance(dt, backward_ || damped, 0);
+        Events events = advance(dt, isBackward(), 0);
         moveVelocities(ahead());
         return events;
     }
@@ -72,6 +72,7 @@ class Step final : public ImplicitStep {
     const sph::Operators<Real>& operators() const { return fluid_.operators(); }
     bool isFixed(std::size_t i) const { return operators().isWall(i); }
 
+    bool isBackward() const { return backward_ || damped; }  // every step, not only halves
     Events advance(double dt, bool backward, int halvings) {
         if (attempt(dt, backward)) {
             ++statistics.steps;
@@ -104,8 +105,8 @@ class Step final : public ImplicitStep {
             return false;
         }
         const double bondRate = immersed_ ? largestBondRate(scene_.cells, membranes_->velocities()) : 0;
-        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, dt, ends_, hasAcceleration() ? difference() : 0,
-                                bondRate);
+        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, dt, isBackward(),
+                                hasAcceleration() ? difference() : 0, bondRate);
         finish(dt, share);
         return true;
     }
@@ -199,23 +200,25 @@ class Step final : public ImplicitStep {
         }
     }
 
-    // Of the velocity found and the extrapolated one, by the lengths of stepControl.hpp [1/s]. Without cells the system is linear: correction_ is all
-    // of it.
+    // By which the velocity found differs from the extrapolated one, with backward Euler from the last, over the lengths of stepControl.hpp [1/s].
     double difference() const {
-        if (!immersed_ && !rigid_) {
-            const double length = scene_.flow.length;
-            return length > 0 ? rootMeanSquare(correction_) / length : 0;
-        }
+        const double h = isBackward() ? 0 : h_;  // over which the other one is extrapolated
+        const bool freeBodies = rigid_ && rigid_->areSomeFree();
+        if (!immersed_ && !freeBodies) return differenceOfFluid(h) / scene_.flow.length;
         double largest = 0;
-        if (immersed_) largest = largestDifference(scene_.cells, membranes_->velocities(), membranes_->extrapolated());
-        if (rigid_) largest = std::max(largest, rigid_->largestDifference(h_, guess_));
+        if (immersed_)
+            largest = largestDifference(scene_.cells, membranes_->velocities(),
+                                        h > 0 ? membranes_->extrapolated() : immersed_->velocities());
+        if (freeBodies) largest = std::max(largest, rigid_->largestDifference(h, guess_));
         return largest;
     }
-    double rootMeanSquare(const Field& v) const {
+    double differenceOfFluid(double h) const {  // root mean square
+        const ParticleStore& s = store();
         double sums[2] = {0, 0};
-        for (std::size_t i = 0; i < store().size(); ++i) {
-            if (isFixed(i)) continue;
-            sums[0] += get(v, i).squaredNorm();
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (isFixed(i) || (rigid_ && rigid_->isMember(i))) continue;
+            const Vec3 a(s.fx[i], s.fy[i], s.fz[i]);
+            sums[0] += (get(guess_, i) - s.velocity(i) - h * a).squaredNorm();
             ++sums[1];
         }
         MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, scene_.system->comm());

@@ -1,4 +1,4 @@
-// What a stiff membrane adds to a preconditioner of the fluid. With B the inverse of the fluid's part, K' = dt/2 k + C and S the
+// What a stiff membrane adds to a preconditioner of the fluid. With B the inverse of the fluid's part, K' = (middle + lead) k + C, times of Reach (term.hpp) and S the
 // interpolation to the nodes with the volume kept, the inverse of both together is (Woodbury)
 //
 //     (B^-1 + S^T K' S)^-1 = B - B S^T y,   y = K' x,   (1 + N K') x = S B r,   N = S B S^T

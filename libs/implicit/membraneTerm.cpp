@@ -11,8 +11,7 @@ void MembraneTerm<Real>::prepare(const Reach& reach) {
     reach_ = reach;
     immersed_.build(system_, volumes_);
     load_ = immersed_.force();
-    extrapolated_ = immersed_.velocities();
-    immersed_.addStiffness(reach_.middle, extrapolated_, load_);
+    immersed_.addStiffness(reach_.middle, immersed_.velocities(), load_);
 }
 
 template <class Real>

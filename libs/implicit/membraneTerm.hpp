@@ -43,8 +43,9 @@ class MembraneTerm final : public Term<Real> {
     // What the velocity last given does for the account, the same on all ranks: power against elasticity and against viscosity.
     void addRates(sph::Account::Values& rates) const;
 
-    // Of all nodes, for the velocity last given to addForces or refusal; for that given to addFirstForces, before it their own.
+    // Of all nodes, for the velocity last given to addFirstForces, addForces or refusal.
     const Vectors& velocities() const { return nodes_; }
+    // For that given to addFirstForces.
     const Vectors& extrapolated() const { return extrapolated_; }
 
   private:

@@ -1,8 +1,6 @@
 #include "implicit/rigidUnknowns.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace corpuscle::implicit {
 
@@ -97,11 +95,16 @@ RigidMotion RigidUnknowns<Real>::extrapolated(double h, std::size_t body) const 
 }
 
 template <class Real>
+bool RigidUnknowns<Real>::areSomeFree() const {
+    return std::any_of(bodies().begin(), bodies().end(), [](const auto& b) { return b.behaviour->yields(); });
+}
+
+template <class Real>
 double RigidUnknowns<Real>::largestDifference(double h, const Field& u) const {
     double largest = 0;
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         if (!isFree(b)) continue;
-        const double radius = std::cbrt(3 * bodies()[b].solid.volume / (4 * std::numbers::pi));
+        const double radius = radiusOfSphere(bodies()[b].solid.volume);
         const RigidMotion found = motion(u, b), guess = extrapolated(h, b);
         largest =
             std::max(largest, (found.linear - guess.linear).norm() / radius + (found.angular - guess.angular).norm());

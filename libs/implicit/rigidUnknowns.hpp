@@ -63,6 +63,7 @@ class RigidUnknowns final : public Term<Real> {
     void extrapolate(double h, Field& u) const;
     // By which the velocity u differs from it: the largest |dU| + a |dOmega| of free bodies, over a, the radius of the sphere of their volume [1/s].
     double largestDifference(double h, const Field& u) const;
+    bool areSomeFree() const;
     // Rows of bodies in A u, and in the residual of u.
     void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
     void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace corpuscle::implicit {
 
@@ -20,7 +19,7 @@ bool isStrict(const ImplicitSettings& settings) { return settings.error < Implic
 double largestDifference(const std::vector<Cell>& cells, const Immersed::Vectors& a, const Immersed::Vectors& b) {
     double largest = 0;
     for (const Cell& cell : cells) {
-        const double radius = std::cbrt(3 * cell.initialVolume / (4 * std::numbers::pi));
+        const double radius = radiusOfSphere(cell.initialVolume);
         const auto first = static_cast<std::size_t>(cell.firstNode);
         for (std::size_t m = first; m < first + static_cast<std::size_t>(cell.nodeCount()); ++m)
             largest = std::max(largest, (a[m] - b[m]).norm() / radius);

@@ -1,19 +1,10 @@
 #include "membrane/inflation.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "core/registry.hpp"
 #include "core/units.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::membrane {
-
-namespace {
-
-double meanRadius(double volume) { return std::cbrt(3 * volume / (4 * std::numbers::pi)); }
-
-}  // namespace
 
 const Schema<Inflation>& Inflation::schema() {
     static const Schema<Inflation> s =
@@ -40,9 +31,9 @@ std::string Inflation::describe(int stage) const {
 std::vector<std::string> Inflation::columns() const { return {"pressure_Pa", "radius_m", "stretch"}; }
 
 std::vector<double> Inflation::measure(int stage, const Membrane& membrane) const {
-    const double radius = meanRadius(membrane.volume());
+    const double radius = radiusOfSphere(membrane.volume());
     return {pressures[static_cast<std::size_t>(stage)], radius,
-            radius / meanRadius(enclosedVolume(membrane.network().stressFree(), membrane.network().triangles()))};
+            radius / radiusOfSphere(enclosedVolume(membrane.network().stressFree(), membrane.network().triangles()))};
 }
 
 CORPUSCLE_REGISTER(Protocol, Inflation, "inflation", "a pressure difference over a closed membrane");

@@ -75,6 +75,9 @@ Case Case::read(const Application& app) {
         c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
     problems.throwIfAny();
 
+    const auto resolve = [&](SurfaceSettings& surface) { surface.edge = surface.edgeLength.metres(c.spacing()); };
+    std::for_each(c.mesh.cells.begin(), c.mesh.cells.end(), resolve);
+    std::for_each(c.mesh.bodies.begin(), c.mesh.bodies.end(), resolve);
     for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         try {
             surface.settings.shape->prepare(c.directory);

@@ -77,7 +77,8 @@ struct DomainSettings {
 struct SurfaceSettings {
     std::string name;
     Choice<geometry::Shape> shape;
-    double edge = 0;  // target edge length [m]
+    Length edgeLength;  // target, as given
+    double edge = 0;    // the same [m], once the particle spacing is known
     Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
     static const Schema<SurfaceSettings>& schema();
 };

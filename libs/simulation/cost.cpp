@@ -100,7 +100,8 @@ std::vector<IntegratorCost> predictCosts(const Case& input) {
         cost.obstacle = obstacle(input, name);
         Case named = input;
         named.numerics = schemeOf(input, name);
-        cost.step = limitsOf(named, 0.5 * duration(input)).binding();
+        cost.limits = limitsOf(named, 0.5 * duration(input));
+        cost.step = cost.limits.binding();
         countPasses(named, cost);
         cost.cost = cost.passes / duration(input) / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);
         if (cost.obstacle.empty()) cost.obstacle = tooLong(named, cost.step.seconds);
@@ -135,6 +136,27 @@ std::vector<std::vector<std::string>> costRows(const Case& input, const std::vec
         rows.push_back({cost.name, formatQuantity(cost.step.seconds, unit::second), cost.step.name,
                         fmt::format("{:.3g}", cost.passes / cost.steps), fmt::format("{:.3g}", cost.cost), note});
     }
+    return rows;
+}
+
+std::vector<std::string> limitHeader(const std::vector<IntegratorCost>& costs) {
+    std::vector<std::string> header{"predicted limit of the step"};
+    for (const IntegratorCost& cost : costs) header.push_back(cost.name);
+    return header;
+}
+
+std::vector<std::vector<std::string>> limitRows(const std::vector<IntegratorCost>& costs) {
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < costs.size(); ++k)
+        for (const sph::StepLimit& limit : costs[k].limits.all) {
+            auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r[0] == limit.name; });
+            if (row == rows.end()) {
+                row = rows.emplace(row, costs.size() + 1, "");
+                row->front() = limit.name;
+            }
+            (*row)[k + 1] =
+                formatQuantity(limit.seconds, unit::second) + (limit.name == costs[k].step.name ? " (binds)" : "");
+        }
     return rows;
 }
 

@@ -33,7 +33,8 @@ struct PassCosts {
 struct IntegratorCost {
     std::string name;
     std::string obstacle;          // why the case cannot use it; empty: it can
-    sph::StepLimit step;           // the binding limit, half-way through the run
+    sph::StepLimits limits;        // of the step, half-way through the run
+    sph::StepLimit step;           // the binding one
     double steps = 0, passes = 0;  // of the whole run
     double cost = 0;               // passes per unit of strain, or per second
 };
@@ -48,5 +49,8 @@ std::string cheapest(const std::vector<IntegratorCost>& costs);
 // For checkCase and the log.
 std::vector<std::string> costHeader(const Case& input);
 std::vector<std::vector<std::string>> costRows(const Case& input, const std::vector<IntegratorCost>& costs);
+// All predicted limits of the step, one row each, a column for each integrator.
+std::vector<std::string> limitHeader(const std::vector<IntegratorCost>& costs);
+std::vector<std::vector<std::string>> limitRows(const std::vector<IntegratorCost>& costs);
 
 }  // namespace corpuscle::simulation

@@ -21,20 +21,25 @@ class Groups {
         if (!whose.empty() &&
             std::any_of(groups_.begin(), groups_.end(), [&](const Group& g) { return of(g) && g.value == value; }))
             return;
-        const bool first = std::none_of(groups_.begin(), groups_.end(), of);
-        groups_.push_back({first ? symbol : fmt::format("{} ({})", symbol, whose), std::move(value), std::move(text),
-                           number, symbol});
+        if (first_.empty()) first_ = whose;
+        groups_.push_back({whose.empty() || whose == first_ ? symbol : fmt::format("{} ({})", symbol, whose),
+                           std::move(value), std::move(text), number, symbol});
     }
     std::vector<Group> take() { return std::move(groups_); }
 
   private:
+    std::string first_;  // cell or body
     std::vector<Group> groups_;
 };
 
-std::string reynoldsText(const Case& c) {
-    return c.flow.densityFromRe ? fmt::format("rho gammadot a^2/mu; sets rho = {}",
-                                              formatQuantity(c.flow.density, unit::kilogramPerMetre3))
-                                : "rho gammadot a^2/mu";
+void addReynolds(Groups& groups, const Case& c, double a, const std::string& whose) {
+    std::string text = "rho gammadot a^2/mu";
+    if (c.flow.densityFromRe) text += "; sets rho = " + formatQuantity(c.flow.density, unit::kilogramPerMetre3);
+    groups.add("Re", c.flow.density * c.flow.rate * a * a / c.fluid.viscosity, std::move(text), whose);
+}
+
+void addResolution(Groups& groups, const Case& c, double a, const std::string& whose, const char* text) {
+    groups.add("a/dx", a / c.spacing(), text, whose);
 }
 
 void addGap(Groups& groups, const Case& c, double a, const std::string& whose, const char* text) {
@@ -45,7 +50,7 @@ void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
     const membrane::MembraneSettings& laws = c.membraneOf(cell);
     const std::string& whose = cell.name;
     const double a = cell.shape->radius(), Gs = laws.moduli(cell.edge).shear;
-    groups.add("Re", c.flow.density * c.flow.rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
+    addReynolds(groups, c, a, whose);
     groups.add("Ca", capillaryNumber(c, cell),
                fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                            laws.bonds ? ", hexagonal network" : ""),
@@ -65,17 +70,17 @@ void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
                    fmt::format("kappa/(Gs a^2), kappa = {}", formatQuantity(kappa, unit::joule)), whose);
     }
     addGap(groups, c, a, whose, "gap between the walls over cell radius");
-    groups.add("a/dx", a / c.spacing(), "particles per cell radius", whose);
+    addResolution(groups, c, a, whose, "particles per cell radius");
     groups.add("edge/dx", cell.edge / c.spacing(), "mesh edge over particle spacing", whose);
 }
 
 void addBody(Groups& groups, const Case& c, const BodyPlaceSettings& body) {
     const std::string& whose = body.name;
     const double a = body.shape->radius();
-    groups.add("Re", c.flow.density * c.flow.rate * a * a / c.fluid.viscosity, reynoldsText(c), whose);
+    addReynolds(groups, c, a, whose);
     groups.add("rho_b/rho", c.densityOf(body) / c.flow.density, "density of the body over that of the fluid", whose);
     addGap(groups, c, a, whose, "gap between the walls over the body's radius");
-    groups.add("a/dx", a / c.spacing(), "particles per radius of the body", whose);
+    addResolution(groups, c, a, whose, "particles per radius of the body");
 }
 
 }  // namespace

@@ -54,7 +54,14 @@ const Schema<RelaxSettings>& RelaxSettings::schema() {
                       "what a force of a node is compared with where loads are small",
                       {.fallback = "1 pN", .range = positive})
             .integer("iterations", &RelaxSettings::iterations, "of Newton's method, each stage at most",
-                     {.fallback = "500", .range = atLeast(1)});
+                     {.fallback = "500", .range = atLeast(1)})
+            .check([](const RelaxSettings& s, const Node& node, Problems& problems) {
+                if (!s.cell || !s.cell->edgeLength.inSpacings) return;
+                const Node* edge = node.find("cell")->find("edge");
+                problems.add(edge->mark, edge->path,
+                             "found a length in particle spacings, but there are no particles here; give it in a unit "
+                             "of length, such as 0.4 um");
+            });
     return s;
 }
 
@@ -62,7 +69,7 @@ membrane::Membrane RelaxSettings::makeMembrane(const std::filesystem::path& case
                                                const MembranesSettings& membranes) const {
     geometry::TriangleMesh mesh;
     if (cell) {
-        mesh = geometry::meshSurface(*cell->shape, cell->edge);
+        mesh = geometry::meshSurface(*cell->shape, edge());
     } else {
         mesh = sheet->diameter ? geometry::disc(0.5 * *sheet->diameter, sheet->edge)
                                : geometry::rectangle(sheet->size[0], sheet->size[1], sheet->edge);

@@ -1,6 +1,7 @@
 #include "simulation/resultsWriter.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/communicator.hpp"
 #include "membrane/diagnostics.hpp"
@@ -76,6 +77,14 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     return data;
 }
 
+namespace {
+void addNumbers(io::PolyData& data) {  // of the nodes, that is, of the mesh in 0/
+    auto& id = data.point.integers["id"];
+    id.resize(data.points.size());
+    std::iota(id.begin(), id.end(), 0);
+}
+}  // namespace
+
 io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     const membrane::Network& network = m.network();
     io::PolyData data;
@@ -83,6 +92,7 @@ io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     if (!m.damage().empty()) data.cell.scalars["damage"] = m.damage();
     data.points = m.position;
     data.triangles = network.triangles();
+    addNumbers(data);
     data.point.vectors["force"] = m.force;
     data.point.vectors["velocity"] = m.velocity;
     data.point.scalars["stretch"] = membrane::nodeStretch(network, m.position);
@@ -103,7 +113,7 @@ io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
     for (const char* name : {"force", "velocity"}) data.point.vectors[name];
     for (const char* name : {"stretch", "spacing"}) data.point.scalars[name];
     for (const char* name : {"areaStrain", "tension1", "tension2"}) data.cell.scalars[name];
-    data.cell.integers["broken"];
+    data.cell.integers["broken"], data.point.integers["id"];
     if (cell.membrane.canRupture()) data.point.integers["hole"];
     if (!cell.membrane.damage().empty()) data.cell.scalars["damage"];
     return data;
@@ -130,8 +140,9 @@ io::PolyData bodyPiece(const Scene& scene, const bodies::Body& body, bool writer
     io::PolyData data;
     auto& velocity = data.point.vectors["velocity"];
     auto& spacing = data.point.scalars["spacing"];
+    if (writer) data.points = body.nodes();
+    addNumbers(data);
     if (!writer) return data;
-    data.points = body.nodes();
     data.triangles = body.solid.surface.triangles;
     for (const Vec3& x : data.points) velocity.push_back(body.state.motion.at(x - body.state.centre));
     spacing.assign(data.points.size(), scene.spacing);

@@ -3,7 +3,7 @@
 //
 // axis                  | value
 // a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of every cell
-// stiffEdge             | edge of the mesh over dx, of cells with Ca <= 0.02
+// stiffEdge             | edge of the mesh over dx, of cells with Ca <= 0.005
 // implicit.step         | strain of an implicit step; with other integrators none
 // implicit.tolerance    | of the implicit step's solver; with other integrators none
 // bulkModulus           | that of the case over what `soundSpeed: auto` stands for

@@ -108,8 +108,16 @@ void Schedule::describe() {
                  formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
                  formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
     log.table(costHeader(input_), costRows(input_, predictCosts(input_)));
-    record_.set("parameters", "integrator", input_.numerics.integrator);
+    const NumericsSettings& numerics = input_.numerics;
+    record_.set("parameters", "integrator", numerics.integrator);
+    record_.set("parameters", "coupling", numerics.coupling);
+    record_.set("parameters", "operators", numerics.operators);
+    record_.set("parameters", "precision", numerics.precision);
+    record_.set("parameters", "kernel", numerics.kernel.name);
+    record_.set("parameters", "support_m", input_.support());
+    record_.set("parameters", "viscosity_Pa_s", input_.fluid.viscosity);
     log.table({"limit of the step", "dt", ""}, limitRows(integrator_.limits()));
+    for (const sph::StepLimit& limit : integrator_.limits().all) record_.set("limits_s", limit.name, limit.seconds);
     log.info("{} particles on {} rank{}, {} instructions", particles_, app_.communicator().size(),
              app_.communicator().size() > 1 ? "s" : "", particles::instructionSetName());
 }
@@ -119,6 +127,8 @@ ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
     app_.log().info("dry run: about {:.0f} steps to {}; nothing written, {} MiB in lists and particles of rank 0",
                     ((time.endTime ? *time.endTime : *time.endStrain / time.shearRate) - time.t) / time.dt,
                     time.endTime ? "the end time" : "the end strain", scene.system->bytes() >> 20);
+    record_.set("", "status", "dryRun");
+    if (app_.json()) record_.print();
     return ExitCode::done;
 }
 
@@ -260,6 +270,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
                     time.shearRate > 0 ? fmt::format(", strain {:.4f}", time.strain()) : "", formatDuration(wall),
                     1e-6 * particleSteps(time) / wall);
     if (!ended) app_.log().info("reason: {}; a checkpoint is written, the same command goes on from here", reason);
+    if (app_.json()) record_.print();
     return code;
 }
 

@@ -208,7 +208,23 @@ TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
         EXPECT_NE(result.err.find("is known to be safe"), std::string::npos) << result.err;
     };
     outside("constant/flow.yaml:/Ca=1e4", "Ca = 1e+04 is outside");
-    outside("constant/flow.yaml:/Ca=0.02", "edge/dx of 'rbc' = 0.8 is outside");
+    outside("constant/flow.yaml:/Ca=0.005", "edge/dx of 'rbc' = 0.8 is outside");
+    const std::string twins =
+        "'system/mesh.yaml:/cells=[{name: one, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, "
+        "centre: [-3, 0, 0] um}, {name: two, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, centre: "
+        "[3, 0, 0] um}]' -set ";
+    outside(twins + "constant/flow.yaml:/Ca=0.005", "edge/dx of 'one' = 0.8 is outside");
+}
+
+// An edge may be given in particle spacings.
+TEST_F(Utilities, EdgeInSpacingsIsThatInMetres) {
+    const auto edgeOf = [&](const std::string& edge) {
+        const Result result = run("checkCase", "-json -set 'system/mesh.yaml:/cells/0/edge=" + edge + "'");
+        EXPECT_EQ(result.code, 0) << result.err;
+        return json::parse(result.out).at("groups").at("edge/dx").get<double>();
+    };
+    EXPECT_DOUBLE_EQ(edgeOf("0.75 um"), 0.75);
+    EXPECT_DOUBLE_EQ(edgeOf("0.75 dx"), 0.75);
 }
 
 TEST_F(Utilities, EveryCellHasItsGroups) {
@@ -226,6 +242,19 @@ TEST_F(Utilities, EveryCellHasItsGroups) {
     EXPECT_FALSE(groups.contains("Ca (same)")) << groups;
     EXPECT_FALSE(groups.contains("lambda (stiff)")) << groups;
     EXPECT_TRUE(groups.contains("a/dx (stiff)")) << groups;
+}
+
+// A group that only a later cell has is named after it, too.
+TEST_F(Utilities, GroupsOfALaterCellAloneAreItsOwn) {
+    const Result result =
+        run("checkCase",
+            "-set 'system/mesh.yaml:/cells=[{name: plain, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: "
+            "[-3, 0, 0] um}, {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [3, 0, 0] um}]' "
+            "-set 'constant/membranes.yaml:/plain={bonds: {type: harmonic, k: 5e-4 N/m}}' -json");
+    ASSERT_EQ(result.code, 0) << result.err;
+    const json groups = json::parse(result.out).at("groups");
+    EXPECT_TRUE(groups.contains("E_b (rbc)")) << groups;
+    EXPECT_FALSE(groups.contains("E_b")) << groups;
 }
 
 TEST_F(Utilities, ModelsAreListed) {

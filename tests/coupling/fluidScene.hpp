@@ -41,6 +41,7 @@ struct FluidScene {
         scene.fluidBox = scene.system->box();
         scene.spacing = 1;
         scene.flow.rate = rate;
+        scene.flow.length = static_cast<double>(size[2]);
         scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
     }
     // sum of f(place in the store) over all ranks of the world

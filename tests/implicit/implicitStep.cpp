@@ -125,6 +125,21 @@ TEST(ImplicitStep, stepOfAFluidIsAsLongAsItsErrorAllows) {
     EXPECT_EQ(fluid.step->allowed().bond, 0);
 }
 
+// Its local error is of the first difference of velocity, not of the second.
+TEST(ImplicitStep, stepOfAFluidByBackwardEulerIsAsLongAsItsErrorAllows) {
+    const ShearWave wave;
+    const double dt = 0.05 / wave.rate, flowRate = 0.3, length = 2;
+    const int steps = 8;
+    const double v = ShearWave::amplitude * std::sqrt(0.5) * std::pow(1 + wave.rate * dt, -steps);
+    const double error = wave.rate * dt * v / (2 * flowRate * length);
+    ImplicitSettings settings = exactly("backwardEuler");
+    settings.error = 0.7 * error;
+    ImplicitFluid fluid(wave.all, wave.size, wave.model, flowRate, settings);
+    fluid.scene.flow.length = length;
+    fluid.run(steps * dt, steps);
+    EXPECT_NEAR(fluid.step->allowed().error / dt, 0.7, 0.01);
+}
+
 TEST(ImplicitStep, backwardEulerIsOfFirstOrder) {
     const ShearWave wave;
     const double time = 1 / wave.rate;

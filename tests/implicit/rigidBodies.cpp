@@ -221,6 +221,22 @@ TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
     EXPECT_LT(fine, 0.4);
 }
 
+// Where no body is free, the fluid's error is what counts: here it comes to rest around a sphere that is held.
+TEST(RigidBodies, stepBesideAHeldBodyIsAsLongAsTheFluidsErrorAllows) {
+    const auto found = [](double dt) {
+        SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "held", 2.5);
+        f.setVelocities([](std::size_t, const Vec3&) { return Vec3(0.02, 0, 0); }, {Vec3::Zero(), Vec3::Zero()});
+        RigidSphereScene s(std::move(f), 0.02);
+        const auto step = s.step(1e-9, "midpoint", sph::OperatorForm::corrected, 3e-5);
+        const double time = 4;
+        run(*step, time, static_cast<int>(std::lround(time / dt)));
+        return step->allowed().error;
+    };
+    const double fine = found(0.2);
+    EXPECT_NEAR(found(0.4), fine, 0.3 * fine);
+    EXPECT_LT(fine, 0.39);
+}
+
 TEST(RigidBodies, areTheSameOnOneRankAndOnAll) {
     const auto make = [](MPI_Comm comm) {
         SphereInFluid f({12, 12, 12}, Vec3(0.3, 11.5, 6), "free", 2.5, 0.1, 3, Vec3(1e-3, 0, 0), comm);

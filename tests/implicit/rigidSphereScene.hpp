@@ -16,6 +16,7 @@ struct RigidSphereScene {
         scene.fluidBox = scene.system->box();
         scene.spacing = 1;
         scene.flow.rate = rate;
+        scene.flow.length = scene.fluidBox.size()[2];
         scene.system->pairWithinBodies();
         scene.system->rebuild();
     }

@@ -737,19 +737,21 @@ def test_inclusion(folder):
 
 def test_kill(folder):
     """A run killed by SIGKILL goes on from its last checkpoint to the same bits."""
-    control = CELL_CASE["system/control.yaml"].replace("wallClock: never", "wallClock: 0.3 s")
-    case = prepared(folder / "killed", **{"system/control.yaml": control.replace("0.12", "1.0")})
-    whole = copied(case, folder / "whole")
-    process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), "-quiet"])
-    deadline = time.time() + 60
-    while time.time() < deadline and not list((case / "checkpoints").glob("*.h5")) and process.poll() is None:
-        time.sleep(0.02)
-    assert process.poll() is None, "the run ended before it could be killed: make it longer"
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    run(case, "dmpFlow")
-    run(whole, "dmpFlow")
-    same_checkpoint(last_checkpoint(whole), last_checkpoint(case))
+    for scheme, files, strain in (("explicit", CELL_CASE, "0.12"), ("implicit", IMPLICIT_CASE, "endStrain: 0.6")):
+        control = files["system/control.yaml"].replace("wallClock: never", "wallClock: 0.3 s").replace(strain, strain.replace("0.12", "1.0").replace("0.6", "3"))
+        assert "wallClock: 0.3 s" in control
+        case = prepared(folder / f"{scheme}Killed", {**files, "system/control.yaml": control})
+        whole = copied(case, folder / f"{scheme}Whole")
+        process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), "-quiet"])
+        deadline = time.time() + 60
+        while time.time() < deadline and not list((case / "checkpoints").glob("*.h5")) and process.poll() is None:
+            time.sleep(0.02)
+        assert process.poll() is None, f"{scheme}: the run ended before it could be killed: make it longer"
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        run(case, "dmpFlow")
+        run(whole, "dmpFlow")
+        same_checkpoint(last_checkpoint(whole), last_checkpoint(case))
 
 
 def test_ranks(folder):
@@ -850,8 +852,12 @@ def test_endings(folder):
     for extra in ("results", "postProcessing", "checkpoints"):
         shutil.rmtree(case / extra, ignore_errors=True)
     before = sorted(p for p in case.rglob("*") if "log" not in p.name)
-    run(case, "dmpFlow", "-dry-run")
+    checked = json.loads(run(case, "dmpFlow", "-dry-run", "-json").stdout)
+    assert checked["status"] == "dryRun" and checked["limits_s"]["viscous"] > 0 and checked["groups"]["Ca"] > 0, checked
     assert sorted(p for p in case.rglob("*") if "log" not in p.name) == before
+    ended = json.loads(run(case, "dmpFlow", "-steps", "2", "-json", ranks=2).stdout)
+    assert ended == json.loads((case / "run.json").read_text()) and ended["performance"]["steps"] == 2, ended
+    assert all(ended["versions"][library] for library in ("MPI", "CGAL", "HDF5", "VTK", "Zoltan")), ended["versions"]
     assert "run dmpFlow" in run(case, "sphFlow", code=2).stderr
 
 

@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "core/startMpi.hpp"
+
 namespace {
 
 class FailuresOfRank : public testing::EmptyTestEventListener {
@@ -23,7 +25,7 @@ class FailuresOfRank : public testing::EmptyTestEventListener {
 }  // namespace
 
 int main(int argc, char** argv) {
-    MPI_Init(&argc, &argv);
+    corpuscle::startMpi(argc, argv);
     testing::InitGoogleTest(&argc, argv);
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

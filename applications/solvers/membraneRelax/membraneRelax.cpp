@@ -119,6 +119,7 @@ void runStages(Application& app, const simulation::RelaxSettings& relax, membran
     }
     record.set("result", "stages", static_cast<long>(protocol.stages()));
     record.finish(ExitCode::done, "all stages in equilibrium");
+    if (app.json()) record.print();
 }
 
 }  // namespace

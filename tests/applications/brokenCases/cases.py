@@ -116,7 +116,7 @@ CASES = [
     case("misspeltRequiredKey", replace(FLUID, "density", "densty"), FLUID, "densty", "densty", "Did you mean 'density'?"),
     case("missingKey", replace(FLUID, "viscosity: 1.0e-3 Pa s\n", ""), FLUID, "viscosity", "density", "missing", "dynamic viscosity",
          "Pa s", "for example"),
-    case("missingKeyInCell", replace(MESH, "    edge: 0.8 um\n", ""), MESH, "cells[0].edge", "name: rbc", "missing", "a quantity in m"),
+    case("missingKeyInCell", replace(MESH, "    edge: 0.8 um\n", ""), MESH, "cells[0].edge", "name: rbc", "missing", "a length in m or in particle spacings"),
     case("keyWithoutValue", replace(NUMERICS, "spacing: 1 um", "spacing:"), NUMERICS, "spacing", "spacing:", "found nothing", "in m"),
     case("modelWithoutCoefficient", replace(MEMBRANES, "{type: harmonic, k: 5e-4 N/m}", "harmonic"), MEMBRANES, "rbc.bonds.k",
          "bonds: harmonic", "missing", "spring constant", "N/m"),

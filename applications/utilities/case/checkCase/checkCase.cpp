@@ -48,10 +48,13 @@ void reportGroups(Application& app, const simulation::Case& input, ordered_json&
 void reportCosts(Application& app, const simulation::Case& input, ordered_json& json) {
     const std::vector<simulation::IntegratorCost> costs = simulation::predictCosts(input);
     app.log().table(simulation::costHeader(input), simulation::costRows(input, costs));
-    for (const simulation::IntegratorCost& cost : costs)
-        json["integrators"][cost.name] = {{"step_s", cost.step.seconds}, {"limit", cost.step.name},
-                                          {"steps", cost.steps},         {"passes", cost.passes},
-                                          {"cost", cost.cost},           {"obstacle", cost.obstacle}};
+    app.log().table(simulation::limitHeader(costs), simulation::limitRows(costs));
+    for (const simulation::IntegratorCost& cost : costs) {
+        ordered_json& entry = json["integrators"][cost.name];
+        entry = {{"step_s", cost.step.seconds}, {"limit", cost.step.name}, {"steps", cost.steps},
+                 {"passes", cost.passes},       {"cost", cost.cost},       {"obstacle", cost.obstacle}};
+        for (const sph::StepLimit& limit : cost.limits.all) entry["limits_s"][limit.name] = limit.seconds;
+    }
     json["integrator"] = input.numerics.integrator;
 }
 
