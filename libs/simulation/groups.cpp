@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "particles/isa.hpp"
+#include "simulation/cost.hpp"
 
 namespace corpuscle::simulation {
 
@@ -83,6 +84,11 @@ void addBody(Groups& groups, const Case& c, const BodyPlaceSettings& body) {
     addResolution(groups, c, a, whose, "particles per radius of the body");
 }
 
+// Nodes of a mesh whose node has the area of its hexagon, sqrt(3)/2 edge^2.
+double hexagonalNodes(const CellSettings& cell) {
+    return cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge);
+}
+
 }  // namespace
 
 double capillaryNumber(const Case& c, const CellSettings& cell) {
@@ -122,10 +128,9 @@ ParticleEstimate estimateParticles(const Case& c) {
     }
     if (!c.numerics.isImmersed())  // else nodes are no particles
         for (const CellSettings& cell : c.mesh.cells) {
-            // Hexagonal area of a node: sqrt(3)/2 edge^2. As particles the nodes replace fluid of area x dx.
-            const double area = cell.shape->area();
-            n.nodes += std::lround(area / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
-            n.fluid -= std::lround(area * c.spacing() / c.particleVolume());
+            // As particles the nodes replace fluid of area x dx.
+            n.nodes += std::lround(hexagonalNodes(cell));
+            n.fluid -= std::lround(cell.shape->area() * c.spacing() / c.particleVolume());
         }
     for (const BodyPlaceSettings& body : c.mesh.bodies) {
         const long inside = std::lround(body.shape->volume() / c.particleVolume());
@@ -144,13 +149,20 @@ SizeEstimate estimateSize(const Case& c) {
     const double perBlock = 4.2 * (reach + 1) * (reach + 1) * (reach + 1);
     size.memory =
         n * (2 * 20 * 8 + 1.3 * 80 + 32 + 0.65 * 4 * perBlock / particles::blockLanes(c.precision()) * 1.5 + 60);
-    size.perWrite = n * 70;
+    double nodes = 0;
+    for (const CellSettings& cell : c.mesh.cells) nodes += hexagonalNodes(cell);
+    constexpr double perParticle = 70, perNode = 220;  // with its two triangles
+    size.perWrite = n * perParticle + nodes * perNode;
     size.checkpoint = n * 8 * 19;
     const WriteSettings& w = c.control.write;
     const double strain = c.control.endStrain ? *c.control.endStrain : c.flow.shearRate * c.control.endTime.value_or(0);
     const double time = c.control.endTime ? *c.control.endTime : strain / c.flow.shearRate;
     if (w.strain) size.writes = static_cast<long>(strain / *w.strain) + 1;
     if (w.time) size.writes = static_cast<long>(time / *w.time) + 1;
+    if (w.steps)
+        for (const IntegratorCost& cost : predictCosts(c))
+            if (cost.name == c.numerics.integrator)
+                size.writes = static_cast<long>(cost.steps / static_cast<double>(*w.steps)) + 1;
     return size;
 }
 

@@ -216,6 +216,17 @@ TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
     outside(twins + "constant/flow.yaml:/Ca=0.005", "edge/dx of 'one' = 0.8 is outside");
 }
 
+TEST_F(Utilities, DiskIsForAllTimesThatAreWritten) {
+    const auto disk = [&](const std::string& steps) {
+        const Result result = run("checkCase", "-json -set 'system/control.yaml:/write={steps: " + steps + "}'");
+        EXPECT_EQ(result.code, 0) << result.err;
+        return json::parse(result.out).at("disk_B").get<double>();
+    };
+    const double once = disk("1000000"), often = disk("100"), more = disk("10");
+    EXPECT_GT(often, once);
+    EXPECT_NEAR((more - once) / (often - once), 10, 0.5);
+}
+
 // An edge may be given in particle spacings.
 TEST_F(Utilities, EdgeInSpacingsIsThatInMetres) {
     const auto edgeOf = [&](const std::string& edge) {
