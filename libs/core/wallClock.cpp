@@ -79,11 +79,10 @@ Progress::Progress(Log& log, const Time& start, double every)
       every_(every),
       start_(Clock::now()),
       last_(start_),
-      startStep_(start.step),
       lastStep_(start.step),
       startFraction_(start.fraction()) {}
 
-void Progress::report(const Time& time, const std::string& more) {
+void Progress::report(const Time& time) {
     const double pause = since(last_);
     if (pause < every_) return;
     const double speed = static_cast<double>(time.step - lastStep_) / pause;
@@ -93,14 +92,9 @@ void Progress::report(const Time& time, const std::string& more) {
     line += fmt::format("  dt {}  {:.1f} %  {:.3g} steps/s", formatQuantity(time.dt, unit::second, 3),
                         100 * time.fraction(), speed);
     if (done > 0) line += "  left " + formatDuration(since(start_) * (1 - time.fraction()) / done);
-    if (!more.empty()) line += "  " + more;
     log_.info("{}", line);
     last_ = Clock::now();
     lastStep_ = time.step;
-}
-
-double Progress::stepsPerSecond(const Time& time) const {
-    return static_cast<double>(time.step - startStep_) / std::max(since(start_), 1e-9);
 }
 
 std::string formatDuration(double seconds) {

@@ -63,8 +63,7 @@ class WallTicker {
 class Progress {
   public:
     Progress(Log& log, const Time& start, double every = 5);
-    void report(const Time& time, const std::string& more = {});
-    double stepsPerSecond(const Time& time) const;
+    void report(const Time& time);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -72,7 +71,7 @@ class Progress {
     Log& log_;
     double every_;
     Clock::time_point start_, last_;
-    long startStep_, lastStep_;
+    long lastStep_;
     double startFraction_;
 };
 
