@@ -855,7 +855,9 @@ def test_endings(folder):
     checked = json.loads(run(case, "dmpFlow", "-dry-run", "-json").stdout)
     assert checked["status"] == "dryRun" and checked["limits_s"]["viscous"] > 0 and checked["groups"]["Ca"] > 0, checked
     assert sorted(p for p in case.rglob("*") if "log" not in p.name) == before
-    ended = json.loads(run(case, "dmpFlow", "-steps", "2", "-json", ranks=2).stdout)
+    alone = run(case, "dmpFlow", "-steps", "1", "-quiet")
+    assert alone.stdout == "" and alone.stderr == "", alone
+    ended = json.loads(run(case, "dmpFlow", "-steps", "2", "-json", "-set", "system/control.yaml:/startFrom=firstTime", ranks=2).stdout)
     assert ended == json.loads((case / "run.json").read_text()) and ended["performance"]["steps"] == 2, ended
     assert all(ended["versions"][library] for library in ("MPI", "CGAL", "HDF5", "VTK", "Zoltan")), ended["versions"]
     assert "run dmpFlow" in run(case, "sphFlow", code=2).stderr
