@@ -11,7 +11,7 @@ namespace corpuscle {
 
 namespace {
 
-// Of "Eigen 3.4.0,VTK 9.1.0", and MPI's own words up to the first comma: "Open MPI v4.1.4".
+// Of "Eigen 3.4.0,VTK 9.1.0", and the beginning of MPI's own words: "Open MPI v4.1.4".
 std::vector<std::pair<std::string, std::string>> libraries(const std::string& list) {
     std::vector<std::pair<std::string, std::string>> all;
     std::istringstream entries(list);
@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, std::string>> libraries(const std::string& li
     int length = 0;
     MPI_Get_library_version(words, &length);
     const std::string mpi(words, static_cast<std::size_t>(length));
-    all.emplace_back("MPI", mpi.substr(0, mpi.find(',')));
+    all.emplace_back("MPI", mpi.substr(0, mpi.find_first_of(",\n")));
     return all;
 }
 

@@ -43,7 +43,7 @@ class Term {
 
     // Of the velocity found: why a step of dt with it is too long; empty where it is not. The same on all ranks. Collective.
     virtual std::string refusal(const Field&, double /*dt*/) { return {}; }
-    // Terms that are not linear: forces += defect; what is solved for then belongs to the load. Collective.
+    // Terms that are not linear, after addFirstForces: forces += defect; what is solved for then belongs to the load. Collective.
     virtual bool isLinear() const { return true; }
     virtual void addDefect(Forces&) {}
     virtual void takeDefect() {}

@@ -51,6 +51,7 @@ Surface surfaceNamed(const Case& input, const std::string& name) {
 
 void addSurface(SurfaceSettings surface, const std::string& key, Settings& settings) {
     surface.axis.normalize();
+    surface.edgeLength = {surface.edge, false};  // in dx it would say nothing without the spacing
     flatten(write(surface), key, settings);
     // A file of the same name may hold another surface.
     if (surface.shape->triangulation())

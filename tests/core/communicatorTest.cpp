@@ -80,7 +80,7 @@ TEST(StopControl, stopsForFileWallClockAndSignal) {
     if (c.isRoot()) fs::remove_all(folder());
 }
 
-// Half of the way took at least 60 ms, so does the rest; nothing is said again before the pause is over.
+// Half of the way took at least 0.6 s, so does the rest; nothing is said again before the pause is over.
 TEST(Progress, saysWhatIsDoneAndWhatIsLeft) {
     const Communicator c;
     const fs::path file = folder() / "log";
@@ -88,9 +88,9 @@ TEST(Progress, saysWhatIsDoneAndWhatIsLeft) {
     Log log(c.isRoot(), true);
     log.open(file);
     Time time{.dt = 0.5, .shearRate = 2, .endTime = 4.0};
-    Progress often(log, time, 0.05), seldom(log, time, 100);
+    Progress often(log, time, 0.5), seldom(log, time, 100);
     for (int k = 0; k < 4; ++k) time.advance(0.5);
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
     often.report(time), seldom.report(time), often.report(time);
     if (!c.isRoot()) return;
     std::ifstream lines(file);
@@ -100,7 +100,7 @@ TEST(Progress, saysWhatIsDoneAndWhatIsLeft) {
     EXPECT_EQ(line.rfind("step 4  t 2 s  strain 4  dt 500 ms  50.0 %  ", 0), 0u) << line;
     const std::size_t left = line.find("  left ");
     ASSERT_NE(left, std::string::npos) << line;
-    EXPECT_GE(std::stod(line.substr(left + 7)), 0.1) << line;
+    EXPECT_GE(std::stod(line.substr(left + 7)), 0.6) << line;
     fs::remove_all(folder());
 }
 

@@ -888,6 +888,10 @@ def test_start(folder):
             ("system/mesh.yaml:/cells/0/centre=[4, 0, 0] um", "cells[0].centre: ", mesh),
             ("system/mesh.yaml:/cells/0/axis=[0, 0, 1]", "cells[0].axis: ", mesh)):
         refused(place, cure, change)
+    # An edge in spacings is the length that it stands for.
+    inSpacings = "system/mesh.yaml:/cells/0/edge=0.8 dx"
+    of("checkCase", 0, inSpacings)
+    refused("cells[0].edge: the case says 4e-07 m, but 0/rbc.vtp was made for 8e-07 m", mesh, inSpacings, "system/numerics.yaml:/spacing=0.5 um")
     refused("domain.periodic: ", box, "system/mesh.yaml:/domain/periodic=[true, false, true]",
             "constant/flow.yaml:/walls={normal: y}")
     of("dmpFlow", 2, "system/mesh.yaml:/domain/size=[13, 11, 10] um", ranks=2)
