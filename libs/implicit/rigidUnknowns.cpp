@@ -5,8 +5,6 @@
 namespace corpuscle::implicit {
 
 using bodies::Body;
-using bodies::RigidState;
-using particles::ParticleStore;
 using particles::RealArray;
 using sph::RigidMotion;
 using sph::Wrench;

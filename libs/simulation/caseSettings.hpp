@@ -132,6 +132,7 @@ template <class Settings>
 void requireEntry(const std::map<std::string, Settings>& types, const std::string& type, const std::string& user,
                   const Mark& mark, Problems& problems) {
     std::vector<std::string> known;
+    known.reserve(types.size());
     for (const auto& [name, settings] : types) known.push_back(name);
     requireEntry(known, type, user, mark, problems);
 }
