@@ -22,6 +22,8 @@ double wendland(double r) {
     return (1 + 4 * r) * s2 * s2;
 }
 
+Eigen::Matrix<double, 5, 1> basis(const Vec3& q) { return {1, q[0], q[1], q[2], q.squaredNorm()}; }
+
 // All images of x within `reach` of the rank's brick.
 template <class F>
 void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f) {
@@ -95,7 +97,8 @@ void Immersed::place(const ParticleSystem& system, const std::vector<double>& vo
     comm_ = system.comm();
     findEntries(system, volume);
     findWeights();
-    findTouched(volume.size());
+    own_.findTouched(volume.size());
+    others_.clear();
     gradient_.assign(nodes_, Vec3::Zero());
     normal_.assign(nodes_, Vec3::Zero());
     forCells([&](std::size_t c, std::size_t first, std::size_t) {
@@ -124,8 +127,7 @@ void Immersed::build(const ParticleSystem& system, const std::vector<double>& vo
 void Immersed::findEntries(const ParticleSystem& system, const std::vector<double>& volume) {
     const particles::ParticleStore& s = system.store();
     const double reach = radius_ + 0.5 * system.skin();  // particles are found by their places when lists were built
-    first_.assign(1, 0);
-    entries_.clear();
+    own_.clear();
     for (const Cell& cell : cells_)
         for (const Vec3& x : cell.membrane.position) {
             forImages(system, x, reach, [&](const Vec3& image) {
@@ -133,28 +135,27 @@ void Immersed::findEntries(const ParticleSystem& system, const std::vector<doubl
                     const Vec3 q = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
                     const double r2 = q.squaredNorm();
                     if (r2 < 1)
-                        entries_.push_back({i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), 0, q});
+                        own_.entries.push_back(
+                            {i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), 0, q});
                 });
             });
-            first_.push_back(entries_.size());
+            own_.first.push_back(own_.entries.size());
         }
 }
 
 void Immersed::findWeights() {
-    using Vec5 = Eigen::Matrix<double, 5, 1>;
-    const auto basis = [](const Vec3& q) { return Vec5(1, q[0], q[1], q[2], q.squaredNorm()); };
     constexpr std::size_t moments = 16;  // upper triangle of sum W b b^T with the basis b, and how many
     std::vector<double> sums(moments * nodes_, 0.0);
     for (std::size_t m = 0; m < nodes_; ++m)
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Vec5 of = basis(entries_[k].q);
+        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
+            const Polynomial of = basis(own_.entries[k].q);
             double* sum = &sums[moments * m];
             for (int a = 0; a < of.size(); ++a)
-                for (int b = a; b < of.size(); ++b) *sum++ += entries_[k].along * of[a] * of[b];
+                for (int b = a; b < of.size(); ++b) *sum++ += own_.entries[k].along * of[a] * of[b];
             *sum += 1;
         }
     addUp(sums.data(), sums.size(), comm_);
-    std::vector<Vec5> along(nodes_), extra(nodes_);
+    along_.assign(nodes_, Polynomial::Zero()), extra_.assign(nodes_, Polynomial::Zero());
     std::vector<double> absolute(2 * nodes_, 0.0);  // sum |w|, sum |w'|
     for (std::size_t m = 0; m < nodes_; ++m) {
         const double* sum = &sums[moments * m];
@@ -166,13 +167,13 @@ void Immersed::findWeights() {
             continue;
         }
         const auto factors = A.ldlt();
-        along[m] = factors.solve(Vec5(1, 0, 0, 0, momentAlong));
-        extra[m] = factors.solve(Vec5(0, 0, 0, 0, momentAcross - momentAlong));
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Entry& e = entries_[k];
-            const double w = e.along * along[m].dot(basis(e.q));
+        along_[m] = factors.solve(Polynomial(1, 0, 0, 0, momentAlong));
+        extra_[m] = factors.solve(Polynomial(0, 0, 0, 0, momentAcross - momentAlong));
+        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
+            const Entry& e = own_.entries[k];
+            const double w = e.along * along_[m].dot(basis(e.q));
             absolute[2 * m] += std::abs(w);
-            absolute[2 * m + 1] += std::abs(w + e.along * extra[m].dot(basis(e.q)));
+            absolute[2 * m + 1] += std::abs(w + e.along * extra_[m].dot(basis(e.q)));
         }
     }
     addUp(absolute.data(), absolute.size(), comm_);
@@ -184,23 +185,55 @@ void Immersed::findWeights() {
                                                   " of the membranes, counted through all cells, has no fluid within " +
                                                   std::to_string(radius_) + " m: the run has come apart");
         if (!(absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights)) {
-            along[m] = Vec5(1 / all, 0, 0, 0, 0), extra[m] = Vec5::Zero();
+            along_[m] = Polynomial(1 / all, 0, 0, 0, 0), extra_[m] = Polynomial::Zero();
             ++fallbacks_;
         }
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            Entry& e = entries_[k];
-            const Vec5 of = basis(e.q);
-            e.extra = e.along * extra[m].dot(of);
-            e.along *= along[m].dot(of);
+        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
+            Entry& e = own_.entries[k];
+            const Polynomial of = basis(e.q);
+            e.extra = e.along * extra_[m].dot(of);
+            e.along *= along_[m].dot(of);
         }
     }
 }
 
-void Immersed::findTouched(std::size_t particles) {
+void Immersed::Weights::findTouched(std::size_t particles) {
     std::vector<char> seen(particles, 0);
-    touched_.clear();
-    for (const Entry& e : entries_)
-        if (!std::exchange(seen[static_cast<std::size_t>(e.particle)], char(1))) touched_.push_back(e.particle);
+    touched.clear();
+    for (const Entry& e : entries)
+        if (!std::exchange(seen[static_cast<std::size_t>(e.particle)], char(1))) touched.push_back(e.particle);
+}
+
+void Immersed::placeOthers(ParticleSystem& system, const particles::SharedParticles& shared,
+                           const std::vector<double>& volume) {
+    const std::size_t own = shared.owned();
+    particles::RealArray records(4 * (own + static_cast<std::size_t>(system.ghosts())));
+    for (std::size_t i = 0; i < own; ++i) {
+        Vec3::Map(records.data() + 4 * i) = system.store().position(i);
+        records[4 * i + 3] = volume[i];
+    }
+    system.halo().exchange(records.data(), system.owned(), 4);
+    const double reach = radius_ + 0.5 * system.skin(), ofHalo = system.support() + system.skin();
+    others_.clear();
+    for (const Cell& cell : cells_)
+        for (const Vec3& x : cell.membrane.position) {
+            const std::size_t m = others_.first.size() - 1;
+            forImages(system, x, reach + ofHalo, [&](const Vec3& image) {
+                system.forGhostsNear(image, reach, [&](int ghost) {
+                    const std::size_t entry = shared.entry(ghost);
+                    if (entry < own || shared.ghostOf()[entry - own] != ghost) return;
+                    const double* record = records.data() + 4 * (own + static_cast<std::size_t>(ghost));
+                    const Vec3 q = (Vec3::Map(record) - image) / radius_;
+                    if (q.squaredNorm() >= 1) return;
+                    const double weight = record[3] * wendland(q.norm());
+                    const Polynomial of = basis(q);
+                    others_.entries.push_back(
+                        {static_cast<int>(entry), weight * along_[m].dot(of), weight * extra_[m].dot(of), q});
+                });
+            });
+            others_.first.push_back(others_.entries.size());
+        }
+    others_.findTouched(shared.entries());
 }
 
 void Immersed::project(Vectors& v) const {
@@ -218,8 +251,8 @@ Immersed::Vectors Immersed::interpolate(const Real* u) const {
     for (std::size_t m = 0; m < nodes_; ++m) {
         const Vec3& n = normal_[m];
         double across = 0;
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Entry& e = entries_[k];
+        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
+            const Entry& e = own_.entries[k];
             const Real* of = u + 4 * static_cast<std::size_t>(e.particle);
             const Vec3 here(of[0], of[1], of[2]);
             v[m] += e.along * here;
@@ -292,10 +325,19 @@ Immersed::Vectors Immersed::forceAt(const Vectors& displacement) const {
 
 void Immersed::spread(Vectors f, particles::RealArray& force) const {
     project(f);
-    for (std::size_t m = 0; m < nodes_; ++m) {
+    spreadBy(own_, f, force);
+}
+
+void Immersed::spreadToOthers(Vectors f, particles::RealArray& force) const {
+    project(f);
+    spreadBy(others_, f, force);
+}
+
+void Immersed::spreadBy(const Weights& weights, const Vectors& f, particles::RealArray& force) const {
+    for (std::size_t m = 0; m + 1 < weights.first.size(); ++m) {
         const Vec3 across = normal_[m].dot(f[m]) * normal_[m];
-        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) {
-            const Entry& e = entries_[k];
+        for (std::size_t k = weights.first[m]; k < weights.first[m + 1]; ++k) {
+            const Entry& e = weights.entries[k];
             double* to = force.data() + 4 * static_cast<std::size_t>(e.particle);
             for (int a = 0; a < 3; ++a) to[a] += e.along * f[m][a] + e.extra * across[a];
         }

@@ -14,13 +14,14 @@
 // so that power is neither made nor lost, and what the finite step leaves is put right along g (restoreVolume). P ends when a cell
 // opens. The stiffness that the fluid feels is S^T P K P S, symmetric and positive semi-definite as K is.
 //
-// All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are added up.
+// All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are added up. Whoever needs forces
+// on particles of others that the rank knows (particles/sharedParticles.hpp) asks for their weights as well.
 #pragma once
 #include <array>
 
 #include "coupling/cell.hpp"
 #include "membrane/blockStiffness.hpp"
-#include "particles/particleSystem.hpp"
+#include "particles/sharedParticles.hpp"
 
 namespace corpuscle::coupling {
 
@@ -44,6 +45,10 @@ class Immersed {
     // The same with the stiffness of the membranes.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
 
+    // Weights of others' particles too, where `place` has just been. Collective.
+    void placeOthers(particles::ParticleSystem& system, const particles::SharedParticles& shared,
+                     const std::vector<double>& volume);
+
     // P S u, u of four numbers a particle. Collective.
     template <class Real>
     Vectors interpolate(const Real* u) const;
@@ -57,8 +62,13 @@ class Immersed {
     Vectors forceAt(const Vectors& displacement) const;         // of the membranes' elasticity, nodes displaced [N]
     // force_j += (S^T P f)_j, of four numbers a particle.
     void spread(Vectors f, particles::RealArray& force) const;
+    // The same on others' particles, in their entries of `force`, after placeOthers.
+    void spreadToOthers(Vectors f, particles::RealArray& force) const;
 
-    const std::vector<int>& touched() const { return touched_; }  // particles of this rank with weights
+    const std::vector<int>& touched() const { return own_.touched; }  // particles of this rank with weights
+    const std::vector<int>& touchedOthers() const {
+        return others_.touched;
+    }  // entries of others' particles with weights
 
     long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights, for either reason
 
@@ -68,23 +78,31 @@ class Immersed {
         double along, extra;  // w, w' - w
         Vec3 q;
     };
+    struct Weights {
+        std::vector<std::size_t> first;  // of each node in `entries`, and one behind the last
+        std::vector<Entry> entries;
+        std::vector<int> touched;
+
+        void clear() { first.assign(1, 0), entries.clear(), touched.clear(); }
+        void findTouched(std::size_t particles);
+    };
+    using Polynomial = Eigen::Matrix<double, 5, 1>;  // c0, c, c2
     template <class F>
     void forCells(F&& f) const;  // f(cell, its first and last node)
+    void spreadBy(const Weights& weights, const Vectors& f, particles::RealArray& force) const;
     void project(Vectors& v) const;
     void findEntries(const particles::ParticleSystem& system, const std::vector<double>& volume);
     void findWeights();
-    void findTouched(std::size_t particles);
 
     std::vector<Cell>& cells_;
     double radius_;
     std::size_t nodes_ = 0;
     MPI_Comm comm_ = MPI_COMM_NULL;
-    std::vector<std::size_t> first_;  // of each node in entries_, and one behind the last
-    std::vector<Entry> entries_;
+    Weights own_, others_;
+    std::vector<Polynomial> along_, extra_;                      // of each node
     Vectors normal_;                                             // of each node; 0 where it has no area
     std::vector<membrane::BlockStiffness> stiffness_, damping_;  // K and C of each cell
     Vectors gradient_;                                           // g of closed cells, 0 of open ones
-    std::vector<int> touched_;
     long fallbacks_ = 0;
 };
 

@@ -176,11 +176,11 @@ CoarseGrid::Corners CoarseGrid::corners(const Place& p) const {
 }
 
 template <class F>
-void CoarseGrid::forParticles(const std::vector<int>* particles, F&& f) const {
+void CoarseGrid::forParticles(const std::vector<int>* particles, std::size_t all, F&& f) const {
     if (particles)
         for (const int i : *particles) f(static_cast<std::size_t>(i));
     else
-        for (std::size_t i = 0; i < places_.size(); ++i) f(i);
+        for (std::size_t i = 0; i < all; ++i) f(i);
 }
 
 std::span<double> CoarseGrid::values() { return {plans_->values, components * plans_->nodes}; }
@@ -188,7 +188,7 @@ std::span<double> CoarseGrid::values() { return {plans_->values, components * pl
 template <class Real>
 void CoarseGrid::gather(const Real* r, const std::vector<int>* particles) {
     std::fill(quads_.begin(), quads_.end(), Quad::Zero());
-    forParticles(particles, [&](std::size_t i) {
+    forParticles(particles, own_, [&](std::size_t i) {
         const Quad value = Eigen::Map<const Eigen::Array<Real, 4, 1>>(r + 4 * i).template cast<double>();
         const Corners c = corners(places_[i]);
         for (std::size_t k = 0; k < 8; ++k) quads_[c.node[k]] += c.weight[k] * value;
@@ -212,7 +212,7 @@ void CoarseGrid::spread(Real* z, const std::vector<int>* particles) {
     for (const int axis : axis_)
         for (Quad& quad : quads_) quad[axis] = *value++;
     for (Quad& quad : quads_) quad[3] = 0;
-    forParticles(particles, [&](std::size_t i) {
+    forParticles(particles, places_.size(), [&](std::size_t i) {
         const Corners c = corners(places_[i]);
         Quad sum = Quad::Zero();
         for (std::size_t k = 0; k < 8; ++k) sum += c.weight[k] * quads_[c.node[k]];

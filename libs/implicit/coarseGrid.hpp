@@ -37,8 +37,11 @@ class CoarseGrid {
     // inertia c1 rho, viscosity, lambda. Factorises when they have changed.
     void setCoefficients(double inertia, double viscosity, double lambda);
 
-    // Which nodes each particle of this rank has, for `add`.
-    void begin(std::size_t particles) { places_.assign(particles, Place{}); }
+    // Which nodes each particle has, for `add`: those of this rank, then copies of others' particles, which get of the grid and give nothing.
+    void begin(std::size_t particles, std::size_t copies = 0) {
+        own_ = particles;
+        places_.assign(particles + copies, Place{});
+    }
     void place(std::size_t particle, const Vec3& x);  // particles without a place take no part
 
     // z += P A_c^-1 P^T r, four numbers a particle. Collective.
@@ -76,7 +79,7 @@ class CoarseGrid {
     void factorise();
     void solveModes();
     template <class F>
-    void forParticles(const std::vector<int>* particles, F&& f) const;  // f(particle)
+    void forParticles(const std::vector<int>* particles, std::size_t all, F&& f) const;  // f(particle)
     Corners corners(const Place& place) const;
 
     particles::Box box_;
@@ -85,6 +88,7 @@ class CoarseGrid {
     Vec3 step_ = Vec3::Zero();    // along these [m]
     bool walls_ = false;
     double inertia_ = 0, viscosity_ = 0, lambda_ = 0;
+    std::size_t own_ = 0;
     std::vector<Place> places_;
     std::vector<Quad>
         quads_;  // values of a node side by side, x y z and a number without meaning: one vector for what particles take or give

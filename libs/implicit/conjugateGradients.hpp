@@ -18,6 +18,16 @@
 
 namespace corpuscle::implicit {
 
+// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same there.
+struct Copies {
+    std::size_t first = 0, last = 0;
+    template <class F>
+    void forCounted(std::size_t size, F&& f) const {  // the rows that this rank counts
+        for (std::size_t k = 0; k < first; ++k) f(k);
+        for (std::size_t k = last; k < size; ++k) f(k);
+    }
+};
+
 struct Convergence {
     int iterations = 0;
     double energy = 0;  // x.A x [W]
@@ -37,7 +47,7 @@ class ConjugateGradients {
     // less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x). Collective.
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
-                      Precondition&& precondition) {
+                      Precondition&& precondition, Copies copies = {}) {
         const std::size_t n = r.size();
         for (Field* f : {&z_, &w_}) f->resize(n);
         for (Field* f : {&p_, &s_, &x}) f->assign(n, Real(0));
@@ -48,10 +58,10 @@ class ConjugateGradients {
             precondition(r, z_);
             apply(z_, w_);
             double sums[2] = {0, 0};
-            for (std::size_t k = 0; k < n; ++k) {
+            copies.forCounted(n, [&](std::size_t k) {
                 sums[0] += static_cast<double>(r[k]) * static_cast<double>(z_[k]);
                 sums[1] += static_cast<double>(w_[k]) * static_cast<double>(z_[k]);
-            }
+            });
             MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
             const auto [gamma, delta] = sums;
             const double allowed = tolerance * tolerance * std::max(reference, c.energy);

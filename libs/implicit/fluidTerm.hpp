@@ -1,7 +1,8 @@
 // The fluid's term: viscosity, and pressure with the stiffness of the bulk.
 //
 //     load = D^T V (p^n + lead K D v0),   A = L + (middle + lead) D^T V K D,   K = rho c^2      (Reach of term.hpp)
-// By the operators of sph/operators.hpp, which see walls and bodies as well. It sets the forces that other terms add to.
+// By the operators of sph/operators.hpp, which see walls and bodies as well. It comes last, and adds up over the ranks what it and the terms before
+// it have given to particles that several ranks know.
 #pragma once
 #include "coupling/conjugate.hpp"
 #include "coupling/scene.hpp"
@@ -30,20 +31,19 @@ class FluidTerm final : public Term<Real> {
         leadShare_ = reach.lead / reach.total();
     }
     void addFirstForces(const Field& v0, Forces& forces) override {
-        operators_.apply(*scene_.system, v0, [&](std::size_t i, double rate) {
+        const auto pressure = [&](std::size_t i, double rate) {
             pressure_[i] += leadShare_ * stiffness_[i] * rate;
             return pressure_[i] - stiffness_[i] * rate;
-        });
-        give(forces);
+        };
+        operators_.addForces(*scene_.system, v0, pressure, forces);
     }
     void addForces(const Field& v, Forces& forces) override {
-        operators_.apply(*scene_.system, v,
-                         [&](std::size_t i, double rate) { return pressure_[i] - stiffness_[i] * rate; });
-        give(forces);
+        const auto pressure = [&](std::size_t i, double rate) { return pressure_[i] - stiffness_[i] * rate; };
+        operators_.addForces(*scene_.system, v, pressure, forces);
     }
     void addProduct(const Field& v, Forces& forces) override {
-        operators_.apply(*scene_.system, v, [&](std::size_t i, double rate) { return -stiffness_[i] * rate; });
-        give(forces);
+        const auto pressure = [&](std::size_t i, double rate) { return -stiffness_[i] * rate; };
+        operators_.addForces(*scene_.system, v, pressure, forces);
     }
     double diagonal(std::size_t i) const override {
         return operators_.viscousDiagonal(i) + stiffness_[i] * operators_.bulkDiagonal(i);
@@ -57,11 +57,6 @@ class FluidTerm final : public Term<Real> {
     }  // as it acts
 
   private:
-    void give(Forces& forces) {
-        forces.resize(operators_.force().size());  // what goes to the operators must be as long
-        forces.swap(operators_.force());
-    }
-
     const coupling::Scene& scene_;
     sph::Operators<Real> operators_;
     particles::RealArray pressure_;

@@ -36,7 +36,6 @@ class Step final : public ImplicitStep {
           transport_(scene, options.shifting) {
         if (options.settings.preconditioner != "blockJacobi")
             grid_ = std::make_unique<CoarseGrid>(scene.fluidBox, CoarseGrid::spacingInParticles * scene.spacing);
-        terms_.push_back(&fluid_);
         if (!scene.cells.empty()) {
             immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
             noFlux_ = std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
@@ -48,6 +47,7 @@ class Step final : public ImplicitStep {
             rigid_ = std::make_unique<RigidUnknowns<Real>>(scene, operators(), grid_ != nullptr);
             terms_.push_back(rigid_.get());
         }
+        terms_.push_back(&fluid_);
         allowed_ = firstStep(options_.settings, scene.flow.rate);
         isLinear_ = std::all_of(terms_.begin(), terms_.end(), [](const Term<Real>* term) { return term->isLinear(); });
     }
@@ -71,6 +71,10 @@ class Step final : public ImplicitStep {
     sph::Operators<Real>& operators() { return fluid_.operators(); }
     const sph::Operators<Real>& operators() const { return fluid_.operators(); }
     bool isFixed(std::size_t i) const { return operators().isWall(i); }
+    // Fields have entries of these, then what bodies have. Those of others hold what their ranks have, where the solver and the terms see them.
+    particles::SharedParticles& shared() { return operators().shared(); }
+    std::size_t entries() const { return operators().shared().entries(); }
+    Copies copies() const { return {width * store().size(), width * entries()}; }
 
     bool isBackward() const { return backward_ || damped; }  // every step, not only halves
     Events advance(double dt, bool backward, int halvings) {
@@ -143,12 +147,15 @@ class Step final : public ImplicitStep {
     }
 
     void prepare() {
-        for (Term<Real>* term : terms_) term->prepare(reach_);
+        for (auto term = terms_.rbegin(); term != terms_.rend(); ++term) (*term)->prepare(reach_);  // the fluid's first
         if (noFlux_) noFlux_->find(*scene_.system, immersed_->touched());
     }
 
-    void findForces(const Field& v) {
-        for (Term<Real>* term : terms_) term->addForces(v, forces_);
+    // forces_ = what add(term) of each gives, the fluid's last.
+    template <class Add>
+    void sumTerms(Add&& add) {
+        forces_.assign(width * entries(), 0.0);
+        for (Term<Real>* term : terms_) add(*term);
     }
 
     // Of the guess: residual_ = right-hand side - A guess. Along with it, where the preconditioner gives zero: the divergence as the fourth number,
@@ -156,7 +163,7 @@ class Step final : public ImplicitStep {
     void findResidual() {
         const ParticleStore& s = store();
         const std::size_t n = s.size();
-        const std::size_t length = width * n + (rigid_ ? rigid_->length() : 0);
+        const std::size_t length = width * entries() + (rigid_ ? rigid_->length() : 0);
         guess_.resize(length), residual_.resize(length);
         for (std::size_t i = 0; i < n; ++i) {
             const double ahead = isFixed(i) ? 0 : h_;
@@ -164,7 +171,8 @@ class Step final : public ImplicitStep {
             put(guess_, i, u);
         }
         if (rigid_) rigid_->extrapolate(h_, guess_);
-        for (Term<Real>* term : terms_) term->addFirstForces(guess_, forces_);
+        shared().distribute(guess_.data(), width);
+        sumTerms([&](Term<Real>& term) { term.addFirstForces(guess_, forces_); });
         const Vec3& g = scene_.model().bodyForce;
         for (std::size_t i = 0; i < n; ++i) {
             const Vec3 a(s.fx[i], s.fy[i], s.fz[i]), change = get(guess_, i) - s.velocity(i);
@@ -178,9 +186,11 @@ class Step final : public ImplicitStep {
     bool solve(double dt) {
         const double reference = std::max(state.reference, leastReference());
         for (int refinement = 0;; ++refinement) {
+            shared().distribute(residual_.data(), width);
             const Convergence c = solver_.solve(
                 scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
-                [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); });
+                [&](const Field& z, Field& w) { apply(z, w); }, [&](const Field& r, Field& z) { precondition(r, z); },
+                copies());
             statistics.innerIterations += membraneCorrection_.takeIterations();
             statistics.iterations += c.iterations;
             statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
@@ -234,15 +244,15 @@ class Step final : public ImplicitStep {
     // What the terms' forces at the places found differ from the linear ones, as residual_ of what moves; the energy of the velocity that
     // it makes, by the preconditioner.
     double findDefect() {
-        std::fill(forces_.begin(), forces_.end(), 0.0);
-        for (Term<Real>* term : terms_) term->addDefect(forces_);
+        sumTerms([&](Term<Real>& term) { term.addDefect(forces_); });
         for (std::size_t i = 0; i < store().size(); ++i)
             if (!isFixed(i)) put(residual_, i, vector(forces_, i), static_cast<double>(residual_[at(i) + 3]));
         if (rigid_) rigid_->putForces(forces_, residual_);
         precondition(residual_, correction_);
         double energy = 0;
-        for (std::size_t k = 0; k < residual_.size(); ++k)
+        copies().forCounted(residual_.size(), [&](std::size_t k) {
             energy += static_cast<double>(residual_[k]) * static_cast<double>(correction_[k]);
+        });
         return coupling::sumOverRanks(energy, scene_.system->comm());
     }
 
@@ -255,28 +265,33 @@ class Step final : public ImplicitStep {
     }
 
     void apply(const Field& z, Field& w) {
-        for (Term<Real>* term : terms_) term->addProduct(z, forces_);
-        const std::size_t n = store().size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec3 inertia = isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(c1_ * mass(i) * get(z, i));
-            put(w, i, inertia - vector(forces_, i), -operators().divergence(i));
-        }
+        sumTerms([&](Term<Real>& term) { term.addProduct(z, forces_); });
+        for (std::size_t i = 0; i < entries(); ++i)
+            put(w, i, rows_[at(i)] * get(z, i) - vector(forces_, i),
+                i < store().size() ? -operators().divergence(i) : 0);
         if (rigid_) rigid_->putProduct(c1_, z, forces_, w);
     }
 
     void factorise() {
         const std::size_t n = store().size();
-        inverse_.resize(n);
+        inverse_.resize(entries()), rows_.resize(width * entries());
         const auto diagonal = [&](std::size_t i) {
             double sum = 0;
             for (const Term<Real>* term : terms_) sum += term->diagonal(i);
             return sum;
         };
-        for (std::size_t i = 0; i < n; ++i)
-            inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / (c1_ * mass(i) + diagonal(i)));
+        for (std::size_t i = 0; i < n; ++i) {
+            const double inertia = isFixed(i) ? 0 : c1_ * mass(i);
+            rows_[at(i)] = inertia;
+            Vec3::Map(&rows_[at(i) + 1]) = store().position(i);
+            inverse_[i] = isFixed(i) ? Real(0) : static_cast<Real>(1 / (inertia + diagonal(i)));
+        }
         if (rigid_) rigid_->factorise(c1_, diagonal, inverse_);
+        shared().distribute(inverse_.data(), 1);
+        shared().distribute(rows_.data(), width);
         if (grid_) placeOnGrid();
         withMembrane_ = immersed_ && isMembraneStiff();
+        if (withMembrane_) immersed_->placeOthers(*scene_.system, shared(), operators().volumes());
     }
     bool isMembraneStiff() const {
         const std::string& named = options_.settings.preconditioner;
@@ -288,9 +303,9 @@ class Step final : public ImplicitStep {
         const sph::FluidModel& model = scene_.model();
         const double bulk = model.equationOfState->bulkModulus(model.density, model.density, model.soundSpeed);
         grid_->setCoefficients(c1_ * model.density, model.viscosity, reach_.total() * bulk);
-        grid_->begin(inverse_.size());
-        for (std::size_t i = 0; i < inverse_.size(); ++i)
-            if (!isFixed(i)) grid_->place(i, store().position(i));
+        grid_->begin(store().size(), entries() - store().size());
+        for (std::size_t i = 0; i < entries(); ++i)
+            if (rows_[at(i)] > 0) grid_->place(i, Vec3::Map(&rows_[at(i) + 1]));
     }
     void precondition(const Field& r, Field& z) {
         preconditionParticles(rigid_ ? rigid_->distribute(r) : r, z);
@@ -367,7 +382,7 @@ class Step final : public ImplicitStep {
     // What the system has as their forces at the velocity found, so that they are what changes momentum. The solver does not carry them: rows of
     // particles of bodies are empty.
     void findForcesOnBodies() {
-        findForces(guess_);
+        sumTerms([&](Term<Real>& term) { term.addForces(guess_, forces_); });
         rigid_->findWrenches(forces_);
     }
 
@@ -438,13 +453,14 @@ class Step final : public ImplicitStep {
     FluidTerm<Real> fluid_;
     std::unique_ptr<MembraneTerm<Real>> membranes_;  // none without cells
     std::unique_ptr<RigidUnknowns<Real>> rigid_;     // none without bodies
-    std::vector<Term<Real>*> terms_;                 // of these, the fluid's first
+    std::vector<Term<Real>*> terms_;                 // of these, the fluid's last
     std::unique_ptr<CoarseGrid> grid_;
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     Reach reach_{};
     double h_ = 0, c1_ = 0, c2_ = 0;  // of dv/dt
     Field guess_, residual_, correction_, inverse_, left_;
+    RealArray rows_;            // c1 times mass, 0 where the velocity is prescribed; place where its own rank has it
     RealArray forces_;          // of the terms, at the velocity given to them last
     std::vector<double> rate_;  // divergence of the velocity found
     coupling::Transport transport_;

@@ -77,15 +77,19 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
     }
 
     scatter(y);
+    const std::vector<int>& nearOthers = immersed.touchedOthers();
+    for (const int i : nearOthers) std::fill_n(scattered_.data() + 4 * static_cast<std::size_t>(i), 4, 0.0);
+    immersed.spreadToOthers(y, scattered_);
     for (std::size_t i = 0; i < inverse.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) z[4 * i + k] = inverse[i] * r[4 * i + k];
         z[4 * i + 3] = 0;
     }
-    for (const int i : near)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const std::size_t at = 4 * static_cast<std::size_t>(i) + k;
-            z[at] -= inverse[static_cast<std::size_t>(i)] * static_cast<Real>(scattered_[at]);
-        }
+    for (const std::vector<int>* particles : {&near, &nearOthers})
+        for (const int i : *particles)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::size_t at = 4 * static_cast<std::size_t>(i) + k;
+                z[at] -= inverse[static_cast<std::size_t>(i)] * static_cast<Real>(scattered_[at]);
+            }
     std::copy(solution_.begin(), solution_.end(), values.begin());
     grid.spread(z.data());
 }

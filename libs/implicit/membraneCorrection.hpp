@@ -19,7 +19,8 @@ class MembraneCorrection {
     static constexpr double tolerance = 1e-3;  // of the residual, in the norm of K'
     static constexpr int most = 60;
 
-    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle. Collective.
+    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle; those of others that the rank
+    // knows stand behind its own, in r as in z. Collective.
     void apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time, const Field& inverse,
                const Field& r, Field& z);
 

@@ -61,7 +61,8 @@ void RigidUnknowns<Real>::takeBack() {
 template <class Real>
 void RigidUnknowns<Real>::prepare(const Reach&) {
     scene_.bodies->moved(*scene_.system, 0, true);
-    Field marks(behind(), Real(0));
+    findOthers();
+    Field marks(width * scene_.store().size(), Real(0));
     for (const auto& m : members()) {
         Real* mark = marks.data() + width * static_cast<std::size_t>(m.particle);
         mark[0] = static_cast<Real>(m.depth / scene_.spacing), mark[1] = Real(1);
@@ -75,6 +76,22 @@ void RigidUnknowns<Real>::prepare(const Reach&) {
         const auto i = static_cast<std::size_t>(m.particle);
         outward_.push_back(std::clamp(-vector(operators_.force(), i)[1] / operators_.viscousDiagonal(i), 0.0, 1.0));
     }
+}
+
+template <class Real>
+void RigidUnknowns<Real>::findOthers() {
+    particles::SharedParticles& shared = operators_.shared();
+    RealArray rows(width * shared.entries(), 0.0);  // body, counted from 1, and arm
+    for (const auto& m : members()) {
+        double* row = rows.data() + width * static_cast<std::size_t>(m.particle);
+        row[0] = m.group + 1;
+        Vec3::Map(row + 1) = m.arm;
+    }
+    shared.distribute(rows.data(), static_cast<int>(width));
+    others_.clear();
+    for (std::size_t e = shared.owned(); e < shared.entries(); ++e)
+        if (const double* row = rows.data() + width * e; row[0] > 0)
+            others_.push_back({e, static_cast<std::size_t>(row[0]) - 1, Vec3::Map(row + 1)});
 }
 
 template <class Real>
@@ -317,12 +334,14 @@ template <class Real>
 void RigidUnknowns<Real>::spread(Field& u) const {
     std::vector<RigidMotion> motions;
     for (std::size_t b = 0; b < bodies().size(); ++b) motions.push_back(motion(u, b));
-    for (const auto& m : members()) {
-        const Vec3 at = motions[static_cast<std::size_t>(m.group)].at(m.arm);
-        Real* to = u.data() + width * static_cast<std::size_t>(m.particle);
+    const auto set = [&](std::size_t entry, std::size_t group, const Vec3& arm) {
+        const Vec3 at = motions[group].at(arm);
+        Real* to = u.data() + width * entry;
         for (int k = 0; k < 3; ++k) to[k] = static_cast<Real>(at[k]);
         to[3] = Real(0);
-    }
+    };
+    for (const auto& m : members()) set(static_cast<std::size_t>(m.particle), static_cast<std::size_t>(m.group), m.arm);
+    for (const OtherMember& m : others_) set(m.entry, m.group, m.arm);
 }
 
 template <class Real>

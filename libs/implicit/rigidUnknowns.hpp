@@ -23,8 +23,8 @@
 // of the fluid particles near it (bodies/bodies.hpp): with the pairs' own l_ij w_i it is Morris' factor 1 + depth/distance, and it
 // vanishes when everything turns as one piece.
 //
-// In a field (four numbers a particle) a body's unknowns stand behind the particles: U, 0, Omega, 0. Of a velocity every rank has all of
-// them, and the particles of bodies have theirs; of forces every rank has its part, and these particles have none. So the sum over all
+// In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega, 0. Of a velocity every rank
+// has all of them, and the particles of bodies have theirs; of forces every rank has its part, and its own particles of bodies have none. So the sum over all
 // numbers and ranks is the scalar product, and nothing but the preconditioner needs a reduction. Held and driven bodies keep their
 // velocity: their rows are taken out, as those of walls.
 #pragma once
@@ -104,7 +104,8 @@ class RigidUnknowns final : public Term<Real> {
 
     std::vector<bodies::Body>& bodies() const { return scene_.bodies->all(); }
     const std::vector<sph::RigidGroups::Member>& members() const { return scene_.bodies->groups().members; }
-    std::size_t behind() const { return width * scene_.store().size(); }
+    std::size_t behind() const { return width * operators_.shared().entries(); }
+    void findOthers();
     bool isRoot() const { return scene_.system->decomposition().rank() == 0; }
     bool isFree(std::size_t b) const { return bodies()[b].behaviour->yields(); }
 
@@ -123,6 +124,11 @@ class RigidUnknowns final : public Term<Real> {
     coupling::Scene& scene_;
     sph::Operators<Real>& operators_;
     bool onGrid_;
+    struct OtherMember {
+        std::size_t entry, group;
+        Vec3 arm;
+    };
+    std::vector<OtherMember> others_;               // particles of bodies that other ranks have
     std::vector<bodies::RigidState> saved_;         // at the beginning of the step
     std::vector<double> kappa_;                     // of groups().near [N s/m]
     std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies

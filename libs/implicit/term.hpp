@@ -5,8 +5,9 @@
 // and the step asks of it no more than these, and the diagonal of A for the preconditioner. What is not linear is looked at again with the
 // velocity found: the defect is its force at the places that this velocity leads to, less the linear one.
 //
-// A scene has the terms of what is in it, and none of what is not. The first is that of the fluid, which sets the forces; others add to
-// them. Walls and bodies with given motions need none: their rows and columns are taken out, and what acts on them is read off there.
+// A scene has the terms of what is in it, and none of what is not. Velocities and forces are of all particles that the rank knows, those of other
+// ranks behind its own (particles/sharedParticles.hpp). Terms add what acts on the rank's own; the fluid's comes last and adds up over the
+// ranks, so that the forces on all of them are whole. Walls and bodies with given motions need none: their rows and columns are taken out, and what acts on them is read off there.
 //
 // To add one: derive from Term, with a test that A is symmetric and semi-definite, and put it into Step's list.
 #pragma once
@@ -26,7 +27,7 @@ struct Reach {
 template <class Real>
 class Term {
   public:
-    using Field = particles::AlignedVector<Real>;  // four numbers a particle
+    using Field = particles::AlignedVector<Real>;  // four numbers an entry of the shared particles
     using Forces = particles::RealArray;           // the same [N]
 
     virtual ~Term() = default;

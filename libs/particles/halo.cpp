@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace corpuscle::particles {
 
@@ -159,12 +160,36 @@ std::vector<int> Halo::imageOf() const {
     return own;
 }
 
+std::vector<Halo::Origin> Halo::origins(int owned) {
+    std::vector<double> numbers(static_cast<std::size_t>(owned + ghosts_));
+    std::iota(numbers.begin(), numbers.begin() + owned, 0.0);
+    begin(numbers.data(), owned, 1, Part{0, 1});
+    finish(numbers.data(), owned, 1, Part{0, 1});
+    std::vector<Origin> found(static_cast<std::size_t>(ghosts_));
+    const auto take = [&](const Message& m) {
+        for (int k = m.begin; k < m.end; ++k)
+            found[slot_[k]] = {m.rank, static_cast<int>(numbers[static_cast<std::size_t>(owned + slot_[k])])};
+    };
+    for (const Message& m : receives_) take(m);
+    take(selfReceive_);
+    return found;
+}
+
+std::vector<Halo::Origin> Halo::copies() const {
+    std::vector<Origin> all;
+    for (const Message& m : sends_)
+        for (int k = m.begin; k < m.end; ++k) all.push_back({m.rank, sendIndex_[k]});
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
 void Halo::foldImages(double* sums, int owned, int count) const {
     const auto width = static_cast<std::size_t>(count);
     for (int k = 0; k < selfSend_.end - selfSend_.begin; ++k) {
-        const double* from = sums + width * static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]);
+        double* from = sums + width * static_cast<std::size_t>(owned + slot_[selfReceive_.begin + k]);
         double* to = sums + width * static_cast<std::size_t>(sendIndex_[selfSend_.begin + k]);
-        for (std::size_t s = 0; s < width; ++s) to[s] += from[s];
+        for (std::size_t s = 0; s < width; ++s) to[s] += std::exchange(from[s], 0.0);
     }
 }
 

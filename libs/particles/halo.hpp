@@ -6,6 +6,7 @@
 #pragma once
 #include <mpi.h>
 
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -44,7 +45,16 @@ class Halo {
 
     // The own particle of which each ghost is an image, -1 for those of other ranks.
     std::vector<int> imageOf() const;
-    // Adds what images of own particles have gathered, `count` numbers a particle, to these particles.
+    // A particle by the rank that has it, and its number there.
+    struct Origin {
+        int rank, particle;
+        auto operator<=>(const Origin&) const = default;
+    };
+    // Of each ghost. Collective.
+    std::vector<Origin> origins(int owned);
+    // Which other ranks have ghosts of own particles: these ranks and the own particles' numbers, in order and each once.
+    std::vector<Origin> copies() const;
+    // Adds what images of own particles have gathered, `count` numbers a particle, to these particles; the images have 0 then.
     void foldImages(double* sums, int owned, int count = 4) const;
 
     // Bytes sent to other ranks at each exchange of `fields` doubles.

@@ -131,7 +131,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
                 std::for_each(found, ghosts, append);
                 const int* const before = to;
                 std::for_each(ghosts, static_cast<const int*>(out[k]), [&](int j) {
-                    if (blockOf(j) > b) append(j);
+                    if (const int block = blockOf(j); block < 0 || block > b) append(j);
                 });
                 meetsGhosts = meetsGhosts || to > before;
                 *++first = static_cast<int>(to - j_.data());
@@ -139,7 +139,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             for (const int k : {2 * h, 2 * h + 1}) {
                 const int* const before = to;
                 std::for_each(found_[k].data() + later[k], out[k], [&](int j) {
-                    if (const int block = blockOf(j); block < 0 || block == b) append(j);
+                    if (blockOf(j) == b) append(j);
                 });
                 meetsGhosts = meetsGhosts || to > before;
                 *++first = static_cast<int>(to - j_.data());

@@ -2,9 +2,9 @@
 //
 // j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
 // the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet once: the earlier
-// one lists the particles of the later, and their images across periodic faces. Then come images of the block's own
-// particles and ghosts of other ranks, which get no reaction. The block's own particles are not listed: they meet anyway. A block of nothing but wall particles lists no wall particles: walls do
-// not act on walls.
+// one lists the particles of the later, and their images across periodic faces. Ghosts of other ranks are listed by every block that
+// meets them. Last come images of the block's own particles, which get no reaction. The block's own particles are not listed: they meet
+// anyway. A block of nothing but wall particles lists no wall particles: walls do not act on walls.
 // What lies within the support at the time of the build comes first, what only the skin adds after it.
 // Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
 // a wall need the wall's form of a law.
@@ -25,6 +25,7 @@ class PairList {
     int lanes() const { return lanes_; }
 
     enum Group { interior = 0, interiorAtWall = 1, boundary = 2, boundaryAtWall = 3, groups = 4 };
+    static constexpr bool isAtWall(Group group) { return group == interiorAtWall || group == boundaryAtWall; }
 
     // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
     // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image of, or -1.

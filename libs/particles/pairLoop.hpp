@@ -23,9 +23,10 @@
 namespace corpuscle::particles {
 
 // What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until alone(b) the
-// particles j get the reaction; from there on the block alone gets the action: images of its own particles and other ranks'
-// ghosts. Images of owned particles gather what acts on them in sums of their own. A block's own particles are not listed. Either half has particles within the support at the time of the
-// build first, then those of the skin: four parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
+// particles j get the reaction; from there on the block alone gets the action: images of its own particles. Ghosts gather what acts
+// on them in sums of their own: those of images belong to the owned particles, those of other ranks' particles are what this rank does
+// to them (sharedParticles.hpp). A block's own particles are not listed. Either half has particles within the support at the time of
+// the build first, then those of the skin: four parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
 struct PairView {
     static constexpr int parts = 4;
     int owned = 0;  // particles with results

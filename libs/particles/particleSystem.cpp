@@ -128,6 +128,7 @@ void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const Rea
 
     const double* const pointers[3] = {position[0].data(), position[1].data(), position[2].data()};
     list_.build(columns_, n, ghostColumns_, g, pointers, wall, halo_.imageOf(), brick, support_, reach);
+    ++builds_;
 }
 
 std::size_t ParticleSystem::bytes() const { return store_.size() * store_.bytesPerParticle() + list_.bytes(); }

@@ -42,6 +42,7 @@ class ParticleSystem {
     double spacing() const { return spacing_; }
     Precision precision() const { return precision_; }
     long rebuilds() const { return rebuilds_; }
+    long builds() const { return builds_; }  // of the lists, by this object
     std::size_t bytes() const;
 
     // From the next build on, lists hold pairs of two particles of bodies too, as if they were fluid.
@@ -87,6 +88,12 @@ class ParticleSystem {
         columns_.forNear(store_.zBuilt.data(), x, radius, f);
     }
 
+    // The same for ghosts, by their numbers; x near the brick.
+    template <class F>
+    void forGhostsNear(const Vec3& x, double radius, F&& f) const {
+        ghostColumns_.forNear(buildPosition_[2].data() + owned(), x, radius, f);
+    }
+
   private:
     void buildFrom(const RealArray& x, const RealArray& y, const RealArray& z);
     Box box_;
@@ -98,8 +105,9 @@ class ParticleSystem {
     Halo halo_;
     PairList list_;
     Columns columns_, ghostColumns_;
-    long rebuilds_ = 0;
-    RealArray buildRecords_, buildPosition_[3];  // kept for their memory
+    long rebuilds_ = 0, builds_ = 0;
+    RealArray buildRecords_;      // kept for its memory
+    RealArray buildPosition_[3];  // of the last build, ghosts behind the owned
 };
 
 }  // namespace corpuscle::particles

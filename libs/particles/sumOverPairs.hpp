@@ -31,7 +31,7 @@ void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& ker
     sums.assign(static_cast<std::size_t>(system.owned() + system.ghosts()) * static_cast<std::size_t>(count), 0.0);
     system.forEachPair(records.data(), fields, 1 / system.support(), [&](PairList::Group group) {
         const std::vector<int>& blocks = system.list().blocks(group);
-        const bool wall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
+        const bool wall = PairList::isAtWall(group);
         (wall ? atWall : kernel)
             .run(constants, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
                  sums.data());

@@ -101,10 +101,9 @@ std::vector<IntegratorCost> predictCosts(const Case& input) {
         Case named = input;
         named.numerics = schemeOf(input, name);
         cost.limits = limitsOf(named, 0.5 * duration(input));
-        cost.step = cost.limits.binding();
         countPasses(named, cost);
         cost.cost = cost.passes / duration(input) / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);
-        if (cost.obstacle.empty()) cost.obstacle = tooLong(named, cost.step.seconds);
+        if (cost.obstacle.empty()) cost.obstacle = tooLong(named, cost.step().seconds);
     }
     return costs;
 }
@@ -133,7 +132,7 @@ std::vector<std::vector<std::string>> costRows(const Case& input, const std::vec
                                                                   : "named by the case";
         if (!note.empty() && !cost.obstacle.empty()) note += ": ";
         note += cost.obstacle;
-        rows.push_back({cost.name, formatQuantity(cost.step.seconds, unit::second), cost.step.name,
+        rows.push_back({cost.name, formatQuantity(cost.step().seconds, unit::second), cost.step().name,
                         fmt::format("{:.3g}", cost.passes / cost.steps), fmt::format("{:.3g}", cost.cost), note});
     }
     return rows;
@@ -155,7 +154,7 @@ std::vector<std::vector<std::string>> limitRows(const std::vector<IntegratorCost
                 row->front() = limit.name;
             }
             (*row)[k + 1] =
-                formatQuantity(limit.seconds, unit::second) + (limit.name == costs[k].step.name ? " (binds)" : "");
+                formatQuantity(limit.seconds, unit::second) + (limit.name == costs[k].step().name ? " (binds)" : "");
         }
     return rows;
 }

@@ -34,9 +34,9 @@ struct IntegratorCost {
     std::string name;
     std::string obstacle;          // why the case cannot use it; empty: it can
     sph::StepLimits limits;        // of the step, half-way through the run
-    sph::StepLimit step;           // the binding one
     double steps = 0, passes = 0;  // of the whole run
     double cost = 0;               // passes per unit of strain, or per second
+    sph::StepLimit step() const { return limits.binding(); }
 };
 
 double duration(const Case& input);  // of the whole run [s]

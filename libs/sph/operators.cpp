@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
 #include "core/together.hpp"
 
@@ -62,7 +63,8 @@ template <class Real>
 void Operators<Real>::build(ParticleSystem& system) {
     const ParticleStore& s = system.store();
     const std::size_t n = s.size();
-    volume_.resize(n), wall_.resize(n), force_.resize(width * n), divergence_.resize(n);
+    if (std::exchange(plannedAt_, system.builds()) != system.builds()) shared_.plan(system);
+    volume_.resize(n), wall_.resize(n), divergence_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         volume_[i] = (s.optional().mass ? s.mass[i] : model_.mass) / s.density[i];
         wall_[i] = s.kindOf(i) == Kind::wall;
@@ -141,35 +143,39 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
     halo.finish(stressRecords_.data(), system.owned(), stressFields_);
 }
 
+// `count` sums a record. Ghosts' velocities that are not known are fetched behind interior blocks.
 template <class Real>
-template <class Kernel>
-void Operators<Real>::sum(ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
-                          particles::Halo::Part part, particles::RealArray& sums, int count) {
+void Operators<Real>::sumRates(ParticleSystem& system, const Field& u, Known known, particles::RealArray& sums,
+                               int count) {
     using particles::PairList;
-    system.forEachPair(records.data(), fields, part, [&](PairList::Group group) {
-        const std::vector<int>& blocks = system.list().blocks(group);
-        const bool wall = group == PairList::interiorAtWall || group == PairList::boundaryAtWall;
-        (wall ? atWall : away)
-            .run(walls_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
-                 sums.data());
-    });
+    const auto put = [&](std::size_t record, std::size_t entry) {
+        std::copy_n(u.data() + width * entry, 3, rateRecords_.data() + rateFields * record + 3);
+    };
+    const auto work = [&](PairList::Group group) {
+        run(system, PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, system.list().blocks(group),
+            rateRecords_, sums);
+    };
+    const std::size_t n = volume_.size();
+    for (std::size_t i = 0; i < n; ++i) put(i, i);
+    sums.assign((n + static_cast<std::size_t>(system.ghosts())) * static_cast<std::size_t>(count), 0.0);
+    if (known == Known::allVelocities) {
+        for (int g = 0; g < system.ghosts(); ++g) put(n + static_cast<std::size_t>(g), shared_.entry(g));
+        for (int group = 0; group < PairList::groups; ++group) work(static_cast<PairList::Group>(group));
+    } else
+        system.forEachPair(rateRecords_.data(), rateFields, velocityPart, work);
     system.halo().foldImages(sums.data(), system.owned(), count);
 }
 
 template <class Real>
-void Operators<Real>::findRates(ParticleSystem& system, const Field& u) {
-    const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
-    for (std::size_t i = 0; i < n; ++i) std::copy_n(u.data() + width * i, 3, rateRecords_.data() + rateFields * i + 3);
-    sums_.assign(all * width, 0.0);
+void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known) {
     if (isVarying()) {
-        gradientSums_.assign(all * gradientSums, 0.0);
-        sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart, gradientSums_,
-            gradientSums);
+        sums_.assign((volume_.size() + static_cast<std::size_t>(system.ghosts())) * width, 0.0);
+        sumRates(system, u, known, gradientSums_, gradientSums);
         takeGradients(system);
         return;
     }
-    sum(system, kernels_.rates, kernels_.ratesAtWall, rateRecords_, rateFields, velocityPart, sums_, width);
-    for (std::size_t i = 0; i < n; ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
+    sumRates(system, u, known, sums_, width);
+    for (std::size_t i = 0; i < volume_.size(); ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
 }
 
 template <class Real>
@@ -192,20 +198,13 @@ void Operators<Real>::takeGradients(const ParticleSystem& system) {
 
 template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
-    findRates(system, u);
+    force_.assign(width * shared_.entries(), 0.0);
+    findRates(system, u, Known::ownVelocities);
     if (isVarying()) {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, 0);
-        addStress(system);
+        addStress(system, force_);
     } else
-        takeForces();
-}
-
-template <class Real>
-void Operators<Real>::takeForces() {
-    for (std::size_t i = 0; i < volume_.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) force_[width * i + k] = viscousUnit_ * sums_[width * i + k];
-        force_[width * i + 3] = 0;
-    }
+        for (std::size_t i = 0; i < volume_.size(); ++i) takeForces(i, i, force_);
 }
 
 // The stress is in units that let both passes share one sum.
@@ -221,13 +220,31 @@ void Operators<Real>::setPressure(std::size_t i, double pressure) {
     for (int k = 0; k < 9; ++k) stress[k] = static_cast<Real>(T(k / 3, k % 3));
 }
 
+// Of the stresses of own particles and their images alone: others' particles have none here, their ranks have it.
 template <class Real>
-void Operators<Real>::addStress(ParticleSystem& system) {
-    const std::size_t n = volume_.size();
-    std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // ghosts': folded already
-    sum(system, kernels_.stress, kernels_.stressAtWall, stressRecords_, stressFields_, {stressAt, stressFields_}, sums_,
-        width);
-    takeForces();
+void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& force) {
+    const std::size_t n = volume_.size(), ghosts = static_cast<std::size_t>(system.ghosts());
+    const auto fields = static_cast<std::size_t>(stressFields_);
+    for (std::size_t g = 0; g < ghosts; ++g)
+        if (const std::size_t own = shared_.entry(static_cast<int>(g)); own < n) {
+            const Real* from = stressRecords_.data() + fields * own;
+            std::copy(from + stressAt, from + fields, stressRecords_.data() + fields * (n + g) + stressAt);
+        }
+    std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // what rates left to others
+    const auto work = [&](const particles::SharedParticles::Blocks& blocks) {
+        run(system, kernels_.stress, blocks.away, stressRecords_, sums_);
+        run(system, kernels_.stressAtWall, blocks.atWall, stressRecords_, sums_);
+        system.halo().foldImages(sums_.data(), system.owned(), width);
+    };
+    work(shared_.reaching());
+    for (const std::size_t e : shared_.shared())
+        if (e < n) takeForces(e, e, force);
+    for (std::size_t g = 0; g < ghosts; ++g)
+        if (const std::size_t e = shared_.entry(static_cast<int>(g)); e >= n) takeForces(n + g, e, force);
+    shared_.beginSum(force.data(), width);
+    work(shared_.rest());
+    for (std::size_t i = 0; i < n; ++i) takeForces(i, i, force);
+    shared_.finishSum(force.data(), width);
 }
 
 template class Operators<double>;

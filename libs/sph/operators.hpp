@@ -17,9 +17,15 @@
 //
 // The weights are worked out anew at each application: that needs a hundred bytes a particle and is as fast as reading them.
 // Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the last one 0.
+//
+// Over ranks: the divergence of an own particle needs the velocities of its neighbours, of which this rank may know those of others already; then
+// each rank gives the force of its own particles' stresses to all neighbours, others' particles included, and one message to each
+// neighbouring rank adds up the forces (particles/sharedParticles.hpp), behind the pairs of particles that no other rank knows.
 #pragma once
 #include <array>
+#include <utility>
 
+#include "particles/sharedParticles.hpp"
 #include "particles/sumOverPairs.hpp"
 #include "sph/fluidForces.hpp"
 
@@ -39,17 +45,26 @@ class Operators {
     // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
     void build(particles::ParticleSystem& system);
 
-    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa]. Collective.
+    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa] of owned
+    // particles. u: of the owned particles. Collective.
     template <class Pressure>
     void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
-        findRates(system, u);
-        for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
-        addStress(system);
+        force_.assign(width * shared_.entries(), 0.0);
+        addForces(system, u, Known::ownVelocities, pressure, force_);
     }
-    // The same without pressure. Collective.
+    // The same added to `force`, with u and force of all entries of shared(): velocities of others' particles need no message. What
+    // own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
+    template <class Pressure>
+    void addForces(particles::ParticleSystem& system, const Field& u, Pressure&& pressure,
+                   particles::RealArray& force) {
+        addForces(system, u, Known::allVelocities, pressure, force);
+    }
+    // Without pressure; of owned particles. Collective.
     void applyViscosity(particles::ParticleSystem& system, const Field& u);
     particles::RealArray& force() { return force_; }  // what else acts may be added, until the next application
     const particles::RealArray& force() const { return force_; }
+    particles::SharedParticles& shared() { return shared_; }  // since the last `build`
+    const particles::SharedParticles& shared() const { return shared_; }
     double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]
 
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
@@ -64,6 +79,14 @@ class Operators {
     double bulkDiagonal(std::size_t i) const { return bulk_[i]; }
 
   private:
+    enum class Known { ownVelocities, allVelocities };
+    template <class Pressure>
+    void addForces(particles::ParticleSystem& system, const Field& u, Known known, Pressure&& pressure,
+                   particles::RealArray& force) {
+        findRates(system, u, known);
+        for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
+        addStress(system, force);
+    }
     bool isLayered() const { return viscosity_ == ViscosityKind::layers; }
     bool isVarying() const { return viscosity_ != ViscosityKind::uniform; }
     // Over that of the fluid, or of the lowest layer [Pa s].
@@ -72,14 +95,22 @@ class Operators {
     }
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
-    void findRates(particles::ParticleSystem& system, const Field& u);
+    void findRates(particles::ParticleSystem& system, const Field& u, Known known);
     void setPressure(std::size_t i, double pressure);
-    void addStress(particles::ParticleSystem& system);
-    void takeForces();                                            // force_ of sums_
+    void addStress(particles::ParticleSystem& system, particles::RealArray& force);
+    void takeForces(std::size_t from, std::size_t entry, particles::RealArray& force) {  // of sums_, which have 0 then
+        for (std::size_t k = 0; k < 3; ++k)
+            force[width * entry + k] += viscousUnit_ * std::exchange(sums_[width * from + k], 0.0);
+    }
     void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ of gradientSums_
+    void sumRates(particles::ParticleSystem& system, const Field& u, Known known, particles::RealArray& sums,
+                  int count);
     template <class Kernel>
-    void sum(particles::ParticleSystem& system, const Kernel& away, const Kernel& atWall, Field& records, int fields,
-             particles::Halo::Part part, particles::RealArray& sums, int count);
+    void run(const particles::ParticleSystem& system, const Kernel& kernel, const std::vector<int>& blocks,
+             const Field& records, particles::RealArray& sums) const {
+        kernel.run(walls_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
+                   sums.data());
+    }
 
     FluidModel model_;
     OperatorForm form_;
@@ -90,6 +121,8 @@ class Operators {
     WallPlanes walls_;
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
     Field momentRecords_, rateRecords_, stressRecords_;
+    particles::SharedParticles shared_;
+    long plannedAt_ = -1;  // builds of the system's lists
     particles::RealArray sums_, force_, divergence_;
     particles::RealArray gradientSums_;  // where viscosity varies
     std::vector<Mat3> stress_;           // tau there

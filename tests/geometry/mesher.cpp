@@ -92,17 +92,19 @@ TEST(Mesher, sameInputSameMesh) {
 }
 
 // A closed surface in micrometres in each format that is read.
-void writeOff(const TriangleMesh& mesh, std::ofstream& file) {
-    file << "OFF\n" << mesh.nodes.size() << ' ' << mesh.triangles.size() << " 0\n";
+void writeLines(const TriangleMesh& mesh, std::ofstream& file) {
     for (const Vec3& x : mesh.nodes) file << x.transpose() * 1e6 << '\n';
     for (const Index3& t : mesh.triangles) file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+}
+void writeOff(const TriangleMesh& mesh, std::ofstream& file) {
+    file << "OFF\n" << mesh.nodes.size() << ' ' << mesh.triangles.size() << " 0\n";
+    writeLines(mesh, file);
 }
 void writePly(const TriangleMesh& mesh, std::ofstream& file) {
     file << "ply\nformat ascii 1.0\nelement vertex " << mesh.nodes.size()
          << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.triangles.size()
          << "\nproperty list uchar int vertex_indices\nend_header\n";
-    for (const Vec3& x : mesh.nodes) file << x.transpose() * 1e6 << '\n';
-    for (const Index3& t : mesh.triangles) file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    writeLines(mesh, file);
 }
 void writeVtp(const TriangleMesh& mesh, std::ofstream& file) {
     file << R"(<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints=")"

@@ -69,6 +69,7 @@ struct LoadedSphere {
     double area = 0;  // of the mesh over that of the sphere
     std::unique_ptr<coupling::Immersed> immersed;
     CoarseGrid grid{f.scene.system->box(), CoarseGrid::spacingInParticles};
+    particles::RealArray rows;  // diagonal and place of every entry
 
     static sph::FluidModel fluid() {
         sph::FluidModel m = sph::testing::model("wendlandC2", "linear");
@@ -94,30 +95,40 @@ struct LoadedSphere {
         areas = membrane::volumeGradient(mesh.nodes, mesh.triangles);
         for (const Vec3& g : areas) area += g.norm() / (4 * std::numbers::pi * a * a);
         grid.setCoefficients(inertia, 1, bulk);
-        grid.begin(s.size());
-        for (std::size_t i = 0; i < s.size(); ++i) grid.place(i, s.position(i));
+        rows.resize(4 * shared().entries());
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            rows[4 * i] = term.diagonal(i);
+            Vec3::Map(&rows[4 * i + 1]) = s.position(i);
+        }
+        shared().distribute(rows.data(), 4);
+        grid.begin(s.size(), shared().entries() - s.size());
+        for (std::size_t i = 0; i < shared().entries(); ++i) grid.place(i, Vec3::Map(&rows[4 * i + 1]));
     }
+    particles::SharedParticles& shared() { return term.operators().shared(); }
 
     // Velocity of the nodes over a/mu, for a traction.
     Vectors response(Vectors load) {
         for (std::size_t m = 0; m < load.size(); ++m) load[m] *= areas[m].norm();
-        const std::size_t n = f.scene.store().size();
+        const std::size_t n = shared().entries();
         particles::RealArray force(4 * n, 0.0), forces;
         immersed->spread(load, force);
+        shared().distribute(force.data(), 4);
         Field r(force.begin(), force.end()), v;
         const Convergence c = ConjugateGradients<double>().solve(
             MPI_COMM_WORLD, r, v, 0, tolerance,
             [&](const Field& z, Field& w) {
+                forces.assign(4 * n, 0.0);
                 term.addProduct(z, forces);
                 for (std::size_t k = 0; k < w.size(); ++k) w[k] = k % 4 == 3 ? 0 : inertia * z[k] - forces[k];
             },
             [&](const Field& of, Field& z) {
                 for (std::size_t i = 0; i < n; ++i) {
-                    for (std::size_t k = 0; k < 3; ++k) z[4 * i + k] = of[4 * i + k] / term.diagonal(i);
+                    for (std::size_t k = 0; k < 3; ++k) z[4 * i + k] = of[4 * i + k] / rows[4 * i];
                     z[4 * i + 3] = 0;
                 }
                 grid.add(MPI_COMM_WORLD, of.data(), z.data());
-            });
+            },
+            Copies{4 * f.scene.store().size(), 4 * n});
         EXPECT_TRUE(c.reached);
         Vectors found = immersed->interpolate(v.data());
         for (Vec3& u : found) u /= a * area;

@@ -50,7 +50,7 @@ struct System {
     // Of the allowed velocities: from numbers that do not depend on ranks.
     Field velocity(unsigned seed, const RigidMotion& motion) {
         sphere.body().state.motion = motion, sphere.body().acceleration = {};
-        Field u(4 * size() + rigid.length(), 0.0);
+        Field u(4 * operators.shared().entries() + rigid.length(), 0.0);
         for (std::size_t i = 0; i < size(); ++i) {
             std::mt19937_64 random(seed + static_cast<unsigned>(sphere.scene.store().id[i]));
             std::uniform_real_distribution<double> d(-0.1, 0.1);
@@ -78,7 +78,8 @@ struct System {
     }
     double dot(const Field& a, const Field& b) const {
         double sum = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+        const Copies copies{4 * size(), 4 * operators.shared().entries()};
+        copies.forCounted(a.size(), [&](std::size_t k) { sum += a[k] * b[k]; });
         return coupling::sumOverRanks(sum, comm());
     }
 };
@@ -204,36 +205,32 @@ TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
     EXPECT_GT(s.fluidMomentum()[0], 0.1);
 }
 
+namespace {
+// The step that `error` allows after steps of dt, beside a sphere of this velocity and behaviour in fluid of another.
+double allowedStep(const char* behaviour, double sphereVelocity, double fluidVelocity, double error, double dt) {
+    SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), behaviour, 2.5);
+    f.setVelocities([&](std::size_t, const Vec3&) { return Vec3(fluidVelocity, 0, 0); },
+                    {Vec3(sphereVelocity, 0, 0), Vec3::Zero()});
+    RigidSphereScene s(std::move(f), 0.02);
+    const auto step = s.step(1e-9, "midpoint", sph::OperatorForm::corrected, error);
+    const double time = 4;
+    run(*step, time, static_cast<int>(std::lround(time / dt)));
+    return step->allowed().error;
+}
+}  // namespace
+
 // A sphere that the fluid slows down. The step found must not depend on the one that it was found with: the error is of second order.
 TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
-    const auto found = [](double dt) {
-        SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "free", 2.5);
-        f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, {Vec3(0.02, 0, 0), Vec3::Zero()});
-        RigidSphereScene s(std::move(f), 0.02);
-        const auto step = s.step(1e-9, "midpoint", sph::OperatorForm::corrected, 1e-4);
-        const double time = 4;
-        run(*step, time, static_cast<int>(std::lround(time / dt)));
-        return step->allowed().error;
-    };
-    const double fine = found(0.2);
-    EXPECT_NEAR(found(0.4), fine, 0.3 * fine);
+    const double fine = allowedStep("free", 0.02, 0, 1e-4, 0.2);
+    EXPECT_NEAR(allowedStep("free", 0.02, 0, 1e-4, 0.4), fine, 0.3 * fine);
     EXPECT_GT(fine, 0.2);
     EXPECT_LT(fine, 0.4);
 }
 
 // Where no body is free, the fluid's error is what counts: here it comes to rest around a sphere that is held.
 TEST(RigidBodies, stepBesideAHeldBodyIsAsLongAsTheFluidsErrorAllows) {
-    const auto found = [](double dt) {
-        SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), "held", 2.5);
-        f.setVelocities([](std::size_t, const Vec3&) { return Vec3(0.02, 0, 0); }, {Vec3::Zero(), Vec3::Zero()});
-        RigidSphereScene s(std::move(f), 0.02);
-        const auto step = s.step(1e-9, "midpoint", sph::OperatorForm::corrected, 3e-5);
-        const double time = 4;
-        run(*step, time, static_cast<int>(std::lround(time / dt)));
-        return step->allowed().error;
-    };
-    const double fine = found(0.2);
-    EXPECT_NEAR(found(0.4), fine, 0.3 * fine);
+    const double fine = allowedStep("held", 0, 0.02, 3e-5, 0.2);
+    EXPECT_NEAR(allowedStep("held", 0, 0.02, 3e-5, 0.4), fine, 0.3 * fine);
     EXPECT_LT(fine, 0.39);
 }
 

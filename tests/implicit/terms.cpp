@@ -17,20 +17,29 @@ namespace {
 constexpr double duration = 0.2;
 using Field = Term<double>::Field;
 
+// The particles of a scene, and those of others for a term that needs them.
+struct Particles {
+    const ParticleStore& store;
+    particles::SharedParticles* shared = nullptr;
+    std::size_t entries() const { return shared ? shared->entries() : store.size(); }
+};
+
 // Numbers that do not depend on ranks.
-Field field(const ParticleStore& s, unsigned seed, double size) {
-    Field v(4 * s.size(), 0.0);
+Field field(const Particles& p, unsigned seed, double size) {
+    const ParticleStore& s = p.store;
+    Field v(4 * p.entries(), 0.0);
     for (std::size_t i = 0; i < s.size(); ++i) {
         std::mt19937_64 random(seed + 7919 * static_cast<unsigned>(s.id[i]));
         std::uniform_real_distribution<double> d(-size, size);
         for (std::size_t k = 0; k < 3; ++k) v[4 * i + k] = d(random);
     }
+    if (p.shared) p.shared->distribute(v.data(), 4);
     return v;
 }
 
-double product(const Field& a, const RealArray& b) {
+double product(const Particles& p, const Field& a, const RealArray& b) {
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    for (std::size_t k = 0; k < 4 * p.store.size(); ++k) sum += a[k] * b[k];
     return sph::testing::sumOverRanks(sum);
 }
 
@@ -40,11 +49,11 @@ RealArray times(Term<double>& term, const Field& v) {  // -A v
     return forces;
 }
 
-void expectSymmetricAndLinear(Term<double>& term, const ParticleStore& s) {
-    const Field v = field(s, 1, 1e-3), w = field(s, 2, 1e-3), none(v.size(), 0.0);
+void expectSymmetricAndLinear(Term<double>& term, const Particles& p) {
+    const Field v = field(p, 1, 1e-3), w = field(p, 2, 1e-3), none(v.size(), 0.0);
     const RealArray Av = times(term, v), Aw = times(term, w);
-    const double cross = product(w, Av), own = product(v, Av);
-    EXPECT_NEAR(product(v, Aw), cross, 1e-12 * std::abs(own));
+    const double cross = product(p, w, Av), own = product(p, v, Av);
+    EXPECT_NEAR(product(p, v, Aw), cross, 1e-12 * std::abs(own));
     EXPECT_LT(own, 0);
     EXPECT_GT(std::abs(cross), 1e-6 * std::abs(own)) << "a sum that vanishes shows nothing";
     RealArray load(v.size(), 0.0), forces(v.size(), 0.0);
@@ -57,8 +66,8 @@ void expectSymmetricAndLinear(Term<double>& term, const ParticleStore& s) {
 
 // With a lead A is that of a reach as long as both together; the force at the extrapolated velocity is what it is without, and further on as
 // stiff as A says.
-void expectLeadFromTheExtrapolated(Term<double>& term, const ParticleStore& s) {
-    const Field v0 = field(s, 1, 1e-3), v = field(s, 2, 1e-3);
+void expectLeadFromTheExtrapolated(Term<double>& term, const Particles& p) {
+    const Field v0 = field(p, 1, 1e-3), v = field(p, 2, 1e-3);
     RealArray without(v.size(), 0.0), first(v.size(), 0.0), forces(v.size(), 0.0), again(v.size(), 0.0);
     term.prepare({duration}), term.addForces(v0, without);
     term.prepare({duration, 0.3 * duration}), term.addFirstForces(v0, first);
@@ -125,21 +134,52 @@ TEST(Terms, fluidIsSymmetricAndLinear) {
                                     particles::Precision::full);
     FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
     term.prepare({duration});
-    expectSymmetricAndLinear(term, f.scene.store());
+    const Particles particles{f.scene.store(), &term.operators().shared()};
+    expectSymmetricAndLinear(term, particles);
     EXPECT_TRUE(term.isLinear());
     for (std::size_t i = 0; i < f.scene.store().size(); ++i) EXPECT_GT(term.diagonal(i), 0);
-    expectLeadFromTheExtrapolated(term, f.scene.store());
+    expectLeadFromTheExtrapolated(term, particles);
+}
+
+// What an earlier term gave to own particles is in the sum, and those of others have what their own ranks have of it, to the last bit.
+TEST(Terms, forcesOnOthersParticlesAreThoseOfTheirRanks) {
+    const Index3 size{8, 8, 10};
+    coupling::testing::FluidScene f(coupling::testing::still(size, 0.2), size,
+                                    sph::testing::model("wendlandC2", "linear"), 1e-4, 0, MPI_COMM_WORLD,
+                                    particles::Precision::full);
+    FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
+    term.prepare({duration});
+    particles::SharedParticles& shared = term.operators().shared();
+    const Particles particles{f.scene.store(), &shared};
+    const Field v = field(particles, 1, 1e-3);
+    RealArray earlier(v.size(), 0.0);
+    for (std::size_t i = 0; i < f.scene.store().size(); ++i) earlier[4 * i] = 1e-3 * std::sin(f.scene.store().id[i]);
+    RealArray forces = earlier;
+    term.addProduct(v, forces);
+    RealArray owners = forces;
+    shared.distribute(owners.data(), 4);
+    EXPECT_EQ(forces, owners);
+    const RealArray alone = times(term, v);
+    double worst = 0, largest = 0;
+    for (std::size_t k = 0; k < 4 * f.scene.store().size(); ++k) {
+        worst = std::max(worst, std::abs(forces[k] - alone[k] - earlier[k]));
+        largest = std::max(largest, std::abs(alone[k]));
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LE(worst, 1e-13 * (largest + 1e-3));
 }
 
 TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
     Membranes m;
-    expectSymmetricAndLinear(m.term, m.system->store());
+    const Particles particles{m.system->store()};
+    expectSymmetricAndLinear(m.term, particles);
     EXPECT_FALSE(m.term.isLinear());
-    const Field v = m.stretching(0.01), w = field(m.system->store(), 3, 1e-3);
+    const Field v = m.stretching(0.01), w = field(particles, 3, 1e-3);
     RealArray forces(v.size(), 0.0);
     m.term.addForces(v, forces);
-    EXPECT_NEAR(m.term.power(v, w), product(w, forces), 1e-10 * std::abs(product(w, forces)));
-    expectLeadFromTheExtrapolated(m.term, m.system->store());
+    const double power = product(particles, w, forces);
+    EXPECT_NEAR(m.term.power(v, w), power, 1e-10 * std::abs(power));
+    expectLeadFromTheExtrapolated(m.term, particles);
 }
 
 // What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise stiffness leaves out

@@ -73,8 +73,8 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             EXPECT_TRUE(met[b].insert(image(j)).second) << "listed twice";
             const bool mutual = k < view.alone(b);
             const int own = j < view.owned ? j : imageOf[static_cast<std::size_t>(j - view.owned)];
-            EXPECT_EQ(mutual, own >= 0 && own / lanes != b);
-            if (!mutual) continue;
+            EXPECT_EQ(mutual, own < 0 || own / lanes != b);
+            if (!mutual || own < 0) continue;
             EXPECT_GT(own / lanes, b);
             // Seen from the other particle, this block lies on the other side of the faces between.
             const Image there = image(j), at = image(own);

@@ -51,8 +51,8 @@ void reportCosts(Application& app, const simulation::Case& input, ordered_json& 
     app.log().table(simulation::limitHeader(costs), simulation::limitRows(costs));
     for (const simulation::IntegratorCost& cost : costs) {
         ordered_json& entry = json["integrators"][cost.name];
-        entry = {{"step_s", cost.step.seconds}, {"limit", cost.step.name}, {"steps", cost.steps},
-                 {"passes", cost.passes},       {"cost", cost.cost},       {"obstacle", cost.obstacle}};
+        entry = {{"step_s", cost.step().seconds}, {"limit", cost.step().name}, {"steps", cost.steps},
+                 {"passes", cost.passes},         {"cost", cost.cost},         {"obstacle", cost.obstacle}};
         for (const sph::StepLimit& limit : cost.limits.all) entry["limits_s"][limit.name] = limit.seconds;
     }
     json["integrator"] = input.numerics.integrator;

@@ -1,0 +1,178 @@
+#include "particles/sharedParticles.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace corpuscle::particles {
+
+namespace {
+
+using Origin = Halo::Origin;
+constexpr int tag = 1;
+
+// To each rank the pairs (number, rank) meant for it; what was meant for this one, with the sender's rank in front.
+using Sharer = std::tuple<int, int, int>;  // owner, its particle, another rank that has it
+std::vector<Sharer> tell(const std::vector<std::vector<int>>& pairsFor, MPI_Comm comm) {
+    const std::size_t size = pairsFor.size();
+    std::vector<int> counts(size), starts(size), theirs(size), theirStarts(size), all;
+    for (std::size_t r = 0; r < size; ++r) {
+        counts[r] = static_cast<int>(pairsFor[r].size()), starts[r] = static_cast<int>(all.size());
+        all.insert(all.end(), pairsFor[r].begin(), pairsFor[r].end());
+    }
+    MPI_Alltoall(counts.data(), 1, MPI_INT, theirs.data(), 1, MPI_INT, comm);
+    int total = 0;
+    for (std::size_t r = 0; r < size; ++r) theirStarts[r] = total, total += theirs[r];
+    std::vector<int> received(static_cast<std::size_t>(total));
+    MPI_Alltoallv(all.data(), counts.data(), starts.data(), MPI_INT, received.data(), theirs.data(), theirStarts.data(),
+                  MPI_INT, comm);
+    std::vector<Sharer> found;
+    for (std::size_t r = 0; r < size; ++r)
+        for (auto k = static_cast<std::size_t>(theirStarts[r]);
+             k < static_cast<std::size_t>(theirStarts[r] + theirs[r]); k += 2)
+            found.emplace_back(static_cast<int>(r), received[k], received[k + 1]);
+    return found;
+}
+
+}  // namespace
+
+void SharedParticles::plan(ParticleSystem& system) {
+    comm_ = system.comm(), rank_ = system.decomposition().rank();
+    owned_ = static_cast<std::size_t>(system.owned());
+    const std::vector<Origin> origins = system.halo().origins(system.owned());
+    std::vector<Origin> others;
+    std::copy_if(origins.begin(), origins.end(), std::back_inserter(others),
+                 [&](const Origin& o) { return o.rank != rank_; });
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    others_ = others.size();
+    entry_.resize(origins.size()), ghostOf_.assign(others_, -1);
+    for (std::size_t g = 0; g < origins.size(); ++g) {
+        if (origins[g].rank == rank_) {
+            entry_[g] = static_cast<std::size_t>(origins[g].particle);
+            continue;
+        }
+        const auto k =
+            static_cast<std::size_t>(std::lower_bound(others.begin(), others.end(), origins[g]) - others.begin());
+        entry_[g] = owned_ + k;
+        if (ghostOf_[k] < 0) ghostOf_[k] = static_cast<int>(g);
+    }
+    findMessages(system, others, system.halo().copies());
+    sortBlocks(system);
+}
+
+void SharedParticles::findMessages(const ParticleSystem& system, const std::vector<Origin>& others,
+                                   const std::vector<Origin>& copies) {
+    // A particle on three ranks or more: each of them hears from its owner who else has it.
+    std::vector<std::vector<int>> ranksOf(owned_);
+    for (const Origin& c : copies) ranksOf[static_cast<std::size_t>(c.particle)].push_back(c.rank);
+    std::vector<std::vector<int>> news(static_cast<std::size_t>(system.decomposition().size()));
+    for (std::size_t i = 0; i < owned_; ++i)
+        for (const int to : ranksOf[i])
+            for (const int other : ranksOf[i])
+                if (to != other)
+                    news[static_cast<std::size_t>(to)].insert(news[static_cast<std::size_t>(to)].end(),
+                                                              {static_cast<int>(i), other});
+
+    struct Element {
+        int rank;       // to which the message goes
+        Origin origin;  // both sides have them in this order
+        std::size_t entry;
+        auto operator<=>(const Element&) const = default;
+    };
+    std::vector<Element> elements;
+    for (const Origin& c : copies)
+        elements.push_back({c.rank, {rank_, c.particle}, static_cast<std::size_t>(c.particle)});
+    for (std::size_t k = 0; k < others.size(); ++k) elements.push_back({others[k].rank, others[k], owned_ + k});
+    for (const auto& [owner, particle, other] : tell(news, comm_)) {
+        const Origin origin{owner, particle};
+        const auto k = std::lower_bound(others.begin(), others.end(), origin) - others.begin();
+        elements.push_back({other, origin, owned_ + static_cast<std::size_t>(k)});
+    }
+    std::sort(elements.begin(), elements.end());
+
+    index_.clear(), messages_.clear(), shared_.clear();
+    for (const Element& e : elements) {
+        if (messages_.empty() || messages_.back().rank != e.rank)
+            messages_.push_back({e.rank, index_.size(), index_.size()});
+        index_.push_back(e.entry);
+        messages_.back().end = index_.size();
+    }
+    shared_ = index_;
+    std::sort(shared_.begin(), shared_.end());
+    shared_.erase(std::unique(shared_.begin(), shared_.end()), shared_.end());
+}
+
+void SharedParticles::sortBlocks(const ParticleSystem& system) {
+    const PairList& list = system.list();
+    const PairView view = list.view();
+    std::vector<char> isShared(entries(), 0);
+    for (const std::size_t e : shared_) isShared[e] = 1;
+    const auto reaches = [&](int block) {
+        const int first = block * list.lanes(), last = std::min(view.owned, first + list.lanes());
+        for (int i = first; i < last; ++i)
+            if (isShared[static_cast<std::size_t>(i)]) return true;
+        return std::any_of(view.j + view.begin(block), view.j + view.end(block), [&](int j) {
+            return isShared[j < view.owned ? static_cast<std::size_t>(j) : entry(j - view.owned)] != 0;
+        });
+    };
+    for (Blocks* blocks : {&reaching_, &rest_}) blocks->away.clear(), blocks->atWall.clear();
+    for (int group = 0; group < PairList::groups; ++group)
+        for (const int b : list.blocks(static_cast<PairList::Group>(group))) {
+            Blocks& blocks = !shared_.empty() && reaches(b) ? reaching_ : rest_;
+            (PairList::isAtWall(static_cast<PairList::Group>(group)) ? blocks.atWall : blocks.away).push_back(b);
+        }
+}
+
+template <class Real>
+void SharedParticles::beginSum(const Real* values, int width) {
+    const auto w = static_cast<std::size_t>(width);
+    send_.resize(w * index_.size()), receive_.resize(w * index_.size());
+    requests_.resize(2 * messages_.size());
+    for (std::size_t m = 0; m < messages_.size(); ++m) {
+        const auto& [rank, begin, end] = messages_[m];
+        const int count = static_cast<int>(w * (end - begin));
+        MPI_Irecv(receive_.data() + w * begin, count, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m]);
+        for (std::size_t k = begin; k < end; ++k)
+            for (std::size_t c = 0; c < w; ++c) send_[w * k + c] = static_cast<double>(values[w * index_[k] + c]);
+        MPI_Isend(send_.data() + w * begin, count, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m + 1]);
+    }
+}
+
+template <class Real>
+void SharedParticles::finishSum(Real* values, int width) {
+    const auto w = static_cast<std::size_t>(width);
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+    requests_.clear();
+    mine_.resize(w * shared_.size());
+    for (std::size_t k = 0; k < shared_.size(); ++k)
+        for (std::size_t c = 0; c < w; ++c)
+            mine_[w * k + c] = static_cast<double>(std::exchange(values[w * shared_[k] + c], Real(0)));
+    const auto add = [&](const std::vector<std::size_t>& at, std::size_t begin, std::size_t end, const double* part) {
+        for (std::size_t k = begin; k < end; ++k)
+            for (std::size_t c = 0; c < w; ++c) values[w * at[k] + c] += static_cast<Real>(part[w * k + c]);
+    };
+    auto message = messages_.begin();
+    for (; message != messages_.end() && message->rank < rank_; ++message)
+        add(index_, message->begin, message->end, receive_.data());
+    add(shared_, 0, shared_.size(), mine_.data());
+    for (; message != messages_.end(); ++message) add(index_, message->begin, message->end, receive_.data());
+}
+
+template <class Real>
+void SharedParticles::distribute(Real* values, int width) {
+    std::fill(values + owned_ * static_cast<std::size_t>(width), values + entries() * static_cast<std::size_t>(width),
+              Real(0));
+    beginSum(values, width);
+    finishSum(values, width);
+}
+
+template void SharedParticles::beginSum(const double*, int);
+template void SharedParticles::beginSum(const float*, int);
+template void SharedParticles::finishSum(double*, int);
+template void SharedParticles::finishSum(float*, int);
+template void SharedParticles::distribute(double*, int);
+template void SharedParticles::distribute(float*, int);
+
+}  // namespace corpuscle::particles
