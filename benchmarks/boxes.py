@@ -24,6 +24,7 @@ RED002 = ("rbcShear/Ca0.002", "rbc", "/implicit/step=0.1")
 FASTER = "constant/flow.yaml:/inertia={Re: 0.1}"  # what velocity Verlet can afford
 VERLET, PLAIN = "system/numerics.yaml:/integrator=velocityVerlet", "system/numerics.yaml:/operators=plain"
 DUAL = ("system/numerics.yaml:/coupling=dualIdentity", "system/numerics.yaml:/kernel/support=3 dx")
+SCHEMES = {"implicit": (), "plain": (PLAIN,), "verlet": (VERLET,), "dualIdentity": (VERLET, PLAIN, *DUAL)}
 RUNS = {  # tutorial, cell, step; spacings in a radius, box, strain, other settings
     "capsule8box5": (*CAPSULE, 8, (5, 5, 5), 5),
     "capsule8box8": (*CAPSULE, 8, (6, 6, 8), 5),
@@ -33,10 +34,8 @@ RUNS = {  # tutorial, cell, step; spacings in a radius, box, strain, other setti
     "capsule12box12": (*CAPSULE, 12, (6, 6, 12), 5),
     "capsule16box5": (*CAPSULE, 16, (5, 5, 5), 5),
     "capsule8box5to30": (*CAPSULE, 8, (5, 5, 5), 30),
-    "capsule8box5implicit": (*CAPSULE, 8, (5, 5, 5), 3, FASTER),
-    "capsule8box5plain": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, PLAIN),
-    "capsule8box5verlet": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, VERLET),
-    "capsule8box5dualIdentity": (*CAPSULE, 8, (5, 5, 5), 3, FASTER, VERLET, PLAIN, *DUAL),
+    **{f"capsule8box{box[2]}{name}": (*CAPSULE, 8, box, 3, FASTER, *scheme)
+       for box in ((5, 5, 5), (6, 6, 8), (6, 6, 12)) for name, scheme in SCHEMES.items()},
     "red6box6": (*RED02, 6, (6, 6, 6), 22),
     "red6box8": (*RED02, 6, (8, 6, 8), 22),
     "red6box10": (*RED02, 6, (10, 8, 10), 22),

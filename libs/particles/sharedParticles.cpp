@@ -126,32 +126,33 @@ void SharedParticles::sortBlocks(const ParticleSystem& system) {
 }
 
 template <class Real>
-void SharedParticles::beginSum(const Real* values, int width) {
-    const auto w = static_cast<std::size_t>(width);
-    send_.resize(w * index_.size()), receive_.resize(w * index_.size());
+void SharedParticles::beginSum(const Real* values, Numbers numbers) {
+    const auto width = static_cast<std::size_t>(numbers.width), count = static_cast<std::size_t>(numbers.count);
+    send_.resize(count * index_.size()), receive_.resize(count * index_.size());
     requests_.resize(2 * messages_.size());
     for (std::size_t m = 0; m < messages_.size(); ++m) {
         const auto& [rank, begin, end] = messages_[m];
-        const int count = static_cast<int>(w * (end - begin));
-        MPI_Irecv(receive_.data() + w * begin, count, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m]);
+        const int length = static_cast<int>(count * (end - begin));
+        MPI_Irecv(receive_.data() + count * begin, length, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m]);
         for (std::size_t k = begin; k < end; ++k)
-            for (std::size_t c = 0; c < w; ++c) send_[w * k + c] = static_cast<double>(values[w * index_[k] + c]);
-        MPI_Isend(send_.data() + w * begin, count, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m + 1]);
+            for (std::size_t c = 0; c < count; ++c)
+                send_[count * k + c] = static_cast<double>(values[width * index_[k] + c]);
+        MPI_Isend(send_.data() + count * begin, length, MPI_DOUBLE, rank, tag, comm_, &requests_[2 * m + 1]);
     }
 }
 
 template <class Real>
-void SharedParticles::finishSum(Real* values, int width) {
-    const auto w = static_cast<std::size_t>(width);
+void SharedParticles::finishSum(Real* values, Numbers numbers) {
+    const auto width = static_cast<std::size_t>(numbers.width), count = static_cast<std::size_t>(numbers.count);
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     requests_.clear();
-    mine_.resize(w * shared_.size());
+    mine_.resize(count * shared_.size());
     for (std::size_t k = 0; k < shared_.size(); ++k)
-        for (std::size_t c = 0; c < w; ++c)
-            mine_[w * k + c] = static_cast<double>(std::exchange(values[w * shared_[k] + c], Real(0)));
+        for (std::size_t c = 0; c < count; ++c)
+            mine_[count * k + c] = static_cast<double>(std::exchange(values[width * shared_[k] + c], Real(0)));
     const auto add = [&](const std::vector<std::size_t>& at, std::size_t begin, std::size_t end, const double* part) {
         for (std::size_t k = begin; k < end; ++k)
-            for (std::size_t c = 0; c < w; ++c) values[w * at[k] + c] += static_cast<Real>(part[w * k + c]);
+            for (std::size_t c = 0; c < count; ++c) values[width * at[k] + c] += static_cast<Real>(part[count * k + c]);
     };
     auto message = messages_.begin();
     for (; message != messages_.end() && message->rank < rank_; ++message)
@@ -162,16 +163,16 @@ void SharedParticles::finishSum(Real* values, int width) {
 
 template <class Real>
 void SharedParticles::distribute(Real* values, int width) {
-    std::fill(values + owned_ * static_cast<std::size_t>(width), values + entries() * static_cast<std::size_t>(width),
-              Real(0));
-    beginSum(values, width);
-    finishSum(values, width);
+    const auto numbers = static_cast<std::size_t>(width);
+    std::fill(values + numbers * owned_, values + numbers * entries(), Real(0));
+    beginSum(values, {width, width});
+    finishSum(values, {width, width});
 }
 
-template void SharedParticles::beginSum(const double*, int);
-template void SharedParticles::beginSum(const float*, int);
-template void SharedParticles::finishSum(double*, int);
-template void SharedParticles::finishSum(float*, int);
+template void SharedParticles::beginSum(const double*, Numbers);
+template void SharedParticles::beginSum(const float*, Numbers);
+template void SharedParticles::finishSum(double*, Numbers);
+template void SharedParticles::finishSum(float*, Numbers);
 template void SharedParticles::distribute(double*, int);
 template void SharedParticles::distribute(float*, int);
 

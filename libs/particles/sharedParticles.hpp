@@ -36,12 +36,15 @@ class SharedParticles {
     const Blocks& reaching() const { return reaching_; }
     const Blocks& rest() const { return rest_; }
 
-    // values[entry * width + 0 .. width - 1]: adds up what all ranks have of each shared entry. From `begin` to `finish` these entries must
-    // stay as they are; all others may change. Collective.
+    // Adds up what all ranks have of each shared entry: of the `width` numbers that stand in `values` for an entry, the first `count`. From
+    // `begin` to `finish` these must stay as they are; all others may change. Collective.
+    struct Numbers {
+        int width, count;
+    };
     template <class Real>
-    void beginSum(const Real* values, int width);
+    void beginSum(const Real* values, Numbers numbers);
     template <class Real>
-    void finishSum(Real* values, int width);
+    void finishSum(Real* values, Numbers numbers);
     // The owner's values on all who share a particle. Collective.
     template <class Real>
     void distribute(Real* values, int width);

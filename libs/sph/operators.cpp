@@ -241,10 +241,10 @@ void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& fo
         if (e < n) takeForces(e, e, force);
     for (std::size_t g = 0; g < ghosts; ++g)
         if (const std::size_t e = shared_.entry(static_cast<int>(g)); e >= n) takeForces(n + g, e, force);
-    shared_.beginSum(force.data(), width);
+    shared_.beginSum(force.data(), {width, 3});
     work(shared_.rest());
     for (std::size_t i = 0; i < n; ++i) takeForces(i, i, force);
-    shared_.finishSum(force.data(), width);
+    shared_.finishSum(force.data(), {width, 3});
 }
 
 template class Operators<double>;

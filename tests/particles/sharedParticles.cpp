@@ -83,13 +83,13 @@ TEST_P(Shared, everyGhostHasTheEntryOfItsParticle) {
 
 // To the last bit: the same on all ranks, in the order of ranks.
 TEST_P(Shared, sumsAreThoseOfAllWhoKnowAParticle) {
-    constexpr int width = 3;
+    constexpr int width = 3, count = 2;
     const std::vector<int> knows = whoKnows();
     std::vector<double> values;
     for (const int i : id)
         for (int k = 0; k < width; ++k) values.push_back(part(i, rank(), k));
-    shared.beginSum(values.data(), width);
-    shared.finishSum(values.data(), width);
+    shared.beginSum(values.data(), {width, count});
+    shared.finishSum(values.data(), {width, count});
     std::vector<std::size_t> several;
     for (std::size_t e = 0; e < id.size(); ++e) {
         int sharers = 0;
@@ -100,6 +100,7 @@ TEST_P(Shared, sumsAreThoseOfAllWhoKnowAParticle) {
             for (int k = 0; k < width; ++k) sum[k] += part(id[e], r, k);
         }
         if (sharers > 1) several.push_back(e);
+        sum[count] = part(id[e], rank(), count);  // as it was
         for (int k = 0; k < width; ++k) EXPECT_EQ(values[width * e + static_cast<std::size_t>(k)], sum[k]);
     }
     EXPECT_EQ(shared.shared(), several);
