@@ -1,6 +1,6 @@
 // Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1. Nodes are particles, or lie in the fluid (immersed).
 #pragma once
-#include "coupling/dualIdentity.hpp"
+#include "coupling/scene.hpp"
 #include "membrane/meshes.hpp"
 #include "sph/samples.hpp"
 
@@ -75,6 +75,25 @@ struct SphereScene {
                     add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
         }
         system->start();
+    }
+
+    // A scene of these membranes immersed, their nodes moved to f(place from the middle of the cell), whose volumes they keep.
+    // Nothing is left here.
+    template <class F>
+    Scene immersedScene(double rate, F&& f) && {
+        for (Cell& cell : cells) {
+            const Vec3 middle = middleOf(cell);
+            for (Vec3& x : cell.membrane.position) x = middle + f(Vec3(x - middle));
+            cell.initialVolume = cell.membrane.volume();
+        }
+        Scene scene;
+        scene.system = std::move(system);
+        scene.cells = std::move(cells);
+        scene.fluidBox = scene.system->box();
+        scene.spacing = 1;
+        scene.flow.rate = rate;
+        scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
+        return scene;
     }
 
     // x <- f(x) for the fluid, node particles to f of where they began.

@@ -142,27 +142,15 @@ TEST(Account, dissipationIsThatOfTheOperator) {
 // worked out by itself. Whatever the solver leaves, over refinements too, must be in the account.
 TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
     using coupling::testing::SphereScene;
-    const auto build = [](coupling::Scene& scene) {
-        SphereScene spheres({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true);
-        for (coupling::Cell& cell : spheres.cells) {
-            const Vec3 middle = coupling::middleOf(cell);
-            for (Vec3& x : cell.membrane.position) {
-                const Vec3 d = x - middle;
-                x = middle + Vec3(1.3 * d[0], 0.9 * d[1], 0.85 * d[2]);
-            }
-            cell.initialVolume = cell.membrane.volume();
-        }
-        scene.system = std::move(spheres.system);
-        scene.cells = std::move(spheres.cells);
-        scene.fluidBox = scene.system->box();
-        scene.spacing = 1;
-        scene.flow.rate = 0.02;
-        scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
+    const auto build = [] {
+        coupling::Scene scene =
+            SphereScene({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true)
+                .immersedScene(0.02, [](const Vec3& d) { return Vec3(1.3 * d[0], 0.9 * d[1], 0.85 * d[2]); });
         scene.account.kept = true;
+        return scene;
     };
     for (const double tolerance : {0.3, 1e-8}) {
-        coupling::Scene still, moving;
-        build(still), build(moving);
+        coupling::Scene still = build(), moving = build();
         const std::size_t count = 14 * 10 * 10;
         implicit::ImplicitStep::Options options;
         options.settings = {.step = 1, .tolerance = tolerance, .bondStrain = 1};

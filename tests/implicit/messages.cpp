@@ -59,18 +59,10 @@ void expectOneMessageAnIteration(Make&& make, const char* preconditioner) {
 }
 
 struct PulledSphere {
-    coupling::Scene scene;
-    PulledSphere() {
-        coupling::testing::SphereScene sphere({10, 10, 10}, {Vec3(5, 5, 5)}, true);
-        for (Vec3& x : sphere.cells[0].membrane.position) x[0] += 0.01 * (x[0] - 5);
-        sphere.cells[0].initialVolume = sphere.cells[0].membrane.volume();
-        scene.system = std::move(sphere.system);
-        scene.cells = std::move(sphere.cells);
-        scene.fluidBox = scene.system->box();
-        scene.spacing = 1;
-        scene.flow.rate = 0.02;
-        scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
-    }
+    coupling::Scene scene =
+        coupling::testing::SphereScene({10, 10, 10}, {Vec3(5, 5, 5)}, true).immersedScene(0.02, [](const Vec3& d) {
+            return Vec3(1.01 * d[0], d[1], d[2]);
+        });
 };
 
 }  // namespace

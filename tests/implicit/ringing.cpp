@@ -11,22 +11,9 @@ using implicit::ImplicitStep;
 namespace {
 
 coupling::Scene pulledSphere(double stretch) {
-    coupling::testing::SphereScene sphere({10, 10, 10}, {Vec3(5, 5, 5)}, true);
-    coupling::Cell& cell = sphere.cells[0];
-    const Vec3 middle = coupling::middleOf(cell);
-    for (Vec3& x : cell.membrane.position) {
-        const Vec3 d = x - middle;
-        x = middle + Vec3((1 + 2 * stretch) * d[0], (1 - stretch) * d[1], (1 - stretch) * d[2]);
-    }
-    cell.initialVolume = cell.membrane.volume();
-    coupling::Scene scene;
-    scene.system = std::move(sphere.system);
-    scene.cells = std::move(sphere.cells);
-    scene.fluidBox = scene.system->box();
-    scene.spacing = 1;
-    scene.flow.rate = 0.02;
-    scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
-    return scene;
+    return coupling::testing::SphereScene({10, 10, 10}, {Vec3(5, 5, 5)}, true).immersedScene(0.02, [&](const Vec3& d) {
+        return Vec3((1 + 2 * stretch) * d[0], (1 - stretch) * d[1], (1 - stretch) * d[2]);
+    });
 }
 
 }  // namespace

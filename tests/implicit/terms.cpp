@@ -87,6 +87,17 @@ void expectLeadFromTheExtrapolated(Term<double>& term, const Particles& p) {
     EXPECT_LE(worst, 1e-11 * largest);
 }
 
+struct Fluid : coupling::testing::FluidScene {
+    FluidTerm<double> term{scene, sph::OperatorForm::corrected};
+    Particles particles{scene.store(), &term.operators().shared()};
+
+    Fluid()
+        : FluidScene(coupling::testing::still({8, 8, 10}, 0.2), {8, 8, 10}, sph::testing::model("wendlandC2", "linear"),
+                     1e-4, 0, MPI_COMM_WORLD, corpuscle::particles::Precision::full) {
+        term.prepare({duration});
+    }
+};
+
 struct Membranes : coupling::testing::SphereScene {
     coupling::Immersed immersed;
     std::vector<double> volumes;
@@ -128,38 +139,25 @@ struct Membranes : coupling::testing::SphereScene {
 }  // namespace
 
 TEST(Terms, fluidIsSymmetricAndLinear) {
-    const Index3 size{8, 8, 10};
-    coupling::testing::FluidScene f(coupling::testing::still(size, 0.2), size,
-                                    sph::testing::model("wendlandC2", "linear"), 1e-4, 0, MPI_COMM_WORLD,
-                                    particles::Precision::full);
-    FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
-    term.prepare({duration});
-    const Particles particles{f.scene.store(), &term.operators().shared()};
-    expectSymmetricAndLinear(term, particles);
-    EXPECT_TRUE(term.isLinear());
-    for (std::size_t i = 0; i < f.scene.store().size(); ++i) EXPECT_GT(term.diagonal(i), 0);
-    expectLeadFromTheExtrapolated(term, particles);
+    Fluid f;
+    expectSymmetricAndLinear(f.term, f.particles);
+    EXPECT_TRUE(f.term.isLinear());
+    for (std::size_t i = 0; i < f.scene.store().size(); ++i) EXPECT_GT(f.term.diagonal(i), 0);
+    expectLeadFromTheExtrapolated(f.term, f.particles);
 }
 
 // What an earlier term gave to own particles is in the sum, and those of others have what their own ranks have of it, to the last bit.
 TEST(Terms, forcesOnOthersParticlesAreThoseOfTheirRanks) {
-    const Index3 size{8, 8, 10};
-    coupling::testing::FluidScene f(coupling::testing::still(size, 0.2), size,
-                                    sph::testing::model("wendlandC2", "linear"), 1e-4, 0, MPI_COMM_WORLD,
-                                    particles::Precision::full);
-    FluidTerm<double> term(f.scene, sph::OperatorForm::corrected);
-    term.prepare({duration});
-    particles::SharedParticles& shared = term.operators().shared();
-    const Particles particles{f.scene.store(), &shared};
-    const Field v = field(particles, 1, 1e-3);
+    Fluid f;
+    const Field v = field(f.particles, 1, 1e-3);
     RealArray earlier(v.size(), 0.0);
     for (std::size_t i = 0; i < f.scene.store().size(); ++i) earlier[4 * i] = 1e-3 * std::sin(f.scene.store().id[i]);
     RealArray forces = earlier;
-    term.addProduct(v, forces);
+    f.term.addProduct(v, forces);
     RealArray owners = forces;
-    shared.distribute(owners.data(), 4);
+    f.particles.shared->distribute(owners.data(), 4);
     EXPECT_EQ(forces, owners);
-    const RealArray alone = times(term, v);
+    const RealArray alone = times(f.term, v);
     double worst = 0, largest = 0;
     for (std::size_t k = 0; k < 4 * f.scene.store().size(); ++k) {
         worst = std::max(worst, std::abs(forces[k] - alone[k] - earlier[k]));

@@ -20,24 +20,7 @@ namespace {
 constexpr double skin = 0.3;
 using Image = std::array<int, 4>;  // id and image along x, y, z
 
-struct Case {
-    const char* name;
-    Box box;
-    int count;
-    double support, layer;
-};
-
-const Case cases[] = {
-    {"wide", box({8, 7, 6}), 336, 2.0, 0},
-    {"thin", box({7, 3.4, 5}), 119, 2.0, 0},
-    {"thinnerThanReach", box({6, 3.1, 1.2}), 45, 2.2, 0},
-    {"singleColumn", box({0.9, 0.8, 9}), 14, 1.5, 0},
-    {"open", box({5, 5, 7}, false, true, false), 175, 2.0, 0},
-    {"walls", box({7, 6, 9}, true, true, false), 400, 2.0, 2.4},
-    {"almostEmpty", box({9, 9, 9}), 3, 2.0, 0},
-};
-
-class Pairs : public ::testing::TestWithParam<Case> {};
+class Pairs : public ::testing::TestWithParam<PopulatedBox> {};
 
 Image imageOfRecord(const Population& p, const double* record) {
     const int id = static_cast<int>(record[3]);
@@ -127,7 +110,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
 }  // namespace
 
 TEST_P(Pairs, everyPairWithinTheSupportIsListedOnce) {
-    const Case& c = GetParam();
+    const PopulatedBox& c = GetParam();
     const Population p(c.box, c.count, 3, c.layer);
     for (const Precision precision :
          {Precision::full, Precision::mixed}) {  // blocks of different size on some processors
@@ -140,7 +123,7 @@ TEST_P(Pairs, everyPairWithinTheSupportIsListedOnce) {
 }
 
 TEST_P(Pairs, theListHoldsWhileNothingHasMovedMoreThanHalfTheSkin) {
-    const Case& c = GetParam();
+    const PopulatedBox& c = GetParam();
     Population p(c.box, c.count, 4, c.layer);
     ParticleSystem system(MPI_COMM_WORLD, c.box, {}, c.support, skin, 1);
     p.deal(system.store());
@@ -163,7 +146,7 @@ TEST_P(Pairs, theListHoldsWhileNothingHasMovedMoreThanHalfTheSkin) {
     EXPECT_LT(system.rebuilds(), 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, Pairs, ::testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(Boxes, Pairs, ::testing::ValuesIn(populatedBoxes),
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(ParticleSystem, aParticleWithoutFinitePositionAsksForRebuild) {

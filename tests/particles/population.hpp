@@ -47,6 +47,23 @@ inline Box box(const Vec3& size, bool x = true, bool y = true, bool z = true) {
     return {-0.3 * size, 0.7 * size, {x, y, z}};
 }
 
+// Boxes with random particles, from wide ones to those thinner than the reach of a list.
+struct PopulatedBox {
+    const char* name;
+    Box box;
+    int count;
+    double support, layer;  // layer: of walls, at both ends of z
+};
+inline const PopulatedBox populatedBoxes[] = {
+    {"wide", box({8, 7, 6}), 336, 2.0, 0},
+    {"thin", box({7, 3.4, 5}), 119, 2.0, 0},
+    {"thinnerThanReach", box({6, 3.1, 1.2}), 45, 2.2, 0},
+    {"singleColumn", box({0.9, 0.8, 9}), 14, 1.5, 0},
+    {"open", box({5, 5, 7}, false, true, false), 175, 2.0, 0},
+    {"walls", box({7, 6, 9}, true, true, false), 400, 2.0, 2.4},
+    {"almostEmpty", box({9, 9, 9}), 3, 2.0, 0},
+};
+
 // Records of id and kind behind the position: owned filled, ghosts through the halo.
 inline constexpr int tagFields = 5;
 inline RealArray taggedRecords(ParticleSystem& system) {

@@ -15,25 +15,9 @@ using namespace corpuscle::particles::testing;
 
 namespace {
 
-struct Case {
-    const char* name;
-    Box box;
-    int count;
-    double support, layer;
-};
-
-const Case cases[] = {
-    {"wide", box({8, 7, 6}), 336, 2.0, 0},
-    {"thin", box({7, 3.4, 5}), 119, 2.0, 0},
-    {"thinnerThanReach", box({6, 3.1, 1.2}), 45, 2.2, 0},
-    {"open", box({5, 5, 7}, false, true, false), 175, 2.0, 0},
-    {"walls", box({7, 6, 9}, true, true, false), 400, 2.0, 2.4},
-    {"almostEmpty", box({9, 9, 9}), 3, 2.0, 0},
-};
-
-class Shared : public ::testing::TestWithParam<Case> {
+class Shared : public ::testing::TestWithParam<PopulatedBox> {
   protected:
-    const Case& c = GetParam();
+    const PopulatedBox& c = GetParam();
     Population p{c.box, c.count, 5, c.layer};
     ParticleSystem system{MPI_COMM_WORLD, c.box, {}, c.support, 0.3, 1};
     SharedParticles shared;
@@ -135,4 +119,5 @@ TEST_P(Shared, blocksThatReachSharedParticlesAreKnown) {
     for (const int times : seen) EXPECT_EQ(times, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, Shared, ::testing::ValuesIn(cases), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Boxes, Shared, ::testing::ValuesIn(populatedBoxes),
+                         [](const auto& info) { return info.param.name; });
