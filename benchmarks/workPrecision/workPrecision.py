@@ -13,6 +13,7 @@ Lines of PySPH are run by pysphPeer.py where Debian's python3-pysph is installed
 import csv
 import datetime
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -48,10 +49,12 @@ def scaled(run, path, factor):
 
 @dataclass
 class Line:
-    """A scheme: settings, or a function of the run that gives them; the resolutions it is run at and those at which it is only begun."""
+    """A scheme: settings, or a function of the run that gives them; the resolutions it is run at and those at which it is only begun. further: how
+    many times as far as the others it goes, to meet what its error is read from."""
     settings: object
     resolutions: tuple
     begun: tuple = ()
+    further: float = 1
 
 
 @dataclass
@@ -129,10 +132,10 @@ SPHERES = (6, 8, 12, 24)
 CELLS = (4, 6, 8)
 
 
-def sheared(*coarser):
-    """Lines of a cell; coarser: resolutions before those of CELLS."""
+def sheared(*coarser, further=1):
+    """Lines of a cell; coarser: resolutions before those of CELLS. further: of the paper's line."""
     few, all_ = (*coarser, CELLS[0]), (*coarser, *CELLS)
-    return {"paper": Line(PAPER, few, CELLS[1:]), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
+    return {"paper": Line(PAPER, few, CELLS[1:], further), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
             "implicit, step 0.1": Line(implicit(0.1, "3e-3"), all_), "implicit, step 0.05": Line(implicit(0.05, "3e-3"), all_)}
 
 
@@ -151,7 +154,7 @@ DIAGRAMS = {
         **sheared(3), "implicit, step 0.05, Re 0.01": Line(LESS_INERTIA, (6, 8, 12))},
         largest("D12", "period"), what="Ca 0.3", settings=MORE_INERTIA),
     "redCellShear": Diagram("Ca0.02", {
-        **sheared(), "implicit, step 0.05, Re 0.01": Line([*LESS_INERTIA, *implicit(0.05, "3e-3")], CELLS)},
+        **sheared(further=1.3), "implicit, step 0.05, Re 0.01": Line([*LESS_INERTIA, *implicit(0.05, "3e-3")], CELLS)},
         turned, quarter, "Ca 0.02", MORE_INERTIA),
 }
 COLOURS = ("paper", "explicit, plain", "explicit, corrected", "RKL2")  # the first ones of gnuplot; other schemes have the next ones, in order
@@ -192,13 +195,17 @@ def measure(name, scheme, n, binaries, ranks, folder, begin):
     (run,) = (run for run in case.runs(n) if run.name == diagram.run)
     own = line.settings(run) if callable(line.settings) else line.settings
     begun = begin or n in line.begun
-    if begun:
+    part = PART if begun else line.further
+    if part != 1:
         end = next(path for setting in run.settings if (path := setting.split("=")[0]).startswith("system/control.yaml:/end"))
-        own = [*own, scaled(run, end, PART)]
+        own = [*own, scaled(run, end, part)]
     run = replace(run, settings=[*run.settings, *diagram.settings, *own])
     done = {run.name: folder / (f"begun-{run.name}" if begun else run.name)}
     record = suite.execute(run, done[run.name], binaries, ranks)
-    keep(name, scheme, n, record, PART if begun else 1, None if begun else diagram.error(case, done, n), *suite.origin(record))
+    error = None if begun else diagram.error(case, done, n)
+    if error is not None and not math.isfinite(error):
+        sys.exit(f"workPrecision.py: {name}, {scheme}, {n}: the run ended before what its error is read from; let it go further")
+    keep(name, scheme, n, record, part, error, *suite.origin(record))
 
 
 def measurePeer(name, scheme, n, folder, begin):

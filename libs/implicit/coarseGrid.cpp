@@ -22,8 +22,9 @@ struct CoarseGrid::Plans {
 
     Plans(const std::array<int, 3>& count, bool walls) {
         const int last = count[2] / 2 + 1;
-        nodes = static_cast<std::size_t>(count[0] * count[1] * count[2]);
-        modes = static_cast<std::size_t>(count[0] * count[1] * last);
+        const auto plane = static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]);
+        nodes = plane * static_cast<std::size_t>(count[2]);
+        modes = plane * static_cast<std::size_t>(last);
         values = fftw_alloc_real(components * nodes);
         spectrum = fftw_alloc_complex(components * modes);
         // Between walls every plane is transformed by itself.
@@ -97,14 +98,15 @@ void CoarseGrid::factorise() {
     const int last = count_[2] / 2 + 1, planes = count_[0];
     const double scale = 1.0 / (count_[1] * count_[2] * (walls_ ? 1 : planes));  // of both transforms together
     inverse_.resize(plans_->modes);
-    const std::size_t perPlane = static_cast<std::size_t>(count_[1] * last);
+    const std::size_t perPlane = static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(last);
     if (walls_) upper_.resize(perPlane);
     const double h = step_[0];
     const Symbol own{2 * h / 3, 2 / h, 0}, next{h / 6, -1 / h, 0.5};  // of a node with itself and with the next plane
     for (int a = 0; a < count_[1]; ++a)
         for (int b = 0; b < last; ++b) {
             const Symbol sa = symbol(1, a), sb = symbol(2, b);
-            const auto k = static_cast<std::size_t>(a * last + b);
+            const std::size_t k =
+                static_cast<std::size_t>(a) * static_cast<std::size_t>(last) + static_cast<std::size_t>(b);
             if (!walls_) {
                 for (int c = 0; c < planes; ++c)
                     inverse_[static_cast<std::size_t>(c) * perPlane + k] =
@@ -169,7 +171,8 @@ CoarseGrid::Corners CoarseGrid::corners(const Place& p) const {
     Corners c;
     for (std::size_t k = 0; k < 8; ++k) {
         const std::size_t a = k / 4, b = k / 2 % 2, d = k % 2;
-        c.node[k] = static_cast<std::size_t>((p.node[0][a] * count_[1] + p.node[1][b]) * count_[2] + p.node[2][d]);
+        const int node = (p.node[0][a] * count_[1] + p.node[1][b]) * count_[2] + p.node[2][d];
+        c.node[k] = static_cast<std::size_t>(node);
         c.weight[k] = static_cast<double>(p.weight[0][a] * p.weight[1][b] * p.weight[2][d]);
     }
     return c;

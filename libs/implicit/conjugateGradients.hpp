@@ -18,7 +18,8 @@
 
 namespace corpuscle::implicit {
 
-// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same there.
+// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same there, to
+// rounding.
 struct Copies {
     std::size_t first = 0, last = 0;
     template <class F>

@@ -71,7 +71,8 @@ class Step final : public ImplicitStep {
     sph::Operators<Real>& operators() { return fluid_.operators(); }
     const sph::Operators<Real>& operators() const { return fluid_.operators(); }
     bool isFixed(std::size_t i) const { return operators().isWall(i); }
-    // Fields have entries of these, then what bodies have. Those of others hold what their ranks have, where the solver and the terms see them.
+    // Fields have entries of these, then what bodies have. Those of others hold what their ranks have, to rounding, where the solver and
+    // the terms see them.
     particles::SharedParticles& shared() { return operators().shared(); }
     std::size_t entries() const { return operators().shared().entries(); }
     Copies copies() const { return {width * store().size(), width * entries()}; }

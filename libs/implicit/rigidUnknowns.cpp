@@ -151,6 +151,7 @@ void RigidUnknowns<Real>::putRows(const RealArray& force, Field& rows, Row&& row
     }
     for (const auto& m : members())
         std::fill_n(rows.data() + width * static_cast<std::size_t>(m.particle), width, Real(0));
+    for (const OtherMember& m : others_) std::fill_n(rows.data() + width * m.entry, width, Real(0));
 }
 
 template <class Real>

@@ -24,9 +24,9 @@
 // vanishes when everything turns as one piece.
 //
 // In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega, 0. Of a velocity every rank
-// has all of them, and the particles of bodies have theirs; of forces every rank has its part, and its own particles of bodies have none. So the sum over all
-// numbers and ranks is the scalar product, and nothing but the preconditioner needs a reduction. Held and driven bodies keep their
-// velocity: their rows are taken out, as those of walls.
+// has all of them, and the particles of bodies have theirs; of forces every rank has its part, and particles of bodies have none. So the
+// sum over all numbers that a rank counts (Copies of conjugateGradients.hpp) and over the ranks is the scalar product, and nothing but the
+// preconditioner needs a reduction. Held and driven bodies keep their velocity: their rows are taken out, as those of walls.
 #pragma once
 #include <Eigen/Cholesky>
 

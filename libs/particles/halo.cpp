@@ -161,14 +161,15 @@ std::vector<int> Halo::imageOf() const {
 }
 
 std::vector<Halo::Origin> Halo::origins(int owned) {
-    std::vector<double> numbers(static_cast<std::size_t>(owned + ghosts_));
+    const auto n = static_cast<std::size_t>(owned);
+    std::vector<double> numbers(n + static_cast<std::size_t>(ghosts_));
     std::iota(numbers.begin(), numbers.begin() + owned, 0.0);
     begin(numbers.data(), owned, 1, Part{0, 1});
     finish(numbers.data(), owned, 1, Part{0, 1});
     std::vector<Origin> found(static_cast<std::size_t>(ghosts_));
     const auto take = [&](const Message& m) {
         for (int k = m.begin; k < m.end; ++k)
-            found[slot_[k]] = {m.rank, static_cast<int>(numbers[static_cast<std::size_t>(owned + slot_[k])])};
+            found[slot_[k]] = {m.rank, static_cast<int>(numbers[n + static_cast<std::size_t>(slot_[k])])};
     };
     for (const Message& m : receives_) take(m);
     take(selfReceive_);

@@ -6,8 +6,8 @@
 #pragma once
 #include <mpi.h>
 
-#include <compare>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "particles/decomposition.hpp"
@@ -48,7 +48,10 @@ class Halo {
     // A particle by the rank that has it, and its number there.
     struct Origin {
         int rank, particle;
-        auto operator<=>(const Origin&) const = default;
+        bool operator==(const Origin&) const = default;
+        bool operator<(const Origin& other) const {
+            return std::tie(rank, particle) < std::tie(other.rank, other.particle);
+        }
     };
     // Of each ghost. Collective.
     std::vector<Origin> origins(int owned);

@@ -29,8 +29,7 @@ std::vector<Sharer> tell(const std::vector<std::vector<int>>& pairsFor, MPI_Comm
                   MPI_INT, comm);
     std::vector<Sharer> found;
     for (std::size_t r = 0; r < size; ++r)
-        for (auto k = static_cast<std::size_t>(theirStarts[r]);
-             k < static_cast<std::size_t>(theirStarts[r] + theirs[r]); k += 2)
+        for (int k = theirStarts[r]; k < theirStarts[r] + theirs[r]; k += 2)
             found.emplace_back(static_cast<int>(r), received[k], received[k + 1]);
     return found;
 }
@@ -65,38 +64,39 @@ void SharedParticles::plan(ParticleSystem& system) {
 void SharedParticles::findMessages(const ParticleSystem& system, const std::vector<Origin>& others,
                                    const std::vector<Origin>& copies) {
     // A particle on three ranks or more: each of them hears from its owner who else has it.
-    std::vector<std::vector<int>> ranksOf(owned_);
-    for (const Origin& c : copies) ranksOf[static_cast<std::size_t>(c.particle)].push_back(c.rank);
+    std::vector<Origin> byParticle = copies;
+    std::stable_sort(byParticle.begin(), byParticle.end(),
+                     [](const Origin& a, const Origin& b) { return a.particle < b.particle; });
     std::vector<std::vector<int>> news(static_cast<std::size_t>(system.decomposition().size()));
-    for (std::size_t i = 0; i < owned_; ++i)
-        for (const int to : ranksOf[i])
-            for (const int other : ranksOf[i])
-                if (to != other)
-                    news[static_cast<std::size_t>(to)].insert(news[static_cast<std::size_t>(to)].end(),
-                                                              {static_cast<int>(i), other});
+    for (auto first = byParticle.begin(), last = first; first != byParticle.end(); first = last) {
+        last = std::find_if(first, byParticle.end(), [&](const Origin& c) { return c.particle != first->particle; });
+        for (auto to = first; to != last; ++to)
+            for (auto other = first; other != last; ++other) {
+                std::vector<int>& pairs = news[static_cast<std::size_t>(to->rank)];
+                if (to != other) pairs.insert(pairs.end(), {other->particle, other->rank});
+            }
+    }
 
-    struct Element {
-        int rank;       // to which the message goes
-        Origin origin;  // both sides have them in this order
-        std::size_t entry;
-        auto operator<=>(const Element&) const = default;
-    };
+    using Element =
+        std::tuple<int, Origin, std::size_t>;  // rank to which the message goes, in the order of both sides, entry
     std::vector<Element> elements;
+    elements.reserve(copies.size() + others.size());
     for (const Origin& c : copies)
-        elements.push_back({c.rank, {rank_, c.particle}, static_cast<std::size_t>(c.particle)});
-    for (std::size_t k = 0; k < others.size(); ++k) elements.push_back({others[k].rank, others[k], owned_ + k});
+        elements.emplace_back(c.rank, Origin{rank_, c.particle}, static_cast<std::size_t>(c.particle));
+    for (std::size_t k = 0; k < others.size(); ++k) elements.emplace_back(others[k].rank, others[k], owned_ + k);
     for (const auto& [owner, particle, other] : tell(news, comm_)) {
         const Origin origin{owner, particle};
         const auto k = std::lower_bound(others.begin(), others.end(), origin) - others.begin();
-        elements.push_back({other, origin, owned_ + static_cast<std::size_t>(k)});
+        elements.emplace_back(other, origin, owned_ + static_cast<std::size_t>(k));
     }
     std::sort(elements.begin(), elements.end());
 
     index_.clear(), messages_.clear(), shared_.clear();
-    for (const Element& e : elements) {
-        if (messages_.empty() || messages_.back().rank != e.rank)
-            messages_.push_back({e.rank, index_.size(), index_.size()});
-        index_.push_back(e.entry);
+    index_.reserve(elements.size());
+    for (const auto& [rank, origin, entry] : elements) {
+        if (messages_.empty() || messages_.back().rank != rank)
+            messages_.push_back({rank, index_.size(), index_.size()});
+        index_.push_back(entry);
         messages_.back().end = index_.size();
     }
     shared_ = index_;

@@ -22,11 +22,11 @@ std::string rounded(const std::string& text) {
 // Everything below a node by its full key, lists of values as one text.
 void flatten(const Node& node, const std::string& key, Settings& settings) {
     if (node.kind == Node::Kind::table) {
-        for (const auto& [name, value] : node.entries) flatten(value, key + "." + name, settings);
+        for (const auto& [name, value] : node.entries) flatten(value, fmt::format("{}.{}", key, name), settings);
     } else if (node.kind == Node::Kind::list) {
         std::vector<std::string> values;
         for (const Node& item : node.items) values.push_back(rounded(item.scalar));
-        settings[key] = "[" + joinWords(values) + "]" + (node.unit.empty() ? "" : " " + node.unit);
+        settings[key] = fmt::format("[{}]{}{}", joinWords(values), node.unit.empty() ? "" : " ", node.unit);
     } else {
         settings[key] = node.quoted ? node.scalar : rounded(node.scalar);
     }
