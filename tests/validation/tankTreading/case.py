@@ -25,8 +25,9 @@ TURN = {5: 6.5, 6: 6.5, 8: 10}  # strain to which the runs for STRESSES go: by J
 EDGE = 1  # of the mesh, in spacings
 SPREAD = 2  # standard deviations of the measured cells
 INCLINED = {5: 4, 6: 0, 8: 0}  # degrees outside the range of the donors; at 5, what a run to strain 6.5 reaches
-MISSED = {6: (*(f"{viscosity:g} mPa s, {rate:g} 1/s: f/gammadot, *" for viscosity, rate in ((35, 28.6), (35, 171.4), (28.9, 16.9))),
-              *(f"{viscosity:g} mPa s, {rate:g} 1/s: inclination, *" for viscosity, rate in ((35, 28.6), (28.9, 16.9))))}
+OUTSIDE = (*(f"{viscosity:g} mPa s, {rate:g} 1/s: f/gammadot, *" for viscosity, rate in ((35, 28.6), (35, 171.4), (28.9, 16.9))),
+           *(f"{viscosity:g} mPa s, {rate:g} 1/s: inclination, *" for viscosity, rate in ((35, 28.6), (28.9, 16.9))))
+MISSED = {6: OUTSIDE, 8: (*OUTSIDE, *(f"35 mPa s, {rate:g} 1/s: inclination, *" for rate in (57.1, 171.4)))}
 BESIDE = (23.9, 55.9)  # mPa s, where inclinations were measured, to either side of 28.9 and 35
 INSIDE = 10  # mPa s
 
