@@ -17,6 +17,10 @@ template <>
 MPI_Datatype datatype<long>() {
     return MPI_LONG;
 }
+template <>
+MPI_Datatype datatype<int>() {
+    return MPI_INT;
+}
 
 int count(std::size_t n) {
     if (n > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -41,6 +45,34 @@ std::vector<T> gatheredAll(T value, MPI_Comm comm, int size) {
     std::vector<T> all(static_cast<std::size_t>(size));
     MPI_Allgather(&value, 1, datatype<T>(), all.data(), 1, datatype<T>(), comm);
     return all;
+}
+
+// Where each of the parts begins, and behind the last the end.
+std::vector<int> startsOf(const std::vector<int>& lengths) {
+    std::vector<int> starts(lengths.size() + 1, 0);
+    std::size_t total = 0;
+    for (std::size_t r = 0; r < lengths.size(); ++r)
+        total += static_cast<std::size_t>(lengths[r]), starts[r + 1] = count(total);
+    return starts;
+}
+
+template <class T>
+std::vector<std::vector<T>> exchanged(const std::vector<std::vector<T>>& forRank, MPI_Comm comm) {
+    std::vector<int> sent(forRank.size()), received(forRank.size());
+    std::vector<T> out;
+    for (std::size_t r = 0; r < forRank.size(); ++r) {
+        sent[r] = count(forRank[r].size());
+        out.insert(out.end(), forRank[r].begin(), forRank[r].end());
+    }
+    MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, comm);
+    const std::vector<int> from = startsOf(sent), to = startsOf(received);
+    std::vector<T> in(static_cast<std::size_t>(to.back()));
+    MPI_Alltoallv(out.data(), sent.data(), from.data(), datatype<T>(), in.data(), received.data(), to.data(),
+                  datatype<T>(), comm);
+    std::vector<std::vector<T>> parts;
+    parts.reserve(received.size());
+    for (std::size_t r = 0; r < received.size(); ++r) parts.emplace_back(in.begin() + to[r], in.begin() + to[r + 1]);
+    return parts;
 }
 
 }  // namespace
@@ -95,14 +127,10 @@ std::vector<double> Communicator::gatherAll(double value) const { return gathere
 
 std::vector<std::string> Communicator::gather(const std::string& text) const {
     const std::vector<long> lengths = gatherAll(static_cast<long>(text.size()));
-    std::vector<int> counts, starts;
-    std::size_t total = 0;
-    for (long length : lengths) {
-        counts.push_back(count(static_cast<std::size_t>(length)));
-        starts.push_back(count(total));
-        total += static_cast<std::size_t>(length);
-    }
-    std::string all(isRoot() ? total : 0, ' ');
+    std::vector<int> counts;
+    for (const long length : lengths) counts.push_back(count(static_cast<std::size_t>(length)));
+    const std::vector<int> starts = startsOf(counts);
+    std::string all(isRoot() ? static_cast<std::size_t>(starts.back()) : 0, ' ');
     MPI_Gatherv(text.data(), count(text.size()), MPI_CHAR, all.data(), counts.data(), starts.data(), MPI_CHAR, 0,
                 handle_);
     std::vector<std::string> texts;
@@ -110,6 +138,13 @@ std::vector<std::string> Communicator::gather(const std::string& text) const {
         for (std::size_t r = 0; r < lengths.size(); ++r)
             texts.push_back(all.substr(static_cast<std::size_t>(starts[r]), static_cast<std::size_t>(lengths[r])));
     return texts;
+}
+
+std::vector<std::vector<double>> Communicator::exchange(const std::vector<std::vector<double>>& forRank) const {
+    return exchanged(forRank, handle_);
+}
+std::vector<std::vector<int>> Communicator::exchange(const std::vector<std::vector<int>>& forRank) const {
+    return exchanged(forRank, handle_);
 }
 
 }  // namespace corpuscle

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/communicator.hpp"
+
 namespace corpuscle::coupling {
 
 using particles::Box;
@@ -12,7 +14,7 @@ using particles::ParticleSystem;
 namespace {
 
 constexpr int nodeFields = 6;
-enum Tag { listTag = 11, nodeTag, stateTag };
+enum Tag { nodeTag = 11, stateTag };
 
 // Whether some periodic image of [low, high] meets the brick.
 bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles::Brick& brick) {
@@ -135,27 +137,10 @@ void NodeExchange::plan(ParticleSystem& system, std::vector<Cell>& cells, double
                 lists[static_cast<std::size_t>(r)].push_back(cells[static_cast<std::size_t>(owned_[k].cell)].firstNode +
                                                              owned_[k].node);
             }
-    std::vector<int> sendCounts(static_cast<std::size_t>(size)), receiveCounts(static_cast<std::size_t>(size));
-    for (std::size_t r = 0; r < lists.size(); ++r) sendCounts[r] = static_cast<int>(lists[r].size());
-    MPI_Alltoall(sendCounts.data(), 1, MPI_INT, receiveCounts.data(), 1, MPI_INT, system.comm());
-    std::vector<std::vector<int>> received(lists.size());
-    requests_.clear();
+    const std::vector<std::vector<int>> received = Communicator(system.comm()).exchange(lists);
     for (int r = 0; r < size; ++r) {
         const auto k = static_cast<std::size_t>(r);
-        if (receiveCounts[k] > 0) {
-            received[k].resize(static_cast<std::size_t>(receiveCounts[k]));
-            requests_.emplace_back();
-            MPI_Irecv(received[k].data(), receiveCounts[k], MPI_INT, r, listTag, system.comm(), &requests_.back());
-        }
-        if (sendCounts[k] > 0) {
-            requests_.emplace_back();
-            MPI_Isend(lists[k].data(), sendCounts[k], MPI_INT, r, listTag, system.comm(), &requests_.back());
-        }
-    }
-    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-    for (int r = 0; r < size; ++r) {
-        const auto k = static_cast<std::size_t>(r);
-        if (sendCounts[k] == 0 && receiveCounts[k] == 0) continue;
+        if (lists[k].empty() && received[k].empty()) continue;
         Channel channel{r, entries[k], {}, {}, {}};
         for (const int node : received[k]) {
             const int c = cellOfNode[static_cast<std::size_t>(node)];

@@ -6,8 +6,8 @@
 #include <bit>
 #include <limits>
 #include <memory>
-#include <numeric>
 
+#include "core/communicator.hpp"
 #include "core/error.hpp"
 
 namespace corpuscle::particles {
@@ -149,43 +149,32 @@ double Decomposition::imbalance(std::size_t owned) const {
 }
 
 void migrate(ParticleStore& particles, const Decomposition& decomposition) {
-    const int size = decomposition.size();
-    if (size == 1) return;
-    std::vector<std::vector<int>> leaving(static_cast<std::size_t>(size));
+    if (decomposition.size() == 1) return;
+    std::vector<std::vector<double>> leaving(static_cast<std::size_t>(decomposition.size()));
     std::vector<int> staying;
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const int to = decomposition.owner(particles.position(i));
-        (to == decomposition.rank() ? staying : leaving[static_cast<std::size_t>(to)]).push_back(static_cast<int>(i));
-    }
-    int fields = 0;
-    particles.forEachField([&](std::string_view, const auto&) { ++fields; });
-
-    std::vector<int> sendCounts(leaving.size()), receiveCounts(leaving.size());
-    for (std::size_t r = 0; r < leaving.size(); ++r) sendCounts[r] = static_cast<int>(leaving[r].size()) * fields;
-    MPI_Alltoall(sendCounts.data(), 1, MPI_INT, receiveCounts.data(), 1, MPI_INT, decomposition.comm());
-    std::vector<int> sendStart(leaving.size() + 1, 0), receiveStart(leaving.size() + 1, 0);
-    std::partial_sum(sendCounts.begin(), sendCounts.end(), sendStart.begin() + 1);
-    std::partial_sum(receiveCounts.begin(), receiveCounts.end(), receiveStart.begin() + 1);
-    std::vector<double> sent(static_cast<std::size_t>(sendStart.back())),
-        received(static_cast<std::size_t>(receiveStart.back()));
-    for (std::size_t r = 0; r < leaving.size(); ++r) {
-        double* out = sent.data() + sendStart[r];
-        for (const int i : leaving[r])
+        if (to == decomposition.rank())
+            staying.push_back(static_cast<int>(i));
+        else
             particles.forEachField(
-                [&](std::string_view, const auto& array) { *out++ = std::bit_cast<double>(array[i]); });
+                [&, &numbers = leaving[static_cast<std::size_t>(to)]](std::string_view, const auto& array) {
+                    numbers.push_back(std::bit_cast<double>(array[i]));
+                });
     }
-    MPI_Alltoallv(sent.data(), sendCounts.data(), sendStart.data(), MPI_DOUBLE, received.data(), receiveCounts.data(),
-                  receiveStart.data(), MPI_DOUBLE, decomposition.comm());
+    const std::vector<std::vector<double>> arriving = Communicator(decomposition.comm()).exchange(leaving);
 
-    if (staying.size() == particles.size() && received.empty()) return;
+    std::size_t numbers = 0, fields = 0, place = staying.size();
+    for (const std::vector<double>& part : arriving) numbers += part.size();
+    if (staying.size() == particles.size() && numbers == 0) return;
+    particles.forEachField([&](std::string_view, const auto&) { ++fields; });
     particles.reorder(staying);
-    const std::size_t kept = staying.size(), arriving = received.size() / static_cast<std::size_t>(fields);
-    particles.resize(kept + arriving);
-    const double* in = received.data();
-    for (std::size_t i = kept; i < kept + arriving; ++i)
-        particles.forEachField([&](std::string_view, auto& array) {
-            array[i] = std::bit_cast<typename std::remove_reference_t<decltype(array)>::value_type>(*in++);
-        });
+    particles.resize(staying.size() + numbers / fields);
+    for (const std::vector<double>& part : arriving)
+        for (auto in = part.begin(); in != part.end(); ++place)
+            particles.forEachField([&](std::string_view, auto& array) {
+                array[place] = std::bit_cast<typename std::remove_reference_t<decltype(array)>::value_type>(*in++);
+            });
 }
 
 }  // namespace corpuscle::particles

@@ -5,34 +5,14 @@
 #include <tuple>
 #include <utility>
 
+#include "core/communicator.hpp"
+
 namespace corpuscle::particles {
 
 namespace {
 
 using Origin = Halo::Origin;
 constexpr int tag = 1;
-
-// To each rank the pairs (number, rank) meant for it; what was meant for this one, with the sender's rank in front.
-using Sharer = std::tuple<int, int, int>;  // owner, its particle, another rank that has it
-std::vector<Sharer> tell(const std::vector<std::vector<int>>& pairsFor, MPI_Comm comm) {
-    const std::size_t size = pairsFor.size();
-    std::vector<int> counts(size), starts(size), theirs(size), theirStarts(size), all;
-    for (std::size_t r = 0; r < size; ++r) {
-        counts[r] = static_cast<int>(pairsFor[r].size()), starts[r] = static_cast<int>(all.size());
-        all.insert(all.end(), pairsFor[r].begin(), pairsFor[r].end());
-    }
-    MPI_Alltoall(counts.data(), 1, MPI_INT, theirs.data(), 1, MPI_INT, comm);
-    int total = 0;
-    for (std::size_t r = 0; r < size; ++r) theirStarts[r] = total, total += theirs[r];
-    std::vector<int> received(static_cast<std::size_t>(total));
-    MPI_Alltoallv(all.data(), counts.data(), starts.data(), MPI_INT, received.data(), theirs.data(), theirStarts.data(),
-                  MPI_INT, comm);
-    std::vector<Sharer> found;
-    for (std::size_t r = 0; r < size; ++r)
-        for (int k = theirStarts[r]; k < theirStarts[r] + theirs[r]; k += 2)
-            found.emplace_back(static_cast<int>(r), received[k], received[k + 1]);
-    return found;
-}
 
 }  // namespace
 
@@ -63,7 +43,7 @@ void SharedParticles::plan(ParticleSystem& system) {
 
 void SharedParticles::findMessages(const ParticleSystem& system, const std::vector<Origin>& others,
                                    const std::vector<Origin>& copies) {
-    // A particle on three ranks or more: each of them hears from its owner who else has it.
+    // A particle on three ranks or more: each of them hears from its owner who else has it, in pairs of particle and rank.
     std::vector<Origin> byParticle = copies;
     std::stable_sort(byParticle.begin(), byParticle.end(),
                      [](const Origin& a, const Origin& b) { return a.particle < b.particle; });
@@ -84,11 +64,13 @@ void SharedParticles::findMessages(const ParticleSystem& system, const std::vect
     for (const Origin& c : copies)
         elements.emplace_back(c.rank, Origin{rank_, c.particle}, static_cast<std::size_t>(c.particle));
     for (std::size_t k = 0; k < others.size(); ++k) elements.emplace_back(others[k].rank, others[k], owned_ + k);
-    for (const auto& [owner, particle, other] : tell(news, comm_)) {
-        const Origin origin{owner, particle};
-        const auto k = std::lower_bound(others.begin(), others.end(), origin) - others.begin();
-        elements.emplace_back(other, origin, owned_ + static_cast<std::size_t>(k));
-    }
+    const std::vector<std::vector<int>> heard = Communicator(comm_).exchange(news);
+    for (std::size_t owner = 0; owner < heard.size(); ++owner)
+        for (std::size_t k = 0; k < heard[owner].size(); k += 2) {
+            const Origin origin{static_cast<int>(owner), heard[owner][k]};
+            const auto place = std::lower_bound(others.begin(), others.end(), origin) - others.begin();
+            elements.emplace_back(heard[owner][k + 1], origin, owned_ + static_cast<std::size_t>(place));
+        }
     std::sort(elements.begin(), elements.end());
 
     index_.clear(), messages_.clear(), shared_.clear();

@@ -22,6 +22,13 @@ class RecordFrame {
     double scale_;
 };
 
+// Adds the pairs of the named blocks to `sums`.
+template <class Constants, class Real>
+void addPairs(const PairKernel<Constants, Real>& kernel, const Constants& constants, const PairList& list,
+              const std::vector<int>& blocks, const AlignedVector<Real>& records, RealArray& sums) {
+    kernel.run(constants, list.view(), blocks.data(), static_cast<int>(blocks.size()), records.data(), sums.data());
+}
+
 // results[0 .. count) of the owned particles, count the law's sums. `records` holds `fields` doubles per particle, those of owned ones filled, with room for
 // ghosts behind them; `sums` is memory to work in. atWall: the form of the law for blocks that meet a wall. Collective.
 template <class Constants, class Real>
@@ -30,11 +37,8 @@ void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& ker
                   int fields, RealArray& sums, double* const* results, int count = 4) {
     sums.assign(static_cast<std::size_t>(system.owned() + system.ghosts()) * static_cast<std::size_t>(count), 0.0);
     system.forEachPair(records.data(), fields, 1 / system.support(), [&](PairList::Group group) {
-        const std::vector<int>& blocks = system.list().blocks(group);
-        const bool wall = PairList::isAtWall(group);
-        (wall ? atWall : kernel)
-            .run(constants, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
-                 sums.data());
+        addPairs(PairList::isAtWall(group) ? atWall : kernel, constants, system.list(), system.list().blocks(group),
+                 records, sums);
     });
     system.halo().foldImages(sums.data(), system.owned(), count);
     kernel.finish(constants, system.owned(), records.data(), sums.data(), results);

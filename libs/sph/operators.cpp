@@ -152,8 +152,8 @@ void Operators<Real>::sumRates(ParticleSystem& system, const Field& u, Known kno
         std::copy_n(u.data() + width * entry, 3, rateRecords_.data() + rateFields * record + 3);
     };
     const auto work = [&](PairList::Group group) {
-        run(system, PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, system.list().blocks(group),
-            rateRecords_, sums);
+        particles::addPairs(PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, walls_, system.list(),
+                            system.list().blocks(group), rateRecords_, sums);
     };
     const std::size_t n = volume_.size();
     for (std::size_t i = 0; i < n; ++i) put(i, i);
@@ -232,8 +232,8 @@ void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& fo
         }
     std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // what rates left to others
     const auto work = [&](const particles::SharedParticles::Blocks& blocks) {
-        run(system, kernels_.stress, blocks.away, stressRecords_, sums_);
-        run(system, kernels_.stressAtWall, blocks.atWall, stressRecords_, sums_);
+        particles::addPairs(kernels_.stress, walls_, system.list(), blocks.away, stressRecords_, sums_);
+        particles::addPairs(kernels_.stressAtWall, walls_, system.list(), blocks.atWall, stressRecords_, sums_);
         system.halo().foldImages(sums_.data(), system.owned(), width);
     };
     work(shared_.reaching());

@@ -105,12 +105,6 @@ class Operators {
     void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ of gradientSums_
     void sumRates(particles::ParticleSystem& system, const Field& u, Known known, particles::RealArray& sums,
                   int count);
-    template <class Kernel>
-    void run(const particles::ParticleSystem& system, const Kernel& kernel, const std::vector<int>& blocks,
-             const Field& records, particles::RealArray& sums) const {
-        kernel.run(walls_, system.list().view(), blocks.data(), static_cast<int>(blocks.size()), records.data(),
-                   sums.data());
-    }
 
     FluidModel model_;
     OperatorForm form_;

@@ -39,6 +39,24 @@ TEST(Communicator, reductionsAndTexts) {
     for (std::size_t i = 0; i < texts.size(); ++i) EXPECT_EQ(texts[i], std::string(i, 'x'));
 }
 
+// Rank r has for rank q the numbers q, q + 0.5, ... : r + q of them, so that some have nothing.
+template <class T>
+void expectExchange() {
+    const Communicator c;
+    const auto part = [](int from, int to) {
+        std::vector<T> numbers;
+        for (int k = 0; k < from + to; ++k) numbers.push_back(static_cast<T>(1000 * from + to + 0.5 * k));
+        return numbers;
+    };
+    std::vector<std::vector<T>> forRank, expected;
+    for (int q = 0; q < c.size(); ++q) forRank.push_back(part(c.rank(), q)), expected.push_back(part(q, c.rank()));
+    EXPECT_EQ(c.exchange(forRank), expected);
+}
+TEST(Communicator, exchangeBringsEachRankWhatIsMeantForIt) {
+    expectExchange<double>();
+    expectExchange<int>();
+}
+
 fs::path folder() { return fs::temp_directory_path() / "corpuscleStopControl"; }
 
 // Every rank stops at the same step, for the same reason.

@@ -36,13 +36,18 @@ def runs(n):
     for r in reference:
         for axis, direction in (("gradient", "[0, 0, 1]"), ("flow", "[1, 0, 0]")):
             for motion in ("free", "held"):
-                found.append(run(f"{r:g}-{motion}-{axis}", n, r, direction, motion, 0.3))
+                found.append(run(f"{r:g}-{motion}-{axis}", n, shape(r), direction, motion, 0.3))
         if r in TURNS.get(n, ()):
-            found.append(run(f"{r:g}-turn", n, r, "[0, 0, 1]", "free", 1.06 * reference[r]["period"] / 4))
+            found.append(run(f"{r:g}-turn", n, shape(r), "[0, 0, 1]", "free", 1.06 * reference[r]["period"] / 4))
     return found
 
 
-def run(name, n, r, direction, motion, strain):
+def shape(r):
+    return f"{{type: spheroid, a: {1e6 * A:g} um, c: {1e6 * A * r:g} um}}"
+
+
+def run(name, n, body, direction, motion, strain):
+    """A body of the named shape, 2 A = n dx across."""
     size = ", ".join(f"{1e6 * A * k:g}" for k in BOX)
     return Run(name, TUTORIALS / "jeffery", [
         f"system/numerics.yaml:/spacing={2e6 * A / n:.10g} um",
@@ -50,7 +55,7 @@ def run(name, n, r, direction, motion, strain):
         "system/numerics.yaml:/integrator=implicit",
         f"system/numerics.yaml:/implicit={{step: {STEP}, error: 1}}",  # equal steps: rates are means over those from START on
         f"system/mesh.yaml:/domain/size=[{size}] um",
-        f"system/mesh.yaml:/bodies/0/shape={{type: spheroid, a: {1e6 * A:g} um, c: {1e6 * A * r:g} um}}",
+        f"system/mesh.yaml:/bodies/0/shape={body}",
         f"system/mesh.yaml:/bodies/0/edge={1e6 * A / 24:.6g} um",
         f"system/mesh.yaml:/bodies/0/axis={direction}",
         f"system/control.yaml:/endStrain={strain:g}",
