@@ -7,6 +7,7 @@
    names a library of a lower layer, its own, or one of SAME_LAYER. What is included is reached through DEPENDS.
 2. Every library has its CMakeLists.txt, its tests in tests/<library> and its page docs/<library>.md.
 3. No file names a place of the machine that it was written on.
+4. A file that begins with #! can be called by its name.
 """
 import os
 import re
@@ -100,7 +101,8 @@ def check_companions(root, fail):
                 fail(f"{path} is missing: every library has a page and a folder of tests")
 
 
-def check_places(root, fail):
+def texts(root):
+    """(path, content) of every file that is not binary and not what a build or a case makes."""
     for folder, names, files in os.walk(root):
         in_tutorial = "tutorials" in Path(folder).relative_to(root).parts
         names[:] = [n for n in names if not GENERATED.fullmatch(n) and not (in_tutorial and n in GENERATED_IN_CASES)]
@@ -109,18 +111,28 @@ def check_places(root, fail):
             if path.is_symlink() or (in_tutorial and (name.startswith("log.") or name in {"run.json", "used.yaml"})):
                 continue
             content = path.read_bytes()
-            if b"\0" in content:
-                continue
-            for number, line in enumerate(content.decode(errors="replace").splitlines(), 1):
-                found = PLACES.search(line)
-                if found:
-                    fail(f"{path.relative_to(root)}:{number}: names '{found.group(0)}', a place of one machine")
+            if b"\0" not in content:
+                yield path, content.decode(errors="replace")
+
+
+def check_places(root, fail):
+    for path, content in texts(root):
+        for number, line in enumerate(content.splitlines(), 1):
+            found = PLACES.search(line)
+            if found:
+                fail(f"{path.relative_to(root)}:{number}: names '{found.group(0)}', a place of one machine")
+
+
+def check_scripts(root, fail):
+    for path, content in texts(root):
+        if content.startswith("#!") and not os.access(path, os.X_OK):
+            fail(f"{path.relative_to(root)}: begins with #! and is not executable: chmod +x")
 
 
 def main():
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]).resolve()
     failures = []
-    for check in (check_dependencies, check_companions, check_places):
+    for check in (check_dependencies, check_companions, check_places, check_scripts):
         check(root, failures.append)
     for failure in failures:
         print(failure)
