@@ -59,7 +59,7 @@ void Membrane::addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) cons
 }
 
 void Membrane::addViscousForces(std::span<const Vec3> v, std::span<Vec3> f) const {
-    laws_.viscosity->addForces(*network_, position, v, f);
+    laws_.viscosity->addForces(*network_, {position, velocity}, v, f);
 }
 
 double Membrane::energy() const {
@@ -78,7 +78,7 @@ void Membrane::addStiffness(Definiteness definiteness, Stiffness& stiffness) con
 
 void Membrane::addDamping(Stiffness& damping) const {
     if (isViscous()) {
-        laws_.viscosity->addDamping(*network_, position, damping);
+        laws_.viscosity->addDamping(*network_, {position, velocity}, damping);
     }
 }
 

@@ -33,11 +33,11 @@ class Membrane {
     void computeForces();  // force = -d energy/d position, all terms, and those of viscosity
     void addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) const;
     bool isViscous() const { return laws_.viscosity.has_value(); }
-    void addViscousForces(std::span<const Vec3> v,
-                          std::span<Vec3> f) const;  // for velocities v at the present positions
-    double energy() const;                           // J
+    // For velocities v at the present positions, by the viscosity that the membrane has at its own velocity: linear in v.
+    void addViscousForces(std::span<const Vec3> v, std::span<Vec3> f) const;
+    double energy() const;  // J
     void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;
-    // The matrix C of viscous forces -C v at the present positions, N s/m; nothing when the membrane is not viscous.
+    // The matrix C of these forces -C v, N s/m; nothing when the membrane is not viscous.
     void addDamping(Stiffness& damping) const;
     double maxStiffness() const;  // bound of the stiffness' largest eigenvalue now, N/m
 

@@ -1,41 +1,93 @@
 #include "membrane/surfaceViscosity.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 
 namespace corpuscle::membrane {
 
-const Schema<SurfaceViscosity>& SurfaceViscosity::schema() {
-    static const Schema<SurfaceViscosity> s =
-        Schema<SurfaceViscosity>("surface viscosity", "viscosity of the membrane itself, a Newtonian sheet")
-            .quantity("shear", &SurfaceViscosity::shear, unit::newtonSecondPerMetre, "against change of shape",
-                      {.range = nonNegative})
-            .quantity("dilatation", &SurfaceViscosity::dilatation, unit::newtonSecondPerMetre, "against change of area",
-                      {.fallback = "0 N s/m", .range = nonNegative});
+namespace {
+
+using Mat2 = Eigen::Matrix2d;
+
+// Of a triangle: its metric, and the rates of it that velocities make.
+class Patch {
+  public:
+    Patch(const Index3& node, std::span<const Vec3> x)
+        : node_(node),
+          a_(x[node[1]] - x[node[0]]),
+          b_(x[node[2]] - x[node[0]]),
+          metric_{{a_.dot(a_), a_.dot(b_)}, {a_.dot(b_), b_.dot(b_)}},
+          inverse_(metric_.inverse()) {}
+    const Vec3& a() const { return a_; }
+    const Vec3& b() const { return b_; }
+    const Mat2& inverse() const { return inverse_; }
+    double area() const { return 0.5 * std::sqrt(metric_.determinant()); }
+    Mat2 rate(std::span<const Vec3> v) const {  // D
+        const Vec3 da = v[node_[1]] - v[node_[0]], db = v[node_[2]] - v[node_[0]];
+        const double mixed = 0.5 * (a_.dot(db) + b_.dot(da));
+        return Mat2{{a_.dot(da), mixed}, {mixed, b_.dot(db)}};
+    }
+    double shearRate(std::span<const Vec3> u) const {  // q^2 = 2 D:D - (tr D)^2
+        const Mat2 mixed = inverse_ * rate(u);
+        const double trace = mixed.trace();
+        return std::sqrt(std::max(0.0, 2 * (mixed * mixed).trace() - trace * trace));
+    }
+
+  private:
+    const Index3& node_;
+    Vec3 a_, b_;
+    Mat2 metric_, inverse_;
+};
+
+}  // namespace
+
+const Schema<ShearThinning>& ShearThinning::schema() {
+    static const Schema<ShearThinning> s =
+        Schema<ShearThinning>("shear thinning", "viscosity of the membrane that falls with its rate of shear")
+            .quantity("rate", &ShearThinning::rate, unit::perSecond, "rate of shear from which it falls",
+                      {.range = positive})
+            .quantity("index", &ShearThinning::index, unit::none,
+                      "of the power law beyond: viscosity as rate^(index - 1)",
+                      {.range = {.low = 0, .high = 1, .lowOpen = true}});
     return s;
 }
 
-void SurfaceViscosity::addForces(const Network& network, std::span<const Vec3> x, std::span<const Vec3> v,
+double ShearThinning::factor(double shearRate) const {
+    const double ratio = shearRate / rate;
+    return std::pow(1 + ratio * ratio, 0.5 * (index - 1));
+}
+
+const Schema<SurfaceViscosity>& SurfaceViscosity::schema() {
+    static const Schema<SurfaceViscosity> s =
+        Schema<SurfaceViscosity>("surface viscosity",
+                                 "viscosity of the membrane itself, a Newtonian sheet unless it thins")
+            .quantity("shear", &SurfaceViscosity::shear, unit::newtonSecondPerMetre,
+                      "against change of shape; at rest, where it thins", {.range = nonNegative})
+            .quantity("dilatation", &SurfaceViscosity::dilatation, unit::newtonSecondPerMetre, "against change of area",
+                      {.fallback = "0 N s/m", .range = nonNegative})
+            .table("thinning", &SurfaceViscosity::thinning, "shear falls with the sheet's rate of shear (Carreau)");
+    return s;
+}
+
+void SurfaceViscosity::addForces(const Network& network, const SurfaceMotion& motion, std::span<const Vec3> v,
                                  std::span<Vec3> f) const {
-    using Mat2 = Eigen::Matrix2d;
     for (const int triangle : network.wholeTriangles()) {
         const Index3& node = network.triangles()[triangle];
-        const Vec3 a = x[node[1]] - x[node[0]], b = x[node[2]] - x[node[0]];
-        const Vec3 da = v[node[1]] - v[node[0]], db = v[node[2]] - v[node[0]];
-        const Mat2 metric{{a.dot(a), a.dot(b)}, {a.dot(b), b.dot(b)}};
-        const double mixed = 0.5 * (a.dot(db) + b.dot(da));
-        const Mat2 rate{{a.dot(da), mixed}, {mixed, b.dot(db)}};
-        const double area = 0.5 * std::sqrt(metric.determinant());
-        const Mat2 inverse = metric.inverse();
-        const Mat2 tension = area * (2 * shear * inverse * rate * inverse +
-                                     (dilatation - shear) * inverse.cwiseProduct(rate).sum() * inverse);
-        const Vec3 f1 = tension(0, 0) * a + tension(0, 1) * b, f2 = tension(1, 0) * a + tension(1, 1) * b;
+        const Patch patch(node, motion.x);
+        const double ofShape = thinning ? shearAt(patch.shearRate(motion.u)) : shear;
+        const Mat2 &inverse = patch.inverse(), rate = patch.rate(v);
+        const Mat2 tension = patch.area() * (2 * ofShape * inverse * rate * inverse +
+                                             (dilatation - ofShape) * inverse.cwiseProduct(rate).sum() * inverse);
+        const Vec3 f1 = tension(0, 0) * patch.a() + tension(0, 1) * patch.b(),
+                   f2 = tension(1, 0) * patch.a() + tension(1, 1) * patch.b();
         f[node[0]] += f1 + f2;
         f[node[1]] -= f1;
         f[node[2]] -= f2;
     }
 }
 
-void SurfaceViscosity::addDamping(const Network& network, std::span<const Vec3> x, Stiffness& damping) const {
+void SurfaceViscosity::addDamping(const Network& network, const SurfaceMotion& motion, Stiffness& damping) const {
+    const std::span<const Vec3> x = motion.x;
     for (const int triangle : network.wholeTriangles()) {
         const Index3& node = network.triangles()[triangle];
         const Vec3 a = x[node[1]] - x[node[0]], b = x[node[2]] - x[node[0]];
@@ -44,7 +96,8 @@ void SurfaceViscosity::addDamping(const Network& network, std::span<const Vec3> 
         const double p = b.dot(ex), q = (b - p * ex).norm();  // triangle (0, 0), (l, 0), (p, q) of area l q/2
         const Vec3 ey = (b - p * ex) / q;
         const std::array<double, 3> dNdx{-1 / l, 1 / l, 0}, dNdy{(p - l) / (l * q), -p / (l * q), 1 / q};
-        const double ofShape = std::sqrt(0.5 * l * q * shear), ofArea = std::sqrt(0.5 * l * q * dilatation);
+        const double viscosity = thinning ? shearAt(Patch(node, x).shearRate(motion.u)) : shear;
+        const double ofShape = std::sqrt(0.5 * l * q * viscosity), ofArea = std::sqrt(0.5 * l * q * dilatation);
         Eigen::Matrix<double, 3, 9> rates;
         for (int n = 0; n < 3; ++n) {
             const Vec3 xx = dNdx[n] * ex, yy = dNdy[n] * ey, twiceXy = dNdy[n] * ex + dNdx[n] * ey;

@@ -12,20 +12,45 @@
 // is dissipated: in an orthonormal frame of the triangle
 //     A tau:D = A (shear ((D_xx - D_yy)^2 + (2 D_xy)^2) + dilatation (D_xx + D_yy)^2),
 // three squares of rates linear in v, whence the damping matrix C of F = -C v. A broken triangle has none. Kelvin's and Voigt's membrane with a sheet law: it creeps back in the time shear/Gs.
+//
+// Shear thinning, where it is named (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99; of red cells: Tran-Son-Tay, Sutera, Rao, Biophys. J. 46
+// (1984) 65, whose viscosity halves from 29 to 57 1/s), with the rate of shear of the triangle, q = sqrt((D_xx - D_yy)^2 + (2 D_xy)^2):
+//     shear (1 + (q/rate)^2)^((index - 1)/2)          in place of shear; proportional to q^(index - 1) from about 2 rate on
+// rate  | from which the membrane thins                     | 1/s
+// index | of the power law beyond; 1: Newtonian             | 1
+// The rate of shear is that of velocities u of their own, so that what is left is linear in v and C stays as above: u are the velocities with
+// which the nodes came to x.
 #pragma once
+#include <optional>
+
 #include "core/settings.hpp"
 #include "membrane/network.hpp"
 #include "membrane/stiffness.hpp"
 
 namespace corpuscle::membrane {
 
+struct ShearThinning {
+    double rate = 0, index = 1;
+
+    double factor(double shearRate) const;  // of the viscosity
+    static const Schema<ShearThinning>& schema();
+};
+
+// Nodes and what moves them: positions x [m], and the velocities u [m/s] whose rates of shear set the viscosity.
+struct SurfaceMotion {
+    std::span<const Vec3> x, u;
+};
+
 struct SurfaceViscosity {
     double shear = 0, dilatation = 0;  // N s/m
+    std::optional<ShearThinning> thinning = {};
 
-    // Adds to f [N] for the velocities v [m/s] at x [m].
-    void addForces(const Network& network, std::span<const Vec3> x, std::span<const Vec3> v, std::span<Vec3> f) const;
-    // Adds C [N s/m] at x [m], exact, symmetric and positive semi-definite triangle by triangle.
-    void addDamping(const Network& network, std::span<const Vec3> x, Stiffness& damping) const;
+    double shearAt(double shearRate) const { return thinning ? shear * thinning->factor(shearRate) : shear; }  // N s/m
+    // Adds to f [N] for the velocities v [m/s].
+    void addForces(const Network& network, const SurfaceMotion& motion, std::span<const Vec3> v,
+                   std::span<Vec3> f) const;
+    // Adds C [N s/m], symmetric and positive semi-definite triangle by triangle.
+    void addDamping(const Network& network, const SurfaceMotion& motion, Stiffness& damping) const;
     static const Schema<SurfaceViscosity>& schema();
 };
 

@@ -64,7 +64,9 @@ void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
                whose);
     if (laws.viscosity)
         groups.add("Bq", laws.viscosity->shear / (c.fluid.viscosity * a),
-                   "Boussinesq number: shear viscosity of the membrane over mu a", whose);
+                   laws.viscosity->thinning ? "Boussinesq number: shear viscosity of the membrane at rest over mu a"
+                                            : "Boussinesq number: shear viscosity of the membrane over mu a",
+                   whose);
     if (laws.bending) {
         const double kappa = laws.bending->bendingModulus({Gs, a});
         groups.add("E_b", kappa / (Gs * a * a),

@@ -70,6 +70,22 @@ TEST(MembraneSettings, TrianglesInPlaceOfBondsOrBesideThem) {
     EXPECT_NEAR(both.moduli(1).area, 2e-6 + 4.330127018922e-4 + 3e-4, 1e-15);
 }
 
+TEST(MembraneSettings, ViscosityThatThins) {
+    Problems problems;
+    const MembraneSettings s = parse(
+        "bonds: {type: harmonic, k: 5e-4 N/m}\n"
+        "viscosity: {shear: 0.5 uN s/m, thinning: {rate: 2 1/s, index: 0.3}}\n",
+        problems);
+    ASSERT_NO_THROW(problems.throwIfAny());
+    EXPECT_EQ(s.viscosity->dilatation, 0);
+    EXPECT_NEAR(s.viscosity->shearAt(0), 5e-7, 1e-20);
+    EXPECT_NEAR(s.viscosity->shearAt(200), 5e-7 * std::pow(100, -0.7), 1e-11);
+    const std::string said = problemsOf(
+        "bonds: {type: harmonic, k: 1 N/m}\nviscosity: {shear: 1 N s/m, thinning: {rate: 0 1/s, index: 1.2}}\n");
+    EXPECT_NE(said.find("rate: "), std::string::npos) << said;
+    EXPECT_NE(said.find("index: "), std::string::npos) << said;
+}
+
 TEST(MembraneSettings, HelfrichAreaAndVolume) {
     Problems problems;
     const MembraneSettings s = parse(

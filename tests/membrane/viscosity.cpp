@@ -14,10 +14,11 @@ using testing::Mesh;
 using Vectors = std::vector<Vec3>;
 
 constexpr SurfaceViscosity law{0.7, 1.9};
+constexpr SurfaceViscosity thinningLaw{0.7, 1.9, ShearThinning{0.25, 0.4}};
 
 Vectors forces(const Network& network, const Vectors& x, const Vectors& v) {
     Vectors f(x.size(), Vec3::Zero());
-    law.addForces(network, x, v, f);
+    law.addForces(network, {x, v}, v, f);
     return f;
 }
 
@@ -76,6 +77,33 @@ TEST(SurfaceViscosity, DissipatesTensionTimesRateInEveryHomogeneousFlowOfASheet)
     }
 }
 
+// Carreau's law with the rate of shear of the flow, whatever shape the triangles have; growth does not thin.
+TEST(SurfaceViscosity, ThinsWithTheRateOfShear) {
+    const ShearThinning thinning = *thinningLaw.thinning;
+    EXPECT_EQ(thinning.factor(0), 1);
+    EXPECT_DOUBLE_EQ(thinning.factor(0.25), std::pow(2, -0.3));
+    EXPECT_NEAR(thinning.factor(800) / thinning.factor(100), std::pow(8, -0.6), 1e-5);
+
+    const Mesh mesh = testing::hexagonalPatch(5);
+    const Network network(mesh.nodes, mesh.triangles);
+    Vectors x = mesh.nodes;
+    for (Vec3& p : x) {
+        p = Vec3(1.4 * p.x() + 0.3 * p.y(), 0.8 * p.y(), 0);
+    }
+    const double area = 1.4 * 0.8 * 25 * testing::hexagonalCell;
+    for (const auto& [xx, xy, yx, yy] :
+         {std::array{0.0, 0.6, 0.0, 0.0}, std::array{0.3, 0.9, 0.2, -0.1}, std::array{0.2, 0.0, 0.0, 0.2}}) {
+        const Vectors u =
+            velocities(x, [&](const Vec3& p) { return Vec3(xx * p.x() + xy * p.y(), yx * p.x() + yy * p.y(), 0); });
+        const double q2 = (xx - yy) * (xx - yy) + (xy + yx) * (xy + yx), trace = xx + yy;
+        Vectors f(x.size(), Vec3::Zero());
+        thinningLaw.addForces(network, {x, u}, u, f);
+        const double viscosity = 0.7 * std::pow(1 + q2 / (0.25 * 0.25), -0.3),
+                     expected = area * (viscosity * q2 + 1.9 * trace * trace);
+        EXPECT_NEAR(power(f, u), expected, 1e-12 * expected);
+    }
+}
+
 TEST(SurfaceViscosity, RigidMotionsFeelNothingAndTheWholeFeelsNoForceAndNoTorque) {
     for (const auto& [name, mesh, x] : deformedMeshes()) {
         const Network network(mesh.nodes, mesh.triangles);
@@ -109,11 +137,13 @@ TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
 // The matrix is made from squares of rates, the forces from the metric: two ways to the same law. Holes are left out of both.
 TEST(SurfaceViscosity, DampingMatrixGivesTheForcesAndIsSymmetricAndSemiDefinite) {
     for (const auto& [name, mesh, x] : deformedMeshes()) {
-        for (const SurfaceViscosity& viscosity : {law, SurfaceViscosity{0.7, 0}, SurfaceViscosity{0, 1.9}}) {
+        for (const SurfaceViscosity& viscosity :
+             {law, SurfaceViscosity{0.7, 0}, SurfaceViscosity{0, 1.9}, thinningLaw}) {
             MembraneSettings settings;
             settings.viscosity = viscosity;
             Membrane membrane("cell", 1, mesh.nodes, mesh.triangles, settings, 1);
             membrane.position = x;
+            membrane.velocity = velocities(x, [](const Vec3& p) { return Vec3(p.y(), 0.2 * p.x(), p.z() * p.z()); });
             membrane.breakBonds({{17, 1.2, Vec3::Zero()}, {40, 1.2, Vec3::Zero()}});
             AssembledStiffness damping(x.size());
             membrane.addDamping(damping);

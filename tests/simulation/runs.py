@@ -101,6 +101,7 @@ cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centr
     "constant/membranes.yaml": "rbc:\n  triangles: {type: skalak, Gs: 5e-6 N/m, C: 1}\n",
     "constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n",
 }
+THINNING = "  viscosity: {shear: 1.6e-8 N s/m, thinning: {rate: 100 1/s, index: 0.5}}\n"  # at a shear rate of 375 1/s
 
 # The same by velocity Verlet on the same operators, for a shorter time.
 CONJUGATE_CASE = {
@@ -231,13 +232,15 @@ def test_implicit(folder):
         assert (inner > 0) == onNodes, (Ca, inner)
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/integrator=implicit")
-    # Membrane viscosity slows the cell down; bonds break at the same step on any number of ranks, and the open cell goes on.
+    # Membrane viscosity slows the cell down, less so where it thins; bonds break at the same step on any number of ranks, and the open cell goes on.
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n"
-    slow = prepared(folder / "viscous", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + "  viscosity: {shear: 1e-8 N s/m}\n"})
-    swift = prepared(folder / "elastic", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet})
-    for case in (slow, swift):
+    D = []
+    for name, law in (("viscous", THINNING.replace(", thinning: {rate: 100 1/s, index: 0.5}", "")), ("thinning", THINNING), ("elastic", "")):
+        case = prepared(folder / name, {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + law})
         run(case, "dmpFlow", ranks=2)
-    assert 0.05 < float(series(slow, "deformation")[-1][3]) < 0.98 * float(series(swift, "deformation")[-1][3])
+        D.append(float(series(case, "deformation")[-1][3]))
+    print("viscous, thinning, elastic", D)
+    assert 0.05 < D[0] < 0.98 * D[1] < 0.98**2 * D[2], D
     whole = prepared(folder / "tearing", {**IMPLICIT_CASE, "constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.1}\n"})
     losses = []
     for ranks in (1, 2):
@@ -414,18 +417,20 @@ def test_conjugate(folder):
 
 def test_integrators(folder):
     """The implicit step and velocity Verlet solve the same discrete equations: a capsule and a red cell to strain 1, D12, inclination and area
-    to 0.5 %, at steps where either has converged; a red cell that tears."""
+    to 0.5 %, at steps where either has converged; a red cell that tears. A viscosity that thins is a step behind in the implicit step: of first order,
+    and late at the start."""
     red = {**IMPLICIT_CASE,
            "system/mesh.yaml": "domain: {size: [20, 16, 16] um, periodic: [true, true, false]}\n" + CELL_CASE["system/mesh.yaml"].splitlines()[1]
            .replace("[5, 0, 0] um, axis: [0.3, 0, 1]", "[0, 0, 0] um") + "\n",
            "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
            "constant/flow.yaml": "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n"}
     observers = "deformation: {type: shape, every: 0.2 strain}\nbalance: {type: conservation, every: 0.2 strain}\n"
-    for name, files in (("capsule", IMPLICIT_CASE), ("redCell", red)):
+    viscous = {**IMPLICIT_CASE, "constant/membranes.yaml": IMPLICIT_CASE["constant/membranes.yaml"] + THINNING}
+    for name, files, step, since in (("capsule", IMPLICIT_CASE, 0.025, 0.1), ("redCell", red, 0.025, 0.1), ("thinning", viscous, 0.0125, 0.3)):
         files = {**files, "system/observers.yaml": observers, "system/control.yaml": files["system/control.yaml"].replace("0.6", "1")}
         start = prepared(folder / name, files)
         found = []
-        for change in ("/implicit={step: 0.025, tolerance: 1e-5, error: 1}", "/integrator=velocityVerlet"):
+        for change in (f"/implicit={{step: {step}, tolerance: 1e-5, error: 1}}", "/integrator=velocityVerlet"):
             case = copied(start, folder / f"{name}{len(found)}")
             run(case, "dmpFlow", "-set", "system/numerics.yaml:" + change)
             found.append([{**shape, **balance} for shape, balance in zip(table(case, "deformation"), table(case, "balance"))])
@@ -433,7 +438,7 @@ def test_integrators(folder):
             late = b["strain"] - a["strain"]  # rows fall on the first step past their time
             print(name, *(f"{row[key]:.5f}" for key in ("strain", "D12_inertia", "inclination_rad", "rbc_areaChange") for row in (a, b)))
             assert abs(late) < 2e-3
-            assert abs(b["D12_inertia"] / a["D12_inertia"] - 1) < 0.005 or a["strain"] < 0.1
+            assert abs(b["D12_inertia"] / a["D12_inertia"] - 1) < 0.005 or a["strain"] < since
             assert abs(b["inclination_rad"] - a["inclination_rad"]) < 0.005 * math.pi / 4 and abs(b["rbc_areaChange"] - a["rbc_areaChange"]) < 5e-4
         assert len(found[0]) == 6 and found[0][-1]["changedSide"] == found[1][-1]["changedSide"] == 0
     # A cell that tears: the same bond first, as many bonds and as much fluid lost.
