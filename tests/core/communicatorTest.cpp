@@ -39,7 +39,7 @@ TEST(Communicator, reductionsAndTexts) {
     for (std::size_t i = 0; i < texts.size(); ++i) EXPECT_EQ(texts[i], std::string(i, 'x'));
 }
 
-// Rank r has for rank q the numbers q, q + 0.5, ... : r + q of them, so that some have nothing.
+// Rank r has r + q numbers for rank q, 1000 r + q and up: rank 0 has nothing for itself.
 template <class T>
 void expectExchange() {
     const Communicator c;
