@@ -10,32 +10,32 @@
 namespace corpuscle::implicit {
 
 namespace {
-constexpr int components = 3;
+constexpr std::size_t components = 3;
 }
 
-// Values on the grid and their transforms, component after component.
+// Values on the grid and their transforms, component after component: between walls of every plane by itself, else of all planes at once.
 struct CoarseGrid::Plans {
-    std::size_t nodes, modes;  // of one component
+    std::size_t nodes, modes;           // of one component
+    std::size_t realPart, complexPart;  // of these, transformed at once
     double* values;
     fftw_complex* spectrum;
-    fftw_plan forward, backward;
+    fftw_plan forward, backward;  // of a part
 
     Plans(const std::array<int, 3>& count, bool walls) {
         const int last = count[2] / 2 + 1;
         const auto plane = static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]);
         nodes = plane * static_cast<std::size_t>(count[2]);
         modes = plane * static_cast<std::size_t>(last);
+        const auto parts = static_cast<std::size_t>(walls ? count[0] : 1);
+        realPart = nodes / parts, complexPart = modes / parts;
         values = fftw_alloc_real(components * nodes);
         spectrum = fftw_alloc_complex(components * modes);
-        // Between walls every plane is transformed by itself.
-        const int rank = walls ? 2 : 3, many = walls ? components * count[0] : components;
+        const int rank = walls ? 2 : 3;
         const int* n = count.data() + (walls ? 1 : 0);
-        const int real = walls ? count[1] * count[2] : static_cast<int>(nodes);
-        const int complex = walls ? count[1] * last : static_cast<int>(modes);
-        forward = fftw_plan_many_dft_r2c(rank, n, many, values, nullptr, 1, real, spectrum, nullptr, 1, complex,
-                                         FFTW_ESTIMATE);
-        backward = fftw_plan_many_dft_c2r(rank, n, many, spectrum, nullptr, 1, complex, values, nullptr, 1, real,
-                                          FFTW_ESTIMATE);
+        const bool aligned = fftw_alignment_of(values + realPart) == fftw_alignment_of(values);
+        const unsigned flags = FFTW_ESTIMATE | (aligned ? 0U : FFTW_UNALIGNED);
+        forward = fftw_plan_dft_r2c(rank, n, values, spectrum, flags);
+        backward = fftw_plan_dft_c2r(rank, n, spectrum, values, flags);
     }
     ~Plans() {
         fftw_destroy_plan(forward);
@@ -48,6 +48,15 @@ struct CoarseGrid::Plans {
 
     Complex* mode(int component, std::size_t k) {
         return reinterpret_cast<Complex*>(spectrum) + static_cast<std::size_t>(component) * modes + k;
+    }
+    template <class F>
+    void forParts(Planes planes, F&& f) {  // f(values, spectrum) of those that have these planes
+        const std::size_t parts = nodes / realPart;
+        for (std::size_t part = 0; part < components * parts; ++part) {
+            const auto plane = static_cast<int>(part % parts);
+            if (parts == 1 || (plane >= planes.first && plane <= planes.last))
+                f(values + part * realPart, spectrum + part * complexPart);
+        }
     }
 };
 
@@ -95,6 +104,7 @@ void CoarseGrid::setCoefficients(double inertia, double viscosity, double lambda
 }
 
 void CoarseGrid::factorise() {
+    closedAt_ = -1;
     const int last = count_[2] / 2 + 1, planes = count_[0];
     const double scale = 1.0 / (count_[1] * count_[2] * (walls_ ? 1 : planes));  // of both transforms together
     inverse_.resize(plans_->modes);
@@ -125,26 +135,58 @@ void CoarseGrid::factorise() {
         }
 }
 
-void CoarseGrid::solveModes() {
+// The planes above `plane`, with nothing on them, by elimination from the top: all that is needed of them is what they add to its pivots.
+void CoarseGrid::close(int plane) {
+    if (plane == closedAt_) return;
+    const std::size_t perPlane = upper_.size();
+    closed_.resize(perPlane);
+    closedAt_ = plane;
+    for (std::size_t k = 0; k < perPlane; ++k) {
+        const Block& upper = upper_[k];
+        const auto pivot = [&](int c) -> Block {
+            return inverse_[static_cast<std::size_t>(c) * perPlane + k].inverse();
+        };
+        const Block own = pivot(0);  // nothing is below it
+        Block above = Block::Zero();
+        for (int c = count_[0] - 1; c > plane; --c) above = upper * (own - above).inverse() * upper.adjoint();
+        closed_[k] = (pivot(plane) - above).inverse();
+    }
+}
+
+void CoarseGrid::solveModes(Planes planes) {
     using Vector = Eigen::Vector3cd;
-    const std::size_t perPlane = walls_ ? plans_->modes / static_cast<std::size_t>(count_[0]) : plans_->modes;
     const auto get = [&](std::size_t k) {
         return Vector(*plans_->mode(0, k), *plans_->mode(1, k), *plans_->mode(2, k));
     };
     const auto put = [&](std::size_t k, const Vector& v) {
-        for (int c = 0; c < components; ++c) *plans_->mode(c, k) = v[c];
+        for (int c = 0; c < 3; ++c) *plans_->mode(c, k) = v[c];
     };
     if (!walls_) {
         for (std::size_t k = 0; k < plans_->modes; ++k) put(k, inverse_[k] * get(k));
         return;
     }
-    for (std::size_t k = perPlane; k < plans_->modes; ++k)
+    const bool open = planes.last < count_[0] - 1;
+    if (open) close(planes.last);
+    const std::size_t perPlane = upper_.size(), first = static_cast<std::size_t>(planes.first) * perPlane,
+                      last = static_cast<std::size_t>(planes.last) * perPlane;
+    for (std::size_t k = first + perPlane; k < last + perPlane; ++k)
         put(k, get(k) - upper_[k % perPlane].adjoint() * (inverse_[k - perPlane] * get(k - perPlane)));
-    for (std::size_t k = plans_->modes; k-- > 0;) {
-        Vector v = get(k);
-        if (k + perPlane < plans_->modes) v -= upper_[k % perPlane] * get(k + perPlane);
-        put(k, inverse_[k] * v);
+    for (std::size_t k = 0; k < perPlane; ++k) put(last + k, (open ? closed_[k] : inverse_[last + k]) * get(last + k));
+    for (std::size_t k = last; k-- > first;) put(k, inverse_[k] * (get(k) - upper_[k % perPlane] * get(k + perPlane)));
+}
+
+CoarseGrid::Planes CoarseGrid::planesOf(MPI_Comm comm, const std::vector<int>& particles) const {
+    if (!walls_) return all();
+    int range[2] = {-(count_[0] - 1), 0};  // the first, negative, and the last
+    for (const int i : particles) {
+        const Place& p = places_[static_cast<std::size_t>(i)];
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (p.weight[0][side] == 0) continue;
+            range[0] = std::max(range[0], -p.node[0][side]), range[1] = std::max(range[1], p.node[0][side]);
+        }
     }
+    MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_INT, MPI_MAX, comm);
+    return {-range[0], std::max(range[1], -range[0])};
 }
 
 void CoarseGrid::place(std::size_t particle, const Vec3& x) {
@@ -189,32 +231,42 @@ void CoarseGrid::forParticles(const std::vector<int>* particles, std::size_t all
 std::span<double> CoarseGrid::values() { return {plans_->values, components * plans_->nodes}; }
 
 template <class Real>
-void CoarseGrid::gather(const Real* r, const std::vector<int>* particles) {
-    std::fill(quads_.begin(), quads_.end(), Quad::Zero());
+void CoarseGrid::gather(const Real* r, const std::vector<int>* particles, Planes planes) {
+    const std::size_t first = firstOf(planes.first), last = firstOf(planes.last + 1);
+    std::fill(quads_.begin() + static_cast<std::ptrdiff_t>(first), quads_.begin() + static_cast<std::ptrdiff_t>(last),
+              Quad::Zero());
     forParticles(particles, own_, [&](std::size_t i) {
         const Quad value = Eigen::Map<const Eigen::Array<Real, 4, 1>>(r + 4 * i).template cast<double>();
         const Corners c = corners(places_[i]);
         for (std::size_t k = 0; k < 8; ++k) quads_[c.node[k]] += c.weight[k] * value;
     });
-    double* value = plans_->values;
-    for (const int axis : axis_)
-        for (const Quad& quad : quads_) *value++ = quad[axis];
+    for (std::size_t c = 0; c < components; ++c)
+        for (std::size_t g = first; g < last; ++g) plans_->values[c * plans_->nodes + g] = quads_[g][axis_[c]];
 }
 
-void CoarseGrid::solve(MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, plans_->values, static_cast<int>(components * plans_->nodes), MPI_DOUBLE, MPI_SUM,
-                  comm);
-    fftw_execute(plans_->forward);
-    solveModes();
-    fftw_execute(plans_->backward);
+void CoarseGrid::solve(MPI_Comm comm, Planes planes) {
+    int ranks = 1;
+    MPI_Comm_size(comm, &ranks);
+    if (ranks > 1)
+        forValues(planes, [&](std::size_t first, std::size_t last) {
+            MPI_Allreduce(MPI_IN_PLACE, plans_->values + first, static_cast<int>(last - first), MPI_DOUBLE, MPI_SUM,
+                          comm);
+        });
+    plans_->forParts(planes, [&](double* values, fftw_complex* spectrum) {
+        fftw_execute_dft_r2c(plans_->forward, values, spectrum);
+    });
+    solveModes(planes);
+    plans_->forParts(planes, [&](double* values, fftw_complex* spectrum) {
+        fftw_execute_dft_c2r(plans_->backward, spectrum, values);
+    });
 }
 
 template <class Real>
-void CoarseGrid::spread(Real* z, const std::vector<int>* particles) {
-    const double* value = plans_->values;
-    for (const int axis : axis_)
-        for (Quad& quad : quads_) quad[axis] = *value++;
-    for (Quad& quad : quads_) quad[3] = 0;
+void CoarseGrid::spread(Real* z, const std::vector<int>* particles, Planes planes) {
+    for (std::size_t g = firstOf(planes.first); g < firstOf(planes.last + 1); ++g) {
+        for (std::size_t c = 0; c < components; ++c) quads_[g][axis_[c]] = plans_->values[c * plans_->nodes + g];
+        quads_[g][3] = 0;
+    }
     forParticles(particles, places_.size(), [&](std::size_t i) {
         const Corners c = corners(places_[i]);
         Quad sum = Quad::Zero();
@@ -230,10 +282,10 @@ void CoarseGrid::add(MPI_Comm comm, const Real* r, Real* z) {
     spread(z);
 }
 
-template void CoarseGrid::gather(const double*, const std::vector<int>*);
-template void CoarseGrid::gather(const float*, const std::vector<int>*);
-template void CoarseGrid::spread(double*, const std::vector<int>*);
-template void CoarseGrid::spread(float*, const std::vector<int>*);
+template void CoarseGrid::gather(const double*, const std::vector<int>*, Planes);
+template void CoarseGrid::gather(const float*, const std::vector<int>*, Planes);
+template void CoarseGrid::spread(double*, const std::vector<int>*, Planes);
+template void CoarseGrid::spread(float*, const std::vector<int>*, Planes);
 template void CoarseGrid::add(MPI_Comm, const double*, double*);
 template void CoarseGrid::add(MPI_Comm, const float*, float*);
 

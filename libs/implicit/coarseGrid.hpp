@@ -48,14 +48,40 @@ class CoarseGrid {
     template <class Real>
     void add(MPI_Comm comm, const Real* r, Real* z);
 
-    // The same in parts, for all particles or some: values = P^T r of this rank; values <- A_c^-1 values, added up over the ranks; z += P values.
-    static constexpr const std::vector<int>* all = nullptr;
+    // Planes of nodes between the walls, of which the first is one step from the lower wall; without walls always all of them.
+    struct Planes {
+        int first, last;
+    };
+    Planes all() const { return {0, count_[0] - 1}; }
+    Planes planesOf(MPI_Comm comm, const std::vector<int>& particles) const;  // of particles of all ranks. Collective.
+
+    // The same in parts: values = P^T r of this rank; values <- A_c^-1 values, added up over the ranks; z += P values. With `particles` and their
+    // planes only these are looked at, and the values of other planes are taken to be zero and not found: a cell is far smaller than its box.
     template <class Real>
-    void gather(const Real* r, const std::vector<int>* particles = all);
-    void solve(MPI_Comm comm);  // Collective.
+    void gather(const Real* r) {
+        gather(r, nullptr, all());
+    }
     template <class Real>
-    void spread(Real* z, const std::vector<int>* particles = all);
+    void gather(const Real* r, const std::vector<int>& particles, Planes planes) {
+        gather(r, &particles, planes);
+    }
+    void solve(MPI_Comm comm, Planes planes);  // Collective.
+    void solve(MPI_Comm comm) { solve(comm, all()); }
+    template <class Real>
+    void spread(Real* z) {
+        spread(z, nullptr, all());
+    }
+    template <class Real>
+    void spread(Real* z, const std::vector<int>& particles, Planes planes) {
+        spread(z, &particles, planes);
+    }
     std::span<double> values();  // on the nodes, component after component
+    // Of these planes: f(first, last) of each component, [first, last) in values().
+    template <class F>
+    void forValues(Planes planes, F&& f) const {
+        for (std::size_t c = 0; c < 3; ++c)
+            f(c * quads_.size() + firstOf(planes.first), c * quads_.size() + firstOf(planes.last + 1));
+    }
 
   private:
     using Complex = std::complex<double>;
@@ -77,9 +103,18 @@ class CoarseGrid {
     Symbol symbol(int axis, int mode) const;
     Block block(const std::array<Symbol, 3>& symbols) const;
     void factorise();
-    void solveModes();
+    void close(int plane);
+    void solveModes(Planes planes);
+    template <class Real>
+    void gather(const Real* r, const std::vector<int>* particles, Planes planes);
+    template <class Real>
+    void spread(Real* z, const std::vector<int>* particles, Planes planes);
     template <class F>
     void forParticles(const std::vector<int>* particles, std::size_t all, F&& f) const;  // f(particle)
+    // Node of a component.
+    std::size_t firstOf(int plane) const {
+        return static_cast<std::size_t>(plane) * static_cast<std::size_t>(count_[1] * count_[2]);
+    }
     Corners corners(const Place& place) const;
 
     particles::Box box_;
@@ -93,8 +128,10 @@ class CoarseGrid {
     std::vector<Quad>
         quads_;  // values of a node side by side, x y z and a number without meaning: one vector for what particles take or give
     std::unique_ptr<Plans> plans_;
-    std::vector<Block> inverse_;  // pivots of every mode, or its inverse
+    std::vector<Block> inverse_;  // of the pivots of every mode, planes taken in from below; or of the mode
     std::vector<Block> upper_;    // of every mode between two planes
+    std::vector<Block> closed_;   // of the pivots of one plane, those above taken in as well
+    int closedAt_ = -1;           // that plane
 };
 
 }  // namespace corpuscle::implicit

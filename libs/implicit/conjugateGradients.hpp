@@ -1,5 +1,8 @@
 // Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl. Math. 25 (1989) 153):
-// both scalar products of an iteration are added up over the ranks at once.
+// all scalar products of an iteration are added up over the ranks at once. Flexible (Notay, SIAM J. Sci. Comput. 22 (2000) 1444, with one direction
+// kept): the direction p = z + beta p_before is conjugate to the one before by
+//     beta = -z.s/sigma,   s = A p_before,   sigma = p_before.s;     p.A p = z.A z - (z.s)^2/sigma
+// whatever z is, so that the preconditioner need not be quite the same from one application to the next, as one that iterates is not.
 //
 // It stops by the energy of the error: g_k = alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the
 // error is the sum of what later steps would take off. They are taken to fall as the last few did, by q a step, the slowest of the means
@@ -54,21 +57,24 @@ class ConjugateGradients {
         for (Field* f : {&p_, &s_, &x}) f->assign(n, Real(0));
         Convergence c;
         std::vector<double> gains;
-        double gammaBefore = 0, alpha = 0;
+        double sigma = 0;
         for (;; ++c.iterations) {
             precondition(r, z_);
             apply(z_, w_);
-            double sums[2] = {0, 0};
+            double sums[3] = {0, 0, 0};
             copies.forCounted(n, [&](std::size_t k) {
-                sums[0] += static_cast<double>(r[k]) * static_cast<double>(z_[k]);
-                sums[1] += static_cast<double>(w_[k]) * static_cast<double>(z_[k]);
+                const auto z = static_cast<double>(z_[k]);
+                sums[0] += static_cast<double>(r[k]) * z;
+                sums[1] += static_cast<double>(w_[k]) * z;
+                sums[2] += static_cast<double>(s_[k]) * z;
             });
-            MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
-            const auto [gamma, delta] = sums;
+            MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm);
+            const auto [gamma, delta, overlap] = sums;
             const double allowed = tolerance * tolerance * std::max(reference, c.energy);
             if (gamma >= 0 && gamma <= negligible * allowed) break;
-            const double beta = c.iterations > 0 ? gamma / gammaBefore : 0;
-            alpha = gamma / (c.iterations > 0 ? delta - beta * gamma / alpha : delta);
+            const double beta = c.iterations > 0 ? -overlap / sigma : 0;
+            sigma = delta + beta * overlap;
+            const double alpha = gamma / sigma;
             if (!(gamma > 0) || !std::isfinite(alpha) || alpha <= 0 || c.iterations == most) {
                 c.reached = false;
                 break;
@@ -80,7 +86,6 @@ class ConjugateGradients {
                 x[k] += a * p_[k];
                 r[k] -= a * s_[k];
             }
-            gammaBefore = gamma;
             gains.push_back(alpha * gamma);
             c.energy += gains.back();
             c.error = remaining(gains);

@@ -314,7 +314,8 @@ class Step final : public ImplicitStep {
     }
     void preconditionParticles(const Field& r, Field& z) {
         if (withMembrane_) {
-            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, reach_.total(), inverse_, r, z);
+            membraneCorrection_.apply(scene_.system->comm(), *immersed_, *grid_, reach_.total(), inverse_,
+                                      store().size(), r, z);
             return;
         }
         for (std::size_t i = 0; i < inverse_.size(); ++i) {

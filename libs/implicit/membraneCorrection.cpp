@@ -1,6 +1,9 @@
 #include "implicit/membraneCorrection.hpp"
 
 #include <algorithm>
+#include <numeric>
+
+#include "coupling/conjugate.hpp"
 
 namespace corpuscle::implicit {
 
@@ -22,11 +25,12 @@ void add(Vectors& a, double factor, const Vectors& b) {
 
 template <class Real>
 void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time,
-                                     const Field& inverse, const Field& r, Field& z) {
+                                     const Field& inverse, std::size_t own, const Field& r, Field& z) {
     const std::vector<int>& near = immersed.touched();
     const std::size_t size = r.size();
     scattered_.resize(size), image_.resize(size);
     const std::span<double> values = grid.values();
+    const CoarseGrid::Planes planes = grid.planesOf(comm, near);
     const auto stiffness = [&](const Vectors& u) {  // K' u
         Vectors f(u.size(), Vec3::Zero());
         immersed.addResistance(time, u, f);
@@ -40,7 +44,7 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
                 const std::size_t at = 4 * static_cast<std::size_t>(i) + k;
                 image_[at] = static_cast<double>(inverse[static_cast<std::size_t>(i)]) * force(at);
             }
-        grid.spread(image_.data(), &near);
+        grid.spread(image_.data(), near, planes);
         return immersed.interpolate(image_.data());
     };
     const auto scatter = [&](const Vectors& f) {  // S^T f
@@ -49,22 +53,25 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
     };
 
     grid.gather(r.data());
+    gathered_.assign(values.begin(), values.end());
     grid.solve(comm);
-    solution_.assign(values.begin(), values.end());
-    Vectors residual = onNodes([&](std::size_t at) { return static_cast<double>(r[at]); });
-    Vectors y(residual.size(), Vec3::Zero()), image = stiffness(residual);  // K' residual
-    Vectors direction = residual, s = image;                                // K' direction
+    double energy = std::inner_product(gathered_.begin(), gathered_.end(), values.begin(), 0.0);
+    for (std::size_t i = 0; i < own; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            energy +=
+                static_cast<double>(inverse[i]) * static_cast<double>(r[4 * i + k]) * static_cast<double>(r[4 * i + k]);
+    energy = coupling::sumOverRanks(energy, comm);  // r.B r, from which y takes r.B S^T y
+    const Vectors first = onNodes([&](std::size_t at) { return static_cast<double>(r[at]); });
+    Vectors residual = first, y(residual.size(), Vec3::Zero()), image = stiffness(residual);  // K' residual
+    Vectors direction = residual, s = image;                                                  // K' direction
     double square = dot(residual, image);
-    const double enough = tolerance * tolerance * square;
-    for (int k = 0; k < most && square > enough; ++k, ++iterations_) {
+    for (int k = 0; k < most && square > tolerance * tolerance * (energy - dot(first, y)); ++k, ++iterations_) {
         scatter(s);
-        grid.gather(scattered_.data(), &near);
-        grid.solve(comm);
-        ofGrid_.assign(values.begin(), values.end());
+        grid.gather(scattered_.data(), near, planes);
+        grid.solve(comm, planes);
         const Vectors t = onNodes([&](std::size_t at) { return scattered_[at]; });  // N K' direction
         const double alpha = square / (dot(s, direction) + dot(s, t));
         add(y, alpha, s);
-        for (std::size_t g = 0; g < solution_.size(); ++g) solution_[g] -= alpha * ofGrid_[g];
         add(residual, -alpha, direction), add(residual, -alpha, t);
         add(image, -alpha, s), add(image, -alpha, stiffness(t));
         const double before = square;
@@ -76,7 +83,14 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
         }
     }
 
+    // z = B (r - S^T y)
     scatter(y);
+    grid.gather(scattered_.data(), near, planes);
+    grid.forValues(planes, [&](std::size_t from, std::size_t to) {
+        for (std::size_t g = from; g < to; ++g) gathered_[g] -= values[g];
+    });
+    std::copy(gathered_.begin(), gathered_.end(), values.begin());
+    grid.solve(comm);
     const std::vector<int>& nearOthers = immersed.touchedOthers();
     for (const int i : nearOthers) std::fill_n(scattered_.data() + 4 * static_cast<std::size_t>(i), 4, 0.0);
     immersed.spreadToOthers(y, scattered_);
@@ -90,7 +104,6 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
                 const std::size_t at = 4 * static_cast<std::size_t>(i) + k;
                 z[at] -= inverse[static_cast<std::size_t>(i)] * static_cast<Real>(scattered_[at]);
             }
-    std::copy(solution_.begin(), solution_.end(), values.begin());
     grid.spread(z.data());
 }
 

@@ -125,4 +125,47 @@ TEST(CoarseGrid, isSymmetricAndPositiveForParticlesAnywhere) {
     }
 }
 
+// What acts in some planes gives there what it gives without this being known, wherever they are, for coefficients that change.
+void someOfTheParticles(int wall) {
+    particles::Box box{{0, 0, 0}, {9, 10, 11}, {true, true, true}};
+    if (wall >= 0) box.periodic[static_cast<std::size_t>(wall)] = false;
+    const auto axis = static_cast<std::size_t>(std::max(wall, 0));
+    CoarseGrid grid(box, 1.3);
+    constexpr std::size_t n = 400;
+    for (const double viscosity : {1.3, 40.0})
+        for (const double middle : {0.4, 3.9, 5.2, 8.5}) {
+            grid.setCoefficients(inertia, viscosity, lambda);
+            grid.begin(n);
+            std::vector<int> some;
+            std::vector<double> r(4 * n, 0.0);
+            for (std::size_t i = 0; i < n; ++i) {
+                const auto x = static_cast<double>(i);
+                const Vec3 place(std::fmod(1.7 * x, 9.0), std::fmod(2.9 * x, 10.0), std::fmod(0.73 * x, 11.0));
+                grid.place(i, place);
+                if (std::abs(place[static_cast<Eigen::Index>(axis)] - middle) > 0.9) continue;
+                some.push_back(static_cast<int>(i));
+                for (std::size_t a = 0; a < 3; ++a) r[4 * i + a] = std::sin(5 * x + static_cast<double>(a));
+            }
+            ASSERT_GT(some.size(), 20U);
+            std::vector<double> whole(4 * n, 0.0), part(4 * n, 0.0);
+            grid.add(MPI_COMM_SELF, r.data(), whole.data());
+            const CoarseGrid::Planes planes = grid.planesOf(MPI_COMM_SELF, some);
+            EXPECT_TRUE(wall < 0 || planes.last - planes.first < 4);
+            grid.gather(r.data(), some, planes);
+            grid.solve(MPI_COMM_SELF, planes);
+            grid.spread(part.data(), some, planes);
+            double largest = 0;
+            for (const double value : whole) largest = std::max(largest, std::abs(value));
+            for (const int i : some)
+                for (std::size_t a = 0; a < 3; ++a)
+                    ASSERT_NEAR(part[4 * static_cast<std::size_t>(i) + a], whole[4 * static_cast<std::size_t>(i) + a],
+                                1e-12 * largest)
+                        << "particle " << i << " walls across " << wall << " around " << middle;
+        }
+}
+
+TEST(CoarseGrid, planesOfSomeParticlesAreEnoughForThem) {
+    for (const int wall : {-1, 0, 1, 2}) someOfTheParticles(wall);
+}
+
 }  // namespace
