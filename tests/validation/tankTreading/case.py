@@ -13,7 +13,7 @@ from suite import Figure, Plot, Run, fromOn, outside, rows
 HERE = pathlib.Path(__file__).resolve().parent
 TITLE = "red cell, its own moduli: tank-treading against experiments"
 ACROSS = "particles along 4 um"
-RESOLUTIONS = (5, 6, 8)
+RESOLUTIONS = (5, 6, 8, 12)
 MEASURED = ((35, 28.6), (35, 57.1), (35, 171.4), (28.9, 16.9), (28.9, 65.2), (28.9, 258))
 TREADING = {5: ((35, 57.1),), 6: MEASURED, 8: MEASURED}  # viscosity outside, mPa s; shear rate, 1/s
 STRESSES = {5: (0.03,), 6: (0.03,), 8: (0.03, 0.46)}  # Pa, in 23.9 mPa s: below and above the measured ones
