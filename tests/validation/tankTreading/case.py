@@ -28,7 +28,8 @@ INCLINED = {5: 4, 6: 0, 8: 0}  # degrees outside the range of the donors; at 5, 
 HIGH = ("35 mPa s, 171.4 1/s: inclination, *",)
 MISSED = {5: ("35 mPa s, 57.1 1/s: f/gammadot, *",),
           6: ("35 mPa s, 171.4 1/s: f/gammadot, *", *HIGH),
-          8: (*HIGH, *(f"{case}: inclination, *" for case in ("35 mPa s, 57.1 1/s", "28.9 mPa s, 258 1/s")))}
+          8: (*HIGH, *(f"{case}: inclination, *" for case in ("35 mPa s, 57.1 1/s", "28.9 mPa s, 258 1/s"))),
+          12: (*HIGH, "28.9 mPa s, 258 1/s: inclination, *", *(f"{case}: f/gammadot, *" for case in ("35 mPa s, 28.6 1/s", "28.9 mPa s, 258 1/s")))}
 BESIDE = (23.9, 55.9)  # mPa s, where inclinations were measured, to either side of 28.9 and 35
 INSIDE = 10  # mPa s
 
