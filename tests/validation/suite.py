@@ -161,7 +161,8 @@ def same(note, wanted):
 
 
 def execute(run, folder, binaries, ranks):
-    """Runs what has not ended yet; a stopped run goes on. Other settings or files start afresh. Returns run.json."""
+    """Runs what has not ended yet; a stopped run goes on. Other settings or files start afresh. Returns run.json, with the core-seconds
+    of all parts."""
     wanted = [run.settings, [getattr(program, "__name__", program) for program in run.programs], str(run.source), contents(run)]
     note, record = folder / "settings.json", folder / "run.json"
     if folder.exists() and not same(note, wanted):
@@ -176,9 +177,17 @@ def execute(run, folder, binaries, ranks):
             else:
                 subprocess.run([binaries / program, *options], check=True, stdout=subprocess.DEVNULL)
         note.write_text(json.dumps(wanted))
-    if not record.exists() or json.loads(record.read_text())["status"] != "done":
+    parts = folder / "parts.json"  # core-seconds of those that a stopped run was made in; one that was killed leaves none
+    earlier = json.loads(parts.read_text()) if parts.exists() else []
+    if record.exists() and (last := json.loads(record.read_text()))["status"] != "done":
+        earlier.append(last.get("performance", {}).get("processorSeconds", 0))
+        parts.write_text(json.dumps(earlier))
+        record.unlink()
+    if not record.exists():
         subprocess.run(["mpirun", "-np", str(ranks), binaries / run.programs[-1], *options], check=True, env=ENVIRONMENT)
-    return json.loads(record.read_text())
+    found = json.loads(record.read_text())
+    found["performance"]["processorSeconds"] += sum(earlier)
+    return found
 
 
 def validate(name, n, binaries, ranks, work):

@@ -86,10 +86,10 @@ def test_execute():
 
         prepare.reads = (mesh,)
 
-        def runs(*settings):
+        def runs(*settings, earlier=0):
             with unittest.mock.patch.dict(suite.ENVIRONMENT, {"PATH": f"{folder}:{suite.ENVIRONMENT['PATH']}"}):
                 found = suite.execute(suite.Run("a", source, list(settings), (prepare, "solver")), case, pathlib.Path(folder), 2)
-            assert found == record
+            assert found == record | {"performance": record["performance"] | {"processorSeconds": 1.0 + earlier}}
             return len(count.read_text())
 
         assert [runs(), runs(), runs("b=1"), runs("b=1")] == [1, 1, 2, 2]
@@ -101,6 +101,10 @@ def test_execute():
         note.write_text(json.dumps(json.loads(note.read_text())[:3]))
         mesh.write_text("c")
         assert [runs("b=1"), runs("b=2")] == [4, 5]
+        for part in (record | {"status": "stopped"}, {"status": "running"}):  # killed: what it took is not known
+            (case / "run.json").write_text(json.dumps(part))
+            runs("b=2", earlier=1)
+        assert runs("b=2", earlier=1) == 7 and runs("b=3") == 8
 
 
 def test_ranks():
