@@ -96,7 +96,7 @@ def drag(case, done, n):
 
 def quarter(case):
     """Ca 0.02 at every resolution, until the cell has turned a quarter."""
-    case.cells.coarse = "0.02"
+    case.cells.coarse = None
     case.cells.scenes = {"0.02": (QUARTER, case.cells.scenes["0.02"][1])}
 
 

@@ -34,7 +34,7 @@ struct Case {
     sph::FluidModel fluidModel() const;
     particles::Precision precision() const;  // of the laws between pairs
     double spacing() const { return numerics.spacing; }
-    double support() const { return numerics.kernel->support.metres(spacing()); }
+    double support() const { return numerics.kernel->support->metres(spacing()); }
     double skin() const { return numerics.skin.metres(spacing()); }
     int wallLayers() const;              // of particles behind each wall: as deep as the support reaches
     particles::Box fluidBox() const;     // between the walls

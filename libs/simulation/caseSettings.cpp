@@ -183,9 +183,11 @@ const Schema<BodyPlaceSettings>& BodyPlaceSettings::schema() {
 const Schema<FillSettings>& FillSettings::schema() {
     static const Schema<FillSettings> s =
         Schema<FillSettings>("fill", "how particleFill places particles")
-            .quantity("jitter", &FillSettings::jitter, unit::none,
-                      "largest random displacement in spacings; when absent 0.1 around immersed membranes, else 0",
-                      {.range = between(0, 0.45)})
+            .quantity(
+                "jitter", &FillSettings::jitter, unit::none,
+                "largest random displacement in spacings; when absent 0.1 around immersed membranes and in flows of "
+                "three dimensions, else 0",
+                {.range = between(0, 0.45)})
             .integer("seed", &FillSettings::seed, "of the random displacements",
                      {.fallback = "1", .range = nonNegative})
             .integer("relaxation", &FillSettings::relaxation, "sweeps that even out particles around membranes",

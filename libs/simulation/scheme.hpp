@@ -5,8 +5,10 @@
 // integrator | the cheapest of those that can do the case (cost.hpp)
 // operators  | corrected with immersed membranes (not beside rigid bodies) and with the implicit step, plain otherwise
 // shifting   | absent: {coefficient: 1} with corrected operators, none otherwise
-// jitter     | absent: 0.1 with immersed membranes, 0 otherwise. Where the flow draws a perfect lattice out its planes part: all neighbours of a
-//            | particle come to lie in one plane, and shifting, which follows gradients, does not see it because every particle has its mirror image
+// support    | absent: of the kernel; Wendland's 2.4 dx with corrected operators, 3.0 dx otherwise
+// jitter     | absent: 0.1 with immersed membranes and in flows of three dimensions, 0 otherwise. Where the flow draws a perfect lattice out its
+//            | planes part: all neighbours of a particle come to lie in one plane, and shifting, which follows gradients, does not see it because
+//            | every particle has its mirror image
 #pragma once
 #include "simulation/case.hpp"
 

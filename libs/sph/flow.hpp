@@ -46,6 +46,8 @@ class Flow {
     virtual ~Flow() = default;
     // Axis normal to the walls, -1 for none: known before anything else, since filling needs it.
     virtual int wallAxis() const = 0;
+    // Whether it carries particles along all axes: a perfect lattice then does not last.
+    virtual bool isThreeDimensional() const { return false; }
     // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
     virtual FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const = 0;
 };

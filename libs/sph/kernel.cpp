@@ -1,5 +1,7 @@
 #include "sph/kernel.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,11 +30,21 @@ struct KernelOf : Kernel {
     static const Schema<KernelOf>& schema() {
         static const Schema<KernelOf> s =
             Schema<KernelOf>(Formula::name, "smoothing kernel")
-                .length("support", static_cast<Length KernelOf::*>(&Kernel::support), "support radius H_s",
-                        {.fallback = std::to_string(Formula::defaultSupport).substr(0, 3) + " dx", .range = positive});
+                .length("support", static_cast<std::optional<Length> KernelOf::*>(&Kernel::support),
+                        fmt::format("support radius H_s; absent: {:.1f} dx, with corrected operators {:.1f} dx",
+                                    Formula::defaultSupport, Formula::correctedSupport),
+                        {.range = positive});
         return s;
     }
     KernelKind kind() const override { return kernelKind; }
+    double usualSupport(bool corrected) const override {
+        return corrected ? Formula::correctedSupport : Formula::defaultSupport;
+    }
+    std::shared_ptr<const Kernel> withSupport(Length support) const override {
+        auto copy = std::make_shared<KernelOf>(*this);
+        copy->support = support;
+        return copy;
+    }
     double normalisation(double H) const override { return Formula::normalisation(H); }
     double gradientNormalisation(double H) const override { return Formula::gradientNormalisation(H); }
     double value(double q) const override { return Formula::template value<Scalar>(q).v; }

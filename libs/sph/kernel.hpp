@@ -1,6 +1,9 @@
 // Family of smoothing kernels, as a case chooses them. The formulas, one header each, are lucy.hpp, wendlandC2.hpp, quintic.hpp;
 // here is what set-up and analysis need. H_s is the support radius, h = H_s/2 the smoothing length, for every kernel.
 #pragma once
+#include <memory>
+#include <optional>
+
 #include "core/registry.hpp"
 #include "sph/pairKernels.hpp"
 
@@ -10,9 +13,13 @@ class Kernel {
   public:
     static constexpr const char* familyName = "kernel";
     virtual ~Kernel() = default;
-    Length support;  // H_s
+    std::optional<Length> support;  // H_s; a loaded case has one
 
     virtual KernelKind kind() const = 0;
+    // Where a case names none, in spacings: plain operators want a small error of the second moment; corrected ones, which divide by it, the
+    // support with the least error for its cost (benchmarks/numerics).
+    virtual double usualSupport(bool corrected) const = 0;
+    virtual std::shared_ptr<const Kernel> withSupport(Length support) const = 0;
     virtual double normalisation(double H) const = 0;          // W = normalisation * value(r/H)
     virtual double gradientNormalisation(double H) const = 0;  // -W'(r)/r = gradientNormalisation * slope(r/H)
     virtual double value(double q) const = 0;

@@ -11,7 +11,8 @@ namespace corpuscle::sph {
 
 struct Lucy {
     static constexpr const char* name = "lucy";
-    static constexpr double defaultSupport = 2.6;  // in spacings: smallest second-moment error near 80 neighbours
+    static constexpr double defaultSupport = 2.6,
+                            correctedSupport = 2.4;  // in spacings: smallest second-moment error near 80 neighbours
 
     static double normalisation(double H) { return 105 / (16 * std::numbers::pi * H * H * H); }
     static double gradientNormalisation(double H) { return 12 * normalisation(H) / (H * H); }

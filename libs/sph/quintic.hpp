@@ -12,7 +12,7 @@ namespace corpuscle::sph {
 
 struct Quintic {
     static constexpr const char* name = "quintic";
-    static constexpr double defaultSupport = 2.8;
+    static constexpr double defaultSupport = 2.8, correctedSupport = 2.8;
 
     static double normalisation(double H) { return 27 / (120 * std::numbers::pi * H * H * H); }
     static double gradientNormalisation(double H) { return 5 * 9 * normalisation(H) / (H * H); }

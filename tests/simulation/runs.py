@@ -631,7 +631,7 @@ def test_automatic(folder):
         return [line.strip() for line in used.splitlines()]
     low = {"constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n"}
     used = settled("plainWords", IMPLICIT_CASE, "dmpFlow", "spacing: 1 um\n", **low)
-    assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1"} <= set(used), used
+    assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1", "support: 2.4 dx"} <= set(used), used
     used = settled("explicit", IMPLICIT_CASE, "dmpFlow", "spacing: 1 um\nintegrator: velocityVerlet\n", **low)
     assert {"integrator: velocityVerlet", "coupling: immersed", "operators: corrected", "coefficient: 1"} <= set(used), used
     used = settled("bodies", BODY_CASE, "dmpFlow", "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\n")
@@ -639,9 +639,12 @@ def test_automatic(folder):
     used = settled("inclusion", INCLUSION_CASE, "dmpFlow", "spacing: 0.6 um\n")
     assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1", "jitter: 0.1"} <= set(used), used
     used = settled("inclusionByVerlet", INCLUSION_CASE, "dmpFlow", "spacing: 0.6 um\nintegrator: velocityVerlet\n")
-    assert {"integrator: velocityVerlet", "coupling: dualIdentity", "operators: plain", "jitter: 0"} <= set(used), used
+    assert {"integrator: velocityVerlet", "coupling: dualIdentity", "operators: plain", "jitter: 0", "support: 3 dx"} <= set(used), used
     used = settled("fluid", FLUID_CASE, "sphFlow", "spacing: 62.5 um\nintegrator: implicit\n")
-    assert {"operators: corrected", "coefficient: 1"} <= set(used), used
+    assert {"operators: corrected", "coefficient: 1", "support: 2.4 dx", "jitter: 0"} <= set(used), used
+    vortices = {"constant/flow.yaml": "type: taylorGreen\nspeed: 1 mm/s\ndimensions: 3\n", "system/mesh.yaml": "domain: {size: [1, 1, 1] mm, periodic: [true, true, true]}\n"}
+    used = settled("vortices", FLUID_CASE, "sphFlow", "spacing: 62.5 um\nkernel: {type: quintic}\noperators: plain\n", **vortices)
+    assert {"support: 2.8 dx", "jitter: 0.1"} <= set(used), used
 
 
 def close(a, b, tolerance):

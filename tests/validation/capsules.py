@@ -10,4 +10,4 @@ class Capsules(Sheared):
     """law: settings of the membrane, where it is not the tutorial's. boxes: of a Ca by resolution, from each on, where they are not BOX."""
 
     def __init__(self, name, capillary, law=(), boxes={}):
-        super().__init__(name, TUTORIALS / "capsuleShear", {Ca: (STRAIN, {6: BOX, **boxes.get(Ca, {})}) for Ca in capillary}, "0.3", law)
+        super().__init__(name, TUTORIALS / "capsuleShear", {Ca: (STRAIN, {6: BOX, **boxes.get(Ca, {})}) for Ca in capillary}, law)

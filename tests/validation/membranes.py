@@ -48,7 +48,8 @@ class Course:
         """Figures of what must be kept."""
         volume = suite.worst(row[f"{self.cell}_volumeChange"] for row in self.balance)
         return [Figure(f"{label}: volume, at most", 100 * volume, 1e-3),
-                Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, "")]
+                Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, ""),
+                Figure(f"{label}: particles put back", suite.worst(row["guardMoves"] for row in self.balance), 0, "")]
 
     def area(self, strain):
         return at(self.balance, strain, f"{self.cell}_areaChange")
@@ -68,17 +69,17 @@ class Sheared:
     """A case: one membrane in shear flow over Ca, against curves reference_Ca*.csv.
 
     name: the folder of the curves. source: the tutorial. scenes: by Ca (a word), strain of the end and boxes by the resolution from which on they hold.
-    coarse: the Ca that the coarsest resolution runs. more: settings of every run. edge: of the mesh, in spacings.
+    more: settings of every run. edge: of the mesh, in spacings. coarse: the only Ca that is run at the coarsest resolution; all without it.
     """
 
-    def __init__(self, name, source, scenes, coarse, more, edge=1.0, programs=PROGRAMS):
-        self.folder, self.source, self.scenes, self.coarse, self.more = HERE / name, source, scenes, coarse, more
-        self.edge, self.programs = edge, programs
+    def __init__(self, name, source, scenes, more, edge=1.0, programs=PROGRAMS, coarse=None):
+        self.folder, self.source, self.scenes, self.more = HERE / name, source, scenes, more
+        self.edge, self.programs, self.coarse = edge, programs, coarse
 
     def runs(self, n):
         return [Run(f"Ca{Ca}", self.source, settings(n, fromOn(boxes, n), strain, [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge),
                     self.programs)
-                for Ca, (strain, boxes) in self.scenes.items() if n > COARSEST or Ca == self.coarse]
+                for Ca, (strain, boxes) in self.scenes.items() if n > COARSEST or self.coarse in (None, Ca)]
 
     def courses(self, done):
         """(Ca, its course) of runs that have ended."""

@@ -6,13 +6,16 @@ from suite import PROGRAMS, TUTORIALS, Figure, at, relative
 TUMBLING, STIFF, DRAWN = {6: (6, 6, 6), 12: (8, 6, 8)}, {6: (6, 6, 6), 12: (10, 8, 10)}, {6: (8, 6, 8)}
 
 
+EVERY = 0.05  # of strain: two looks at the shape; curves are compared at each
+
+
 class RedCells(Sheared):
     """law: settings of the membrane. allowed: by resolution and Ca, of D12_inertia, angles [degrees], strains of turns [%] and the change of
     area [points]."""
 
     def __init__(self, name, scenes, allowed, law, edge=1.0, programs=PROGRAMS):
-        super().__init__(name, TUTORIALS / "rbcShear" / "Ca0.02", scenes, "3",
-                         ["constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.05 strain", *law], edge, programs)
+        super().__init__(name, TUTORIALS / "rbcShear" / "Ca0.02", scenes, [
+            "constant/flow.yaml:/inertia/Re=0.01", f"system/observers.yaml:/deformation/every={EVERY} strain", *law], edge, programs, coarse="3")
         self.allowed = allowed
 
     def figures(self, done, n):
@@ -22,10 +25,10 @@ class RedCells(Sheared):
     def compared(self, Ca, course, dD, dAngle, dTurn, dArea):
         theirs, label = self.reference(Ca), f"Ca {Ca}"
         end = 0.5 * int(2 * self.scenes[Ca][0] + 1e-6)  # a run that has not got there has no figures
-        strains = [0.5 * k for k in range(1, int(2 * end) + 1)]
+        strains = [EVERY * k for k in range(1, round(end / EVERY) + 1)]
         found = [Figure(f"{label}: D12 by inertia to strain {end:g}, worst", worst(course, theirs, "D12_inertia", strains), dD, "")]
         # Where the cell turns fast, an error of the rate is an error of the angle by that speed: compared by strain there.
-        for name, degrees in (("a quarter turn", 90), ("half a turn", 180)):
+        for name, degrees in (("a quarter turn", 90), ("half a turn", 180), ("a whole turn", 360)):
             if turn(theirs, degrees) < end:
                 found.append(relative(f"{label}: strain of {name}", course.turn(degrees), turn(theirs, degrees), dTurn))
         slow = [t for t in strains if not turn(theirs, 90) < end or at(theirs, t, "angle_deg") < 30]

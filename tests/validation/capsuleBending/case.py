@@ -2,7 +2,7 @@
 import math
 
 from capsules import BOX
-from membranes import COARSEST, RADIUS, Course, settings
+from membranes import RADIUS, Course, settings
 from suite import HERE, PROGRAMS, TUTORIALS, Figure, Plot, Run, at, outside, permitted, published, relative
 
 TITLE = "capsule in shear flow, neo-Hookean with bending"
@@ -19,7 +19,7 @@ reference = published(HERE / "capsuleBending" / "published.csv")
 
 
 def runs(n):
-    return [run(name, n) for name in SCENES if n > COARSEST or name != "curved"]
+    return [run(name, n) for name in SCENES]
 
 
 def run(name, n):

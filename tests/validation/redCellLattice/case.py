@@ -9,6 +9,6 @@ ALLOWED = {  # D12, degrees, % of turns, points of area
     8: {"0.02": (0.02, 2, 3, 1), "0.2": (0.02, 2, 3, 1), "3": (0.02, 2, 0, 4)},
     12: {"0.02": (0.02, 2, 2, 1), "0.2": (0.02, 2, 2, 1), "3": (0.02, 2, 0, 3)}}
 
-cells = RedCells("redCellLattice", {"0.02": (8, TUMBLING), "0.2": (13.6, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
+cells = RedCells("redCellLattice", {"0.02": (10.9, TUMBLING), "0.2": (24.5, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
     "constant/membranes.yaml:/rbc/bonds=none", "constant/membranes.yaml:/rbc/triangles={type: lattice, k: 5e-4 N/m}"])
 runs, figures, curves = cells.runs, cells.figures, cells.curves

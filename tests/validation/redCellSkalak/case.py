@@ -9,6 +9,6 @@ ALLOWED = {  # D12, degrees, % of turns, points of area
     8: {"0.2": (0.02, 2, 3, 1), "3": (0.02, 2, 0, 1)},
     12: {"0.2": (0.02, 2, 2, 1), "3": (0.02, 2, 0, 1)}}
 
-cells = RedCells("redCellSkalak", {"0.2": (13.6, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
+cells = RedCells("redCellSkalak", {"0.2": (24.5, TUMBLING), "3": (6, DRAWN)}, ALLOWED, [
     "constant/membranes.yaml:/rbc/bonds=none", "constant/membranes.yaml:/rbc/triangles={type: skalak, Gs: 2e-4 N/m, C: 10}"])
 runs, figures, curves = cells.runs, cells.figures, cells.curves

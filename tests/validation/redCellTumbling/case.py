@@ -15,7 +15,7 @@ ALLOWED = {6: (5, 0.005), 8: (3, 0.005), 12: (1, 0.005)}  # % of the period, D12
 
 def cell(n=RESOLUTIONS[-1]):
     strain = 20.8 * fromOn(TUMBLES, n) + 1  # with slack: a narrow box and coarse particles make it late
-    return Sheared("redCellShear", TUTORIALS / "rbcShear" / "Ca0.02", {"0.002": (strain, TUMBLING)}, "0.002",
+    return Sheared("redCellShear", TUTORIALS / "rbcShear" / "Ca0.02", {"0.002": (strain, TUMBLING)},
                    ["constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.1 strain",
                     f"system/numerics.yaml:/implicit/step={fromOn(STEP, n)}"], edge=1.25)
 

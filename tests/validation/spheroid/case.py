@@ -14,7 +14,7 @@ TORQUE = 2.5  # what is allowed for rates and torques, in those of the period
 BOX = (8, 6, 8)  # along flow, vorticity and gradient, in a
 RE, STEP = 0.01, 0.05  # rho gammadot a^2/mu; strain
 START = 0.2  # strain from which rates and torques are taken
-TURNS = {12: (0.5,), 16: (0.265,)}  # spheroids that turn through a quarter; the thin one is too coarse for it at 12
+TURNS = {12: (0.5,), 16: (0.5, 0.265), 24: (0.5, 0.265)}  # spheroids that turn through a quarter; the thin one is too coarse for it at 12
 
 A, RATE, VISCOSITY = 4e-6, 100.0, 1e-3  # m, 1/s, Pa s: tutorials/jeffery
 tutorial = module(TUTORIALS / "jeffery" / "compare.py", "jeffery")
@@ -93,7 +93,7 @@ def curves(done):
     """Of those that turned through a quarter."""
     ours, theirs, work = [], [], next(iter(done.values())).parent.parent
     for r, exact in reference.items():
-        for n in (n for n in RESOLUTIONS if (work / f"{n}/{r:g}-turn/run.json").exists()):
+        for n in (n for n in reversed(RESOLUTIONS) if (work / f"{n}/{r:g}-turn/run.json").exists()):
             turned = tutorial.motion(str(work / f"{n}/{r:g}-turn"))[::4]
             strains = [0.05 * k for k in range(int(20 * exact["period"] / 4) + 1)]
             ours.append((f"r = {r:g}, {n} along the axis", [s for s, _, _ in turned], [math.degrees(phi) for _, phi, _ in turned]))

@@ -7,8 +7,8 @@ import pathlib
 import shutil
 import statistics
 
-from membranes import Course, settings, treadPeriod
-from suite import Figure, Plot, Run, fromOn, outside, rows
+from membranes import Course, settings
+from suite import Figure, Plot, Run, at, fromOn, outside, rows
 
 HERE = pathlib.Path(__file__).resolve().parent
 TITLE = "red cell, its own moduli: tank-treading against experiments"
@@ -19,7 +19,7 @@ TREADING = {5: ((35, 57.1),), 6: MEASURED, 8: MEASURED}  # viscosity outside, mP
 STRESSES = {5: (0.03,), 6: (0.03,), 8: (0.03, 0.46)}  # Pa, in 23.9 mPa s: below and above the measured ones
 THIN = 23.9
 BOX = {5: (5, 5, 5), 6: (5, 5, 5), 8: (7, 5, 5)}  # 4 um, along the flow, the vorticity and the gradient
-STRAIN = {5: 6.5, 6: 18, 8: 18}
+STRAIN = {5: 24, 6: 22, 8: 22}  # half a turn of the membrane from DRAWN on
 DRAWN = 5  # strain by which a cell has been drawn out
 TURN = {5: 6.5, 6: 6.5, 8: 10}  # strain to which the runs for STRESSES go: by Jeffery's orbit a rigid cell is upright at 5
 EDGE = 1  # of the mesh, in spacings
@@ -60,12 +60,18 @@ def runs(n):
 
 
 class Steady:
-    """f by the nodes' speeds at the end; means over the last half turn of the membrane, after which the shape repeats, from DRAWN on."""
+    """The last half turn of the membrane, after which the shape repeats: f by the time that it took, and means over it.
+
+    The turn is that of the node which at rest is nearest to the main axis and goes round near the shear plane, as a particle stuck to a membrane
+    does. f is not a number where the half turn began before DRAWN.
+    """
 
     def __init__(self, folder):
         self.course = course = Course(folder)
-        self.f = 2 * math.pi / treadPeriod(course)  # over gammadot
-        self.table = [row for row in course.shape if row["strain"] > max(course.end - math.pi / self.f, DRAWN)]
+        end = course.shape[-1]["treadPhase_rad"]
+        began = at(course.shape, end - math.pi, "strain", key="treadPhase_rad")
+        self.f = math.pi / (course.end - began) if began >= DRAWN else math.nan  # over gammadot
+        self.table = [row for row in course.shape if row["strain"] > max(began, DRAWN)]
 
     def mean(self, value):
         return statistics.mean(map(value, self.table))
@@ -78,11 +84,6 @@ class Steady:
 
     def halfWidth(self):
         return self.mean(lambda row: 0.5e6 * row["width_m"])
-
-    def turning(self):
-        """f by the rotation of the material over that time."""
-        first, last = self.table[0], self.table[-1]
-        return (last["angleTurned_rad"] - first["angleTurned_rad"]) / (last["strain"] - first["strain"])
 
 
 def spread(name, value, mean, deviation, allowed=SPREAD):
