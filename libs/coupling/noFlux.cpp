@@ -14,7 +14,7 @@ using particles::Kind;
 using particles::ParticleSystem;
 
 namespace {
-constexpr double reachInSpacings = 0.5 * NoFlux::imageMarginInSpacings, leastDistanceInSpacings = 0.05;
+constexpr double reachInSpacings = 0.5 * NoFlux::imageMarginInSpacings;
 
 // Sign of the distance on the particle's side.
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {

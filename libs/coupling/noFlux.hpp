@@ -18,6 +18,7 @@ namespace corpuscle::coupling {
 class NoFlux {
   public:
     static constexpr double imageMarginInSpacings = 2;  // between a cell and its image: twice the reach
+    static constexpr double leastDistanceInSpacings = 0.05;
 
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "geometry/insideTest.hpp"
+#include "geometry/triangleGrid.hpp"
 
 namespace corpuscle::geometry {
 namespace {
@@ -159,6 +161,30 @@ std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<Tri
         }
     }
     return side;
+}
+
+std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, const std::vector<TriangleMesh>& meshes,
+                    double least, const Period& period) {
+    std::size_t moved = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const TriangleMesh& mesh = meshes[m];
+        const TriangleGrid grid(mesh, least);
+        const Vec3 middle = mesh.centroid();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Vec3 x = nearestImage(points[i], middle, period);
+            const SurfacePoint at = grid.nearest(x);
+            const double own = side[i] == static_cast<int>(m) + 1 ? -1 : 1;
+            if (!at || own * at.distance >= least) continue;
+            const Index3& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
+            const Vec3 &a = mesh.nodes[static_cast<std::size_t>(t[0])], &b = mesh.nodes[static_cast<std::size_t>(t[1])],
+                       &c = mesh.nodes[static_cast<std::size_t>(t[2])];
+            const bool apart = std::abs(at.distance) > 1e-4 * least;
+            const Vec3 normal = apart ? Vec3((x - at.point) / at.distance) : (b - a).cross(c - a).normalized();
+            points[i] += at.point + own * least * normal - x;
+            ++moved;
+        }
+    }
+    return moved;
 }
 
 }  // namespace corpuscle::geometry

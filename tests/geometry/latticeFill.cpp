@@ -143,6 +143,19 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
             EXPECT_GT(std::abs(lattice.points[i].x()), 5 * um - 1e-12);
         }
 
+    // Those nearer than 0.1 um go out to it, on their sides; nothing else moves.
+    std::vector<Vec3> held = lattice.points;
+    const double least = 0.1 * um;
+    const std::size_t moved = holdOff(held, side, cells, least, period);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < held.size(); ++i) different += held[i] != lattice.points[i];
+    EXPECT_EQ(different, moved);
+    EXPECT_GT(moved, 100u);
+    std::vector<Vec3> inBox = held;
+    for (Vec3& x : inBox) x.x() -= period.x() * std::round(x.x() / period.x());
+    EXPECT_EQ(tagSides(inBox, cells, period), side);
+    EXPECT_EQ(holdOff(held, side, cells, 0.9 * least, period), 0u);
+
     cells[1] = cells[0];
     EXPECT_THROW(tagSides(lattice.points, cells, period), Failure);
 }

@@ -3,7 +3,10 @@
 //
 // A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing thick, so as
 // many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each cell stays filled to its
-// volume; where the coupling is immersed, nodes lie between the fluid's particles and the lattice stays whole. A rigid body takes as many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around the membranes (relaxation.hpp), and starts with the velocity and pressure of the flow.
+// volume; where the coupling is immersed, nodes lie between the fluid's particles, the lattice stays whole, and what is nearer
+// than 0.05 dx to a membrane is moved out to that (noFlux.hpp). A rigid body takes as many lattice points as make up its
+// volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around membranes of
+// particles (relaxation.hpp), and starts with the velocity and pressure of the flow.
 //
 // Sample runs:
 //     particleFill -case tutorials/rbcShear/Ca0.02
@@ -17,6 +20,7 @@
 
 #include "../cellMeshes.hpp"
 #include "bodyFill.hpp"
+#include "coupling/noFlux.hpp"
 #include "relaxation.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -31,7 +35,7 @@ struct Filling {
     std::vector<int> side;  // of the fluid
     std::vector<int> body;  // of the bodies' particles: number, 1 and up
     double nodeVolume = 0;  // of all membranes [m^3]
-    std::size_t nodes = 0, carved = 0, putBack = 0;
+    std::size_t nodes = 0, carved = 0, putBack = 0, heldOff = 0;
     double longestMove = 0;  // of the relaxation [m]
     utilities::Evenness before, after;
 };
@@ -111,7 +115,14 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
     f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
     f.side = geometry::tagSides(f.fluid, cells, utilities::periodOf(input.fluidBox()));
     fillBodies(input, bodies, f);
-    if (!input.numerics.isImmersed()) takeOut(input, cells, f);
+    if (input.numerics.isImmersed()) {
+        f.heldOff =
+            geometry::holdOff(f.fluid, f.side, cells, coupling::NoFlux::leastDistanceInSpacings * input.spacing(),
+                              utilities::periodOf(input.fluidBox()));
+        for (Vec3& x : f.fluid) x = input.particleBox().wrap(x);
+    } else {
+        takeOut(input, cells, f);
+    }
     return f;
 }
 
@@ -226,6 +237,11 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
         const auto number = std::count(f.body.begin(), f.body.end(), static_cast<int>(b) + 1);
         rows.push_back({"body " + input.mesh.bodies[b].name, std::to_string(number), ""});
         json["bodies"][input.mesh.bodies[b].name] = number;
+    }
+    if (f.heldOff > 0) {
+        rows.push_back({"near membranes", std::to_string(f.heldOff),
+                        fmt::format("moved out to {} dx", coupling::NoFlux::leastDistanceInSpacings)});
+        json["heldOff"] = f.heldOff;
     }
     rows.push_back({"all", std::to_string(f.fluid.size() + f.walls.size() + f.bodies.size() + f.nodes), ""});
     log.table({"particles", "number", ""}, rows);
