@@ -135,7 +135,7 @@ CELLS = (4, 6, 8)
 def sheared(*coarser, further=1):
     """Lines of a cell; coarser: resolutions before those of CELLS. further: of the paper's line."""
     few, all_ = (*coarser, CELLS[0]), (*coarser, *CELLS)
-    return {"paper": Line(PAPER, few, CELLS[1:], further), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
+    return {"paper": Line(PAPER, all_[:-1], CELLS[-1:], further), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
             "implicit, step 0.1": Line(implicit(0.1, "3e-3"), all_), "implicit, step 0.05": Line(implicit(0.05, "3e-3"), all_)}
 
 
