@@ -49,6 +49,7 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
     std::vector<char> kept(f.fluid.size(), 1);
     const auto carve = [&](const std::vector<int>& from, const std::vector<Vec3>& nodes, std::size_t count) {
         std::vector<Vec3> points;
+        points.reserve(from.size());
         for (const int i : from) points.push_back(f.fluid[static_cast<std::size_t>(i)]);
         for (const int k : geometry::carve(points, nodes, count, utilities::periodOf(input.fluidBox())))
             kept[static_cast<std::size_t>(from[static_cast<std::size_t>(k)])] = 0;
@@ -137,6 +138,7 @@ void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& ce
     f.after = relaxation.evenness();
     const auto moved = relaxation.moved();
     std::vector<Vec3> places;
+    places.reserve(moved.size());
     for (const auto& [i, x] : moved) places.push_back(x);
     const std::vector<int> side = geometry::tagSides(places, cells, utilities::periodOf(input.fluidBox()));
     const particles::Box fluidBox = input.fluidBox();
