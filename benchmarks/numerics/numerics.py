@@ -19,8 +19,9 @@ sys.path += [str(HERE.parent / "workPrecision"), str(HERE.parents[1] / "tests" /
 import suite
 import vtp
 import workPrecision
-from workPrecision import NUMERICS, implicit, largest, option
+from workPrecision import NUMERICS, implicit, largest, option, recorded
 
+RESULTS = HERE / "results.csv"
 MESH = "system/mesh.yaml:"
 DEFAULT = "wendlandC2, 2.4 dx"
 KERNELS = ("wendlandC2, 2.0 dx", "wendlandC2, 2.2 dx", DEFAULT, "wendlandC2, 2.7 dx", "wendlandC2, 3.0 dx", "quintic, 2.4 dx", "quintic, 2.8 dx",
@@ -52,7 +53,8 @@ def pressure(case, done, n):
     found = vtp.File(sorted((folder / "fluid").glob("*/*.vtp"))[1])
     rho, mu, speed, k = 1000.0, 1e-3, 0.01, 2 * math.pi / 1e-3  # of tutorials/taylorGreen, SI
     decay = math.exp(-2 * mu / rho * k * k * time)  # of the velocity
-    exact = [rho * (speed * decay) ** 2 / 4 * (math.cos(2 * k * x) + math.cos(2 * k * z)) for x, _, z in found.points]  # half a wave along both: the same
+    half = rho * (speed * decay) ** 2 / 4
+    exact = [half * (math.cos(2 * k * x) + math.cos(2 * k * z)) for x, _, z in found.points]  # moved by half a wave along both it is the same
     errors = [p - q for p, q in zip(found.arrays["pressure"], exact)]
     mean = sum(errors) / len(errors)
     return 100 * math.sqrt(sum((e - mean) ** 2 for e in errors) / len(errors)) / (mu * k * speed * decay)
@@ -91,14 +93,6 @@ COLUMNS = [
 FIELDS = ("case", "resolution", "set", "figure", "error_percent", "coreSeconds", "machine", "date")
 
 
-def recorded():
-    path = HERE / "results.csv"
-    if not path.exists():
-        return []
-    with open(path) as text:
-        return list(csv.DictReader(text))
-
-
 def measure(column, words, binaries, folder):
     case = suite.load(column.case)
     column.prepare(case)
@@ -107,14 +101,14 @@ def measure(column, words, binaries, folder):
     done = {run.name: folder / run.name}
     record = suite.execute(run, done[run.name], binaries, 1)
     machine, day = suite.origin(record)
-    points = [{"case": column.case, "resolution": str(column.n), "set": words, "figure": figure, "error_percent": f"{error(case, done, column.n):.3g}",
-               "coreSeconds": f"{record['performance']['processorSeconds']:.3g}", "machine": machine, "date": day}
-              for figure, error in column.errors.items()]
+    shared = {"case": column.case, "resolution": str(column.n), "set": words, "coreSeconds": f"{record['performance']['processorSeconds']:.3g}",
+              "machine": machine, "date": day}
+    points = [shared | {"figure": figure, "error_percent": f"{error(case, done, column.n):.3g}"} for figure, error in column.errors.items()]
     key = ("case", "resolution", "set")
-    points += [p for p in recorded() if any(p[name] != points[0][name] for name in key)]
+    points += [p for p in recorded(RESULTS) if any(p[name] != points[0][name] for name in key)]
     order = [(c.case, str(c.n)) for c in COLUMNS]
     points.sort(key=lambda p: (order.index((p["case"], p["resolution"])), list(SETS).index(p["set"])))
-    with open(HERE / "results.csv", "w") as text:
+    with open(RESULTS, "w") as text:
         writer = csv.DictWriter(text, FIELDS, lineterminator="\n")
         writer.writeheader()
         writer.writerows(points)
@@ -122,7 +116,7 @@ def measure(column, words, binaries, folder):
 
 def write():
     """The table: a row for each set, a column for each figure at its resolutions."""
-    points = {(p["case"], p["resolution"], p["set"], p["figure"]): p for p in recorded()}
+    points = {(p["case"], p["resolution"], p["set"], p["figure"]): p for p in recorded(RESULTS)}
     figures = list(dict.fromkeys((c.case, figure) for c in COLUMNS for figure in c.errors))
     sizes = {(case, figure): [str(c.n) for c in COLUMNS if c.case == case and figure in c.errors] for case, figure in figures}
     lines = ["| | " + " | ".join(f"{figure}, {'; '.join(sizes[case, figure])}" for case, figure in figures) + " |", "|---|" + "---|" * len(figures)]

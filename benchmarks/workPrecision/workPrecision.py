@@ -161,8 +161,7 @@ COLOURS = ("paper", "explicit, plain", "explicit, corrected", "RKL2")  # the fir
 COLUMNS = ("case", "scheme", "resolution", "particles", "error_percent", "coreSeconds", "part", "machine", "date")
 
 
-def recorded():
-    path = HERE / "results.csv"
+def recorded(path=HERE / "results.csv"):
     if not path.exists():
         return []
     with open(path) as text:
