@@ -71,6 +71,7 @@ std::vector<Option> Application::allOptions() const {
 void Application::parse(int argc, char** argv) {
     const std::vector<Option> known = allOptions();
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const Option& o : known) names.push_back(o.name);
 
     const auto usageError = [&](const std::string& message) {

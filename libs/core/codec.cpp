@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/settings.hpp"
 
@@ -119,6 +120,7 @@ Codec<std::vector<double>> quantities(Dimension dimension, Range range) {
             },
             [=](const std::vector<double>& values) {
                 std::vector<std::string> texts;
+                texts.reserve(values.size());
                 for (double v : values) texts.push_back(exactText(v, unit::none));
                 return Node::list(texts, values.empty() ? "" : dimension.si());
             }};
@@ -156,7 +158,7 @@ Codec<bool> boolean() {
 }
 
 Codec<std::string> word(std::vector<std::string> allowed) {
-    return {[=](const Node& node, std::string& value, Problems& problems) {
+    return {[allowed = std::move(allowed)](const Node& node, std::string& value, Problems& problems) {
                 if (isScalar(node, fmt::format("one of {}", joinWords(allowed)), problems) &&
                     isAllowed(node, allowed, problems))
                     value = node.scalar;
@@ -165,7 +167,7 @@ Codec<std::string> word(std::vector<std::string> allowed) {
 }
 
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed) {
-    return {[=](const Node& node, std::vector<std::string>& values, Problems& problems) {
+    return {[allowed = std::move(allowed)](const Node& node, std::vector<std::string>& values, Problems& problems) {
                 if (!isListOf(node, 0, "a list of words", problems) || !hasNoUnit(node, problems)) return;
                 values.clear();
                 for (const Node& item : node.items)

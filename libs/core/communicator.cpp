@@ -128,6 +128,7 @@ std::vector<double> Communicator::gatherAll(double value) const { return gathere
 std::vector<std::string> Communicator::gather(const std::string& text) const {
     const std::vector<long> lengths = gatherAll(static_cast<long>(text.size()));
     std::vector<int> counts;
+    counts.reserve(lengths.size());
     for (const long length : lengths) counts.push_back(count(static_cast<std::size_t>(length)));
     const std::vector<int> starts = startsOf(counts);
     std::string all(isRoot() ? static_cast<std::size_t>(starts.back()) : 0, ' ');

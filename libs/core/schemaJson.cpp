@@ -129,7 +129,7 @@ class Writer {
         return !info.exactlyOne.empty();
     }
     static std::string escaped(std::string name) {
-        for (std::size_t at; (at = name.find(' ')) != std::string::npos;) name.replace(at, 1, "%20");
+        for (auto at = name.find(' '); at != std::string::npos; at = name.find(' ')) name.replace(at, 1, "%20");
         return name;
     }
 

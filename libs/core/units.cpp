@@ -74,7 +74,8 @@ const std::vector<std::string>& commonUnits() {
 
 std::string withoutMicroSign(std::string text) {
     for (const std::string micro : {"\xC2\xB5", "\xCE\xBC"})
-        for (std::size_t at; (at = text.find(micro)) != std::string::npos;) text.replace(at, micro.size(), "u");
+        for (auto at = text.find(micro); at != std::string::npos; at = text.find(micro))
+            text.replace(at, micro.size(), "u");
     return text;
 }
 

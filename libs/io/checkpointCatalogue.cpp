@@ -102,6 +102,7 @@ std::filesystem::path findCheckpoint(const std::filesystem::path& caseDir, doubl
     });
     if (found != all.rend()) return found->path;
     std::vector<std::string> times;
+    times.reserve(all.size());
     for (const auto& info : all) times.push_back(fmt::format("{:.9g}", info.time));
     throw Failure(ExitCode::io,
                   fmt::format("{}: there is no checkpoint at time {:.9g} s; there {}.", folderOf(caseDir).string(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 
 #include "core/together.hpp"
 #include "io/checkpointAccess.hpp"
@@ -34,13 +35,11 @@ struct CheckpointReader::File {
     }
 
     std::string adviceOnOlder() const {
-        auto all = listCheckpoints(path.parent_path().parent_path());
-        for (auto info = all.rbegin(); info != all.rend(); ++info) {
-            if (info->path.filename() < path.filename() && checkCheckpoint(info->path).empty()) {
+        const auto all = listCheckpoints(path.parent_path().parent_path());
+        for (const CheckpointInfo& info : std::views::reverse(all))
+            if (info.path.filename() < path.filename() && checkCheckpoint(info.path).empty())
                 return fmt::format("The newest intact one before it is {}: restart with -restart {:.9g}.",
-                                   info->path.string(), info->time);
-            }
-        }
+                                   info.path.string(), info.time);
         return "There is no intact one before it: start from the beginning.";
     }
 

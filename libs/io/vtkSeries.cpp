@@ -70,12 +70,9 @@ bool isReservedStream(std::string_view name) {
            name.starts_with("fault_");
 }
 
-VtkSeries::VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime)
-    : comm_(comm),
-      results_(std::move(caseDir) / "results"),
-      stream_(std::move(stream)),
-      keep_(keep),
-      startTime_(startTime) {
+VtkSeries::VtkSeries(MPI_Comm comm, const std::filesystem::path& caseDir, std::string stream, int keep,
+                     double startTime)
+    : comm_(comm), results_(caseDir / "results"), stream_(std::move(stream)), keep_(keep), startTime_(startTime) {
     MPI_Comm_rank(comm_, &rank_);
     MPI_Comm_size(comm_, &size_);
 }

@@ -35,7 +35,7 @@ std::vector<SeriesEntry> readPvd(const std::filesystem::path& path);
 class VtkSeries {
   public:
     // keep: the number of times that stay, 0 for all. startTime: the earliest that this run may write [s].
-    VtkSeries(MPI_Comm comm, std::filesystem::path caseDir, std::string stream, int keep, double startTime);
+    VtkSeries(MPI_Comm comm, const std::filesystem::path& caseDir, std::string stream, int keep, double startTime);
 
     // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws Failure(ExitCode::io) on all ranks.
     void write(double time, std::optional<double> strain, const PolyData& piece);

@@ -95,13 +95,11 @@ std::vector<BrokenBond> Membrane::findBroken(double dt) {
 }
 
 void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
+    if (broken.empty()) return;
     std::vector<int> numbers;
-    for (const BrokenBond& bond : broken) {
-        numbers.push_back(bond.bond);
-    }
-    if (!numbers.empty()) {
-        network_->breakBonds(numbers);
-    }
+    numbers.reserve(broken.size());
+    for (const BrokenBond& bond : broken) numbers.push_back(bond.bond);
+    network_->breakBonds(numbers);
 }
 
 void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {

@@ -44,7 +44,7 @@ Loads Tweezers::apply(int stage, Membrane& membrane) const {
     std::vector<char> loaded(rest.size(), 0);
     for (const auto& [end, sign] : {std::pair{*left, -1.0}, {*right, 1.0}}) {
         double total = 0;
-        const auto touches = [&](std::size_t n) { return (rest[n] - end).norm() <= 0.5 * contact; };
+        const auto touches = [&, &pole = end](std::size_t n) { return (rest[n] - pole).norm() <= 0.5 * contact; };
         for (std::size_t n = 0; n < rest.size(); ++n) {
             total += touches(n) ? area[n] : 0;
         }

@@ -28,6 +28,7 @@ class WallStressObservation : public Observation {
         const auto force =
             Communicator(scene.system->comm()).sum(std::vector<double>{lower[0], -upper[0], -lower[axis], upper[axis]});
         std::vector<double> row;
+        row.reserve(force.size() + 1);
         for (const double f : force) row.push_back(f / area);
         if (const double rate = scene.flow.shearRate; rate != 0)
             row.push_back(0.5 * (row[0] + row[1]) / (scene.model().viscosity * rate));

@@ -110,7 +110,7 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .word("precision", &NumericsSettings::precision, {"double", "mixed"},
                   "of the terms between two particles: mixed works them out in float, about 1.5 times as fast; state "
                   "and sums are double",
-                  {.fallback = "double"})
+                  {.fallback = "mixed"})
             .tableOr("none", "shifting", &NumericsSettings::shifting,
                      "particle shifting; where the key is absent, {coefficient: 1} with corrected operators",
                      {.fallback = "none"})

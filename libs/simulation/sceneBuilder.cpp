@@ -13,6 +13,7 @@ using particles::ParticleStore;
 
 std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double spacing) {
     std::vector<double> volumes;
+    volumes.reserve(vertexAreas.size());
     for (const double area : vertexAreas) volumes.push_back(area * spacing);
     return volumes;
 }

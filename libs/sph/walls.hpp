@@ -2,15 +2,17 @@
 // the continuity equation, so that they push back where fluid comes close; their velocity enters viscosity through beta
 // (fluidPair.hpp), so that the fluid meets the wall's velocity on the surface itself.
 #pragma once
+#include <array>
+
 #include "particles/box.hpp"
 #include "sph/wallPlanes.hpp"
 
 namespace corpuscle::sph {
 
 struct Walls {
-    int axis = -1;                                    // 0, 1, 2; -1: none
-    double low = 0, high = 0;                         // surfaces [m]
-    Vec3 velocity[2] = {Vec3::Zero(), Vec3::Zero()};  // of the lower and the upper wall [m/s]
+    int axis = -1;                                             // 0, 1, 2; -1: none
+    double low = 0, high = 0;                                  // surfaces [m]
+    std::array<Vec3, 2> velocity{Vec3::Zero(), Vec3::Zero()};  // of the lower and the upper wall [m/s]
 
     bool exist() const { return axis >= 0; }
     bool isUpper(const Vec3& p) const { return p[axis] > 0.5 * (low + high); }

@@ -19,6 +19,7 @@ import time
 
 BIN = pathlib.Path(sys.argv[1])
 
+# Terms between particles are in double where runs are compared to rounding.
 CELL_CASE = {
     "system/control.yaml": """application: dmpFlow
 endStrain: 0.12
@@ -26,6 +27,7 @@ write: {strain: 0.05}
 checkpoint: {wallClock: never, keep: 5}
 """,
     "system/numerics.yaml": """spacing: 1 um
+precision: double
 kernel: {type: wendlandC2, support: 2.4 dx}
 integrator: velocityVerlet
 coupling: dualIdentity
@@ -52,7 +54,7 @@ inertia: {Re: 0.5}
 }
 FLUID_CASE = {
     "system/control.yaml": "application: sphFlow\nendTime: 1 s\n",
-    "system/numerics.yaml": "spacing: 62.5 um\nintegrator: velocityVerlet\n",
+    "system/numerics.yaml": "spacing: 62.5 um\nprecision: double\nintegrator: velocityVerlet\n",
     "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
     "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n",
     "constant/flow.yaml": "type: shear\nshearRate: 0.025 1/s\n",
@@ -73,7 +75,7 @@ bodies: [{name: bead, shape: {type: spheroid, a: 3 um, c: 2 um}, edge: 0.7 um, c
 INCLUSION_CASE = {
     **CELL_CASE,
     "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.4"),
-    "system/numerics.yaml": "spacing: 0.6 um\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: velocityVerlet\ncoupling: dualIdentity\n",
+    "system/numerics.yaml": "spacing: 0.6 um\nprecision: double\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: velocityVerlet\ncoupling: dualIdentity\n",
     "system/mesh.yaml": """domain: {size: [12, 9, 9.6] um, periodic: [true, true, false]}
 cells: [{name: capsule, shape: {type: sphere, radius: 3 um}, edge: 0.7 um, centre: [0, 0, 0] um}]
 bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centre: [0.3, 0, 0] um}]
@@ -88,6 +90,7 @@ IMPLICIT_CASE = {
     **CELL_CASE,
     "system/control.yaml": "application: dmpFlow\nendStrain: 0.6\nwrite: {strain: 0.3}\ncheckpoint: {wallClock: never}\n",
     "system/numerics.yaml": """spacing: 1 um
+precision: double
 kernel: {type: wendlandC2, support: 2.4 dx}
 integrator: implicit
 coupling: immersed
@@ -275,7 +278,7 @@ def test_account(folder):
     after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, conjugate.)"""
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
     short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
-    implicit = "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-5}\n"
+    implicit = "spacing: 1 um\nprecision: double\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-5}\n"
     every = "balance: {type: conservation, every: 0.06 strain}\n"
     explicit = {**CONJUGATE_CASE, "system/control.yaml": short, "system/observers.yaml": every}
     body = {**BODY_CASE, "system/control.yaml": short, "system/observers.yaml": every}
@@ -461,7 +464,7 @@ def test_integrators(folder):
 # Fluid alone that changes by itself: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
 PLATES = {
     "system/control.yaml": "application: sphFlow\nendTime: 0.1 s\ncheckpoint: {wallClock: never}\n",
-    "system/numerics.yaml": "spacing: 31.25 um\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\nshifting: {coefficient: 1, steps: 10}\n",
+    "system/numerics.yaml": "spacing: 31.25 um\nprecision: double\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\nshifting: {coefficient: 1, steps: 10}\n",
     "system/mesh.yaml": "domain: {size: [0.25, 0.25, 1] mm, periodic: [true, true, false]}\n",
     "system/observers.yaml": "profile: {type: profile, every: 0.02 s, axis: z, bins: 32}\nwall: {type: wallStress, every: 0.02 s}\n"
                              "balance: {type: conservation, every: 0.02 s}\n",
@@ -555,7 +558,7 @@ def test_layers(folder):
     def exact(z):
         return -U + stress * sum(max(0, min(z, high) - low) / m for m, low, high in zip(mu, end, end[1:]))
     files = {**COUETTE, "system/control.yaml": "application: sphFlow\nendTime: 0.35 s\ncheckpoint: {wallClock: never}\n",
-             "system/numerics.yaml": "spacing: 62.5 um\nintegrator: velocityVerlet\n",
+             "system/numerics.yaml": "spacing: 62.5 um\nprecision: double\nintegrator: velocityVerlet\n",
              "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
              "system/observers.yaml": "profile: {type: profile, every: 0.35 s, bins: 16}\nwall: {type: wallStress, every: 0.35 s}\n",
              "constant/fluid.yaml": COUETTE["constant/fluid.yaml"] + layers}
@@ -631,7 +634,7 @@ def test_automatic(folder):
         return [line.strip() for line in used.splitlines()]
     low = {"constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n"}
     used = settled("plainWords", IMPLICIT_CASE, "dmpFlow", "spacing: 1 um\n", **low)
-    assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1", "support: 2.4 dx"} <= set(used), used
+    assert {"integrator: implicit", "coupling: immersed", "operators: corrected", "coefficient: 1", "support: 2.4 dx", "precision: mixed"} <= set(used), used
     used = settled("explicit", IMPLICIT_CASE, "dmpFlow", "spacing: 1 um\nintegrator: velocityVerlet\n", **low)
     assert {"integrator: velocityVerlet", "coupling: immersed", "operators: corrected", "coefficient: 1"} <= set(used), used
     used = settled("bodies", BODY_CASE, "dmpFlow", "spacing: 1 um\nkernel: {type: wendlandC2, support: 2.4 dx}\n")
@@ -698,7 +701,7 @@ def test_implicitBodies(folder):
     """A free body by the implicit step: in one run and in two the same bits, on 1, 2 and 4 ranks the same to ten times the tolerance, and
     the motion that velocity Verlet gives it; it may lie inside an immersed capsule."""
     scheme = "kernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-6}\n"
-    start = prepared(folder / "start", BODY_CASE, **{"system/numerics.yaml": "spacing: 1 um\n" + scheme})
+    start = prepared(folder / "start", BODY_CASE, **{"system/numerics.yaml": "spacing: 1 um\nprecision: double\n" + scheme})
     run(start, "checkCase")
     motions = motions_on_ranks(folder, start, 5)
     same_motions(motions, 5e-6, 200, 1e-5)
@@ -717,7 +720,7 @@ def test_implicitBodies(folder):
     print(f"implicit against velocity Verlet, 4 particles across: rotation {turned:+.4f}, rate {rate:+.4f}")
     assert abs(turned) < 0.015 and abs(rate) < 0.025, (turned, rate)
     case = prepared(folder / "inclusion", INCLUSION_CASE, **{
-        "system/numerics.yaml": "spacing: 0.6 um\n" + scheme.replace("step: 0.01, tolerance: 1e-6", "step: 0.05, tolerance: 1e-3")})
+        "system/numerics.yaml": "spacing: 0.6 um\nprecision: double\n" + scheme.replace("step: 0.01, tolerance: 1e-6", "step: 0.05, tolerance: 1e-3")})
     run(case, "dmpFlow", ranks=2)
     last = table(case, "balance")[-1]
     assert last["changedSide"] == 0 and last["guardMoves"] == 0 and abs(last["capsule_volumeChange"]) < 1e-8, last

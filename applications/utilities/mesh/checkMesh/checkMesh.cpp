@@ -31,7 +31,7 @@ using Faults = std::vector<std::string>;
 
 geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, const TriangleMesh& mesh,
                                    const std::function<void(const std::string&)>& fault) {
-    const geometry::MeshQuality quality =
+    geometry::MeshQuality quality =
         geometry::meshQuality(utilities::inShapeFrame(mesh, surface), surface.shape.model.get());
     for (const std::string& text : geometry::checkClosedManifold(mesh)) fault(text);
     if (quality.euler != 2)
