@@ -100,7 +100,7 @@ def measure(column, words, binaries, folder):
     run = replace(run, settings=[*run.settings, *column.settings, *SETS[words]])
     done = {run.name: folder / run.name}
     record = suite.execute(run, done[run.name], binaries, 1)
-    machine, day = suite.origin(record)
+    machine, day, _ = suite.origin(record)
     shared = {"case": column.case, "resolution": str(column.n), "set": words, "coreSeconds": f"{record['performance']['processorSeconds']:.3g}",
               "machine": machine, "date": day}
     points = [shared | {"figure": figure, "error_percent": f"{error(case, done, column.n):.3g}"} for figure, error in column.errors.items()]

@@ -134,8 +134,8 @@ CELLS = (4, 6, 8)
 
 def sheared(*coarser, further=1):
     """Lines of a cell; coarser: resolutions before those of CELLS. further: of the paper's line."""
-    few, all_ = (*coarser, CELLS[0]), (*coarser, *CELLS)
-    return {"paper": Line(PAPER, all_[:-1], CELLS[-1:], further), "explicit, corrected": Line(VERLET, few, CELLS[1:]),
+    all_ = (*coarser, *CELLS)
+    return {"paper": Line(PAPER, all_[:-1], CELLS[-1:], further), "explicit, corrected": Line(VERLET, all_[:-1], CELLS[-1:]),
             "implicit, step 0.1": Line(implicit(0.1, "3e-3"), all_), "implicit, step 0.05": Line(implicit(0.05, "3e-3"), all_)}
 
 
@@ -204,7 +204,7 @@ def measure(name, scheme, n, binaries, ranks, folder, begin):
     error = None if begun else diagram.error(case, done, n)
     if error is not None and not math.isfinite(error):
         sys.exit(f"workPrecision.py: {name}, {scheme}, {n}: the run ended before what its error is read from; let it go further")
-    keep(name, scheme, n, record, part, error, *suite.origin(record))
+    keep(name, scheme, n, record, part, error, *suite.origin(record)[:2])
 
 
 def measurePeer(name, scheme, n, folder, begin):
@@ -272,7 +272,8 @@ def tables():
         for scheme in dict.fromkeys(p["scheme"] for p in points):
             cells = {int(p["resolution"]): cell(p) for p in points if p["scheme"] == scheme}
             lines.append(f"| {scheme} | " + " | ".join(cells.get(n, "") for n in sizes) + " |")
-        lines += ["", f"{points[0]['machine']}, {max(p['date'] for p in points)}.", ""]
+        days = sorted({p["date"] for p in points})
+        lines += ["", f"{'; '.join(sorted({p['machine'] for p in points}))}; {' to '.join(dict.fromkeys((days[0], days[-1])))}.", ""]
     page = HERE / "README.md"
     before, rest = page.read_text().split(suite.MARKS[0])
     page.write_text(before + suite.MARKS[0] + "\n\n" + "\n".join(lines) + suite.MARKS[1] + rest.split(suite.MARKS[1])[1])

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <ranges>
 
 #include "core/together.hpp"
 #include "io/checkpointAccess.hpp"
@@ -36,10 +35,12 @@ struct CheckpointReader::File {
 
     std::string adviceOnOlder() const {
         const auto all = listCheckpoints(path.parent_path().parent_path());
-        for (const CheckpointInfo& info : std::views::reverse(all))
-            if (info.path.filename() < path.filename() && checkCheckpoint(info.path).empty())
-                return fmt::format("The newest intact one before it is {}: restart with -restart {:.9g}.",
-                                   info.path.string(), info.time);
+        const auto found = std::find_if(all.rbegin(), all.rend(), [&](const CheckpointInfo& info) {
+            return info.path.filename() < path.filename() && checkCheckpoint(info.path).empty();
+        });
+        if (found != all.rend())
+            return fmt::format("The newest intact one before it is {}: restart with -restart {:.9g}.",
+                               found->path.string(), found->time);
         return "There is no intact one before it: start from the beginning.";
     }
 

@@ -41,4 +41,4 @@ class Plates:
             heights = [z / L for z, _ in profile]
             ours.append((f"t = {time:g} s", [u / self.unit for _, u in profile], heights))
             theirs.append(("", [self.tutorial.series(z, t) / self.unit for z, _ in profile], heights))
-        return Plot(self.label, "z/L", ours, theirs, ["set key left top"])
+        return Plot(self.label, "z/L", ours, theirs, ["set key outside right"])

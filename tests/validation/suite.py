@@ -5,7 +5,7 @@ A case is a folder with case.py, README.md (the page) and references. case.py ha
     RESOLUTIONS          coarse to fine; ./Alltest runs the first
     runs(n)              list of Run: what is run at n
     figures(done, n)     list of Figure, from the folders of these runs, by their names
-    curves(done)         Plot of the finest resolution that has been run; done as for figures
+    curves(done)         Plot of the finest resolution that has been run, or a list: plot.png, plot2.png, ...; done as for figures
     MISSED               where there are any: by resolution, names of figures that its page says are outside; * stands for any words
 """
 import csv
@@ -197,18 +197,18 @@ def validate(name, n, binaries, ranks, work):
         done[run.name] = work / name / str(n) / run.name
         records.append(execute(run, done[run.name], binaries, ranks))
     seconds = sum(record["performance"]["processorSeconds"] for record in records)
-    machines, days = zip(*map(origin, records))
+    machines, days, programs = zip(*map(origin, records))
     return {"resolution": n, "particles": max(record["parameters"]["particles"] for record in records), "coreSeconds": round(seconds, 1),
             "ranks": max(record["ranks"] for record in records), "machine": "; ".join(dict.fromkeys(machines)), "date": max(days),
-            "figures": [asdict(figure) for figure in case.figures(done, n)]}, done
+            "programs": ", ".join(dict.fromkeys(programs)), "figures": [asdict(figure) for figure in case.figures(done, n)]}, done
 
 
 def origin(record):
-    """Machine, in the words of machine(), and day of a run.json."""
+    """Machine, in the words of machine(), day and commit of the programs of a run.json."""
     where = record["machine"]
     family = " ".join(re.sub(r"\([A-Za-z]*\)", "", where["processor"]).split()[:2])
     vectors = {"avx512": "AVX-512", "avx2": "AVX2"}.get(record["performance"]["instructionSet"], "baseline")
-    return f"{where['cores']} cores, {family}, {vectors}", record["end"][:10]
+    return f"{where['cores']} cores, {family}, {vectors}", record["end"][:10], record["build"]["git"]
 
 
 def machine():
@@ -292,11 +292,16 @@ def keep(name, record, plot):
     records.sort(key=lambda other: other["resolution"])
     (HERE / name / "results.json").write_text(json.dumps(records, indent=1) + "\n")
     if record is records[-1]:
-        draw(plot, HERE / name / "plot.png")
+        for k, one in enumerate(plot if isinstance(plot, list) else [plot], 1):
+            draw(one, HERE / name / f"plot{k if k > 1 else ''}.png")
     page = HERE / name / "README.md"
     before, rest = page.read_text().split(MARKS[0])
     after = rest.split(MARKS[1])[1]
-    runs = "; ".join(sorted({f"{r['machine']}, {r['ranks']} rank{'s' if r['ranks'] > 1 else ''}, {r['date']}" for r in records}))
+    def ran(r):
+        of = f", programs of {r['programs']}" if "programs" in r else ""
+        return f"{r['machine']}, {r['ranks']} rank{'s' if r['ranks'] > 1 else ''}, {r['date']}{of}"
+
+    runs = "; ".join(sorted(set(map(ran, records))))
     page.write_text(f"{before}{MARKS[0]}\n\n{table(load(name), records)}\n\n`validate {name} -resolution n`; {runs}.\n\n{MARKS[1]}{after}")
     results()
 
@@ -304,7 +309,7 @@ def keep(name, record, plot):
 def results():
     lines = ["# Validation: what has been run", "",
              "Each case has a page in its folder. Errors at the finest resolution run; written by `validate CASE -record`.", "",
-             "| case | resolution | figure | error | allowed | core-seconds | date, machine |", "|---|---|---|---|---|---|---|"]
+             "| case | resolution | figure | error | allowed | core-seconds | date, machine, programs |", "|---|---|---|---|---|---|---|"]
     for name in names():
         records, case = recorded(name), load(name)
         if not records:
@@ -312,7 +317,7 @@ def results():
         last = records[-1]
         for k, figure in enumerate(last["figures"]):
             first = [f"[{case.TITLE}]({name}/README.md)", f"{last['resolution']} {case.ACROSS}"] if k == 0 else ["", ""]
-            end = [f"{last['coreSeconds']:g}", f"{last['date']}, {last['machine']}"] if k == 0 else ["", ""]
+            end = [f"{last['coreSeconds']:g}", ", ".join(last[key] for key in ("date", "machine", "programs") if key in last)] if k == 0 else ["", ""]
             word = "" if holds(figure) else " **outside**"
             lines.append("| " + " | ".join([*first, figure["name"], error(figure) + word, f"{figure['allowed']:.3g} {figure['unit']}", *end]) + " |")
     (HERE / "RESULTS.md").write_text("\n".join(lines) + "\n")

@@ -69,8 +69,8 @@ def test_missed():
 def test_execute():
     """A run that has ended is not run again, unless its settings or files change; what older ones have kept counts. Its record says where and when."""
     record = {"status": "done", "ranks": 3, "end": "2026-01-02T23:59:59Z", "parameters": {"particles": 8},
-              "machine": {"cores": 2, "processor": "AMD EPYC"}, "performance": {"processorSeconds": 1.0, "instructionSet": "avx2"}}
-    assert suite.origin(record) == ("2 cores, AMD EPYC, AVX2", "2026-01-02")
+              "machine": {"cores": 2, "processor": "AMD EPYC"}, "build": {"git": "0123abc"}, "performance": {"processorSeconds": 1.0, "instructionSet": "avx2"}}
+    assert suite.origin(record) == ("2 cores, AMD EPYC, AVX2", "2026-01-02", "0123abc")
     with tempfile.TemporaryDirectory() as folder:
         source, case, count = pathlib.Path(folder) / "source", pathlib.Path(folder) / "case", pathlib.Path(folder) / "count"
         for part in ("system", "constant"):

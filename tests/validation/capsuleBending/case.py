@@ -12,7 +12,7 @@ CA, EB = 0.15, 0.1125  # mu gammadot a/Gs, kappa/(Gs a^2): 0.05 and 0.0375 in th
 STRAIN, TIMES = 3, (0.5, 1, 2, 3)
 READING = 0.003  # error of reading D
 UNBOUNDED, BOXED = "Guckenberger and others 2016", "Huet"  # both without rest curvature
-ALLOWED = {6: 7, 8: 5, 12: 4}  # %; at the finest the aim
+ALLOWED = {6: 3.5, 8: 3, 12: 3}  # %; the aim is 4 % at the finest
 SCENES = {"unbounded": (BOX, 0), "boxed": ((4, 4, 4), 0), "curved": (BOX, 2)}  # box in radii; spontaneous curvature of c1 + c2 in 1/a
 
 reference = published(HERE / "capsuleBending" / "published.csv")

@@ -28,7 +28,7 @@ def jeffery(r, phi):
 
 
 def angle(r, strain):
-    """phi from 0, until a right angle."""
+    """phi from 0, until two right angles."""
     return math.atan2(r * math.sin(strain / (r + 1 / r)), math.cos(strain / (r + 1 / r)))
 
 
@@ -96,7 +96,7 @@ def curves(done):
     for r, exact in reference.items():
         for n in (n for n in reversed(RESOLUTIONS) if (work / f"{n}/{r:g}-turn/run.json").exists()):
             turned = tutorial.motion(str(work / f"{n}/{r:g}-turn"))[::4]
-            strains = [0.05 * k for k in range(int(20 * exact["period"] / 4) + 1)]
+            strains = [0.05 * k for k in range(int(20 * 1.06 * exact["period"] / 4) + 1)]
             ours.append((f"r = {r:g}, {n} along the axis", [s for s, _, _ in turned], [math.degrees(phi) for _, phi, _ in turned]))
             theirs.append(("Jeffery", strains, [math.degrees(angle(r, s)) for s in strains]))
             break

@@ -16,7 +16,7 @@ ACROSS = "particles along 4 um"
 RESOLUTIONS = (5, 6, 8, 12)
 MEASURED = ((35, 28.6), (35, 57.1), (35, 171.4), (28.9, 16.9), (28.9, 65.2), (28.9, 258))
 TREADING = {5: ((35, 57.1),), 6: MEASURED, 8: MEASURED}  # viscosity outside, mPa s; shear rate, 1/s
-STRESSES = {5: (0.03,), 6: (0.03,), 8: (0.03, 0.46)}  # Pa, in 23.9 mPa s: below and above the measured ones
+STRESSES = {5: (0.03,), 6: (0.03,), 8: (0.03, 0.06, 0.12, 0.23, 0.46), 12: (0.03, 0.46)}  # Pa, in 23.9 mPa s: from below the measured ones to above
 THIN = 23.9
 BOX = {5: (5, 5, 5), 6: (5, 5, 5), 8: (7, 5, 5)}  # 4 um, along the flow, the vorticity and the gradient
 STRAIN = {5: 24, 6: 22, 8: 22}  # half a turn of the membrane from DRAWN on
@@ -119,15 +119,21 @@ def figures(done, n):
         found.append(Figure(f"{name}: inclination, outside {low:.3g} to {high:.3g}", beyond, 0, "degrees", value))
         found += steady.course.kept(name)
     measured = [row["stress_Pa"] for row in rows(HERE / "transition.csv") if row["viscosity_mPa_s"] == THIN]
+    tumbling, treading = [], []
     for stress in fromOn(STRESSES, n):
         course = Course(done[label(THIN, stress / THIN * 1e3)])
         tumbles = math.isfinite(course.turn(90))
         treads = not tumbles and course.shape[-1]["treadPhase_rad"] > math.pi / 2
+        (tumbling if tumbles else treading if treads else []).append(stress)
         if stress < min(measured):
             found.append(Figure(f"{stress:g} Pa, below {min(measured):.2g}: tumbles (0) or not (1)", 1 - tumbles, 0, ""))
         elif stress > max(measured):
             found.append(Figure(f"{stress:g} Pa, above {max(measured):.2g}: treads (0) or not (1)", 1 - treads, 0, ""))
         found += course.kept(f"{stress:g} Pa")
+    if len(fromOn(STRESSES, n)) > 2:
+        middle = math.sqrt(max(tumbling) * min(treading)) if tumbling and treading and max(tumbling) < min(treading) else math.nan
+        found.append(Figure(f"stress between tumbling and treading (Pa), outside {min(measured):.2g} to {max(measured):.2g}",
+                            outside(middle, min(measured), max(measured), percent=False), 0, "", middle))
     return found
 
 
@@ -150,10 +156,27 @@ def curves(done):
         ours.append((f"ours, {viscosity:g} mPa s", *map(list, zip(*points))))
     means, cells = rows(HERE / "tranSonTay1984.csv"), bands(rows(HERE / "fischer2015.csv"))
     rates = [row["shearRate_1_s"] for row in means]
-    theirs = [("", rates, [row[f"f_{word}_rad_s"] / row["shearRate_1_s"] for row in means]) for word in ("young", "old")]
+    theirs = [("", rates, [(row["f_young_rad_s"] + k * row["f_young_sd"]) / row["shearRate_1_s"] for row in means]) for k in (-1, 0, 1)]
+    theirs.append(("", rates, [row["f_old_rad_s"] / row["shearRate_1_s"] for row in means]))
     theirs += [("", [rate for rate, _, _ in cells], [mean + k * deviation for _, mean, deviation in cells]) for k in (-1, 0, 1)]
-    words = (("180, 0.222", "Tran-Son-Tay, 35 mPa s: young"), ("180, 0.178", "old"), ("5, 0.315", "Fischer, 28.9 mPa s:"),
+    words = (("180, 0.222", "Tran-Son-Tay, 35 mPa s: young"), ("180, 0.178", "old, mean"), ("5, 0.315", "Fischer, 28.9 mPa s:"),
              ("5, 0.3", "mean +- deviation"))
-    return Plot("shear rate [1/s]", "f/gammadot [rad]", ours, theirs, [
+    frequency = Plot("shear rate [1/s]", "f/gammadot [rad]", ours, theirs, [
         "set logscale x", "set xrange [4:1000]", "set yrange [0:0.4]", "set key right top",
         *(f"set label '{word}' at {place} tc rgb '#777777'" for place, word in words)])
+    return [frequency, shapes(done, n, means, rates)]
+
+
+def shapes(done, n, means, rates):
+    """Lengths of the cells in 35 mPa s and, tenths of degrees, inclinations of all, each with what was measured."""
+    found = sorted((rate, viscosity, Steady(done[label(viscosity, rate)])) for viscosity, rate in fromOn(TREADING, n))
+    thick = [(rate, steady) for rate, viscosity, steady in found if viscosity == 35]
+    ours = [("projected half-length [um]", [rate for rate, _ in thick], [steady.halfLength() for _, steady in thick]),
+            ("projected half-width [um]", [rate for rate, _ in thick], [steady.halfWidth() for _, steady in thick]),
+            ("inclination [10 degrees]", [rate for rate, _, _ in found], [0.1 * steady.inclination() for _, _, steady in found])]
+    theirs = [("", rates, [row[f"half{word}_um"] + k * row[f"half{word}_sd"] for row in means]) for word in ("Length", "Width") for k in (-1, 0, 1)]
+    ends = [0.1 * degrees for rate, _, _ in found for degrees in inclinations(rate)]
+    theirs += [("", [rate for rate, _, _ in found], ends[k::2]) for k in (0, 1)]
+    words = (("180, 8.3", "Tran-Son-Tay: mean +- deviation"), ("15, 2.1", "Fischer: least and greatest donor"))
+    return Plot("shear rate [1/s]", "", ours, theirs, ["set logscale x", "set xrange [10:1000]", "set yrange [0:10]", "set key right top",
+                                                       *(f"set label '{word}' at {place} tc rgb '#777777'" for place, word in words)])
