@@ -13,8 +13,8 @@ using particles::ParticleSystem;
 
 namespace {
 
-// As at plane walls: a particle that has come very close does not make the velocity beyond the surface arbitrarily large.
-constexpr double smallestDistanceInSpacings = 0.25;
+// About what a body's particles within reach of a fluid particle weigh in sum_j l_ij depth_j, by their surface's distance.
+double share(double distance, double reach) { return std::pow(1 - distance / reach, 6); }
 
 // The image of `to` nearest to `from`; the bits of `to` where that is the one.
 Vec3 nearestImage(const particles::Box& box, Vec3 to, const Vec3& from) {
@@ -123,26 +123,30 @@ void Bodies::findCandidates(const ParticleSystem& system) {
 
 void Bodies::updateNear(const ParticleSystem& system) {
     groups_.near.clear();
-    const double reach = system.support(), least = smallestDistanceInSpacings * medium_.spacing;
+    const double reach = system.support(), least = medium_.leastDistance * medium_.spacing;
+    struct Surface {
+        double distance, weight;
+    };
+    std::vector<Surface> surfaces;  // of the entries of this particle
     for (const Candidate& candidate : candidates_) {
-        sph::RigidGroups::Near nearest{candidate.particle, -1, 0, Vec3::Zero()};
-        double first = reach, second = reach;  // distances from the nearest surface and from the next
+        surfaces.clear();
+        double whole = 0;
         for (const int b : candidate.bodies) {
             const Body& body = bodies_[static_cast<std::size_t>(b)];
             const Vec3 from = arm(system, body, candidate.particle);
             const double distance = std::max(0.0, body.distance.at(body.inBody(from)));
-            if (distance >= second) continue;
-            second = distance;
-            if (distance >= first) continue;
-            second = first, first = distance;
-            nearest.group = b, nearest.arm = from;
+            if (distance >= reach) continue;
+            surfaces.push_back({distance, share(distance, reach)});
+            whole += surfaces.back().weight;
+            groups_.near.push_back({candidate.particle, b, 0, from});
         }
-        if (nearest.group < 0) continue;
-        const Body& body = bodies_[static_cast<std::size_t>(nearest.group)];
-        const double distance =
-            effectiveDistance(body.distance, body.inBody(nearest.arm), std::max(first, least), medium_.spacing);
-        nearest.inverseDistance = (second - first) / (reach - first) / distance;
-        groups_.near.push_back(nearest);
+        auto near = groups_.near.end() - static_cast<std::ptrdiff_t>(surfaces.size());
+        for (const Surface& surface : surfaces) {
+            const Body& body = bodies_[static_cast<std::size_t>(near->group)];
+            const double distance = effectiveDistance(body.distance, body.inBody(near->arm),
+                                                      std::max(surface.distance, least), medium_.spacing);
+            (near++)->inverseDistance = surface.weight / whole / distance;
+        }
     }
 }
 

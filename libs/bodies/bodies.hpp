@@ -22,6 +22,10 @@ class Bodies : public sph::Load {
         double density = 0;             // rho0 of the fluid [kg/m^3]
         Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
         double spacing = 0;             // [m]
+        // A fluid particle that has come closer to a surface than this counts as so far away [spacings]: what it would feel
+        // otherwise bounds an explicit step. What it feels less makes bodies look smaller, by 0.04 dx with 0.25.
+        double leastDistance = 0.25;
+        static constexpr double unlimited = 0.05;  // where the step has no such bound
     };
     // The bodies are filled.
     Bodies(std::vector<Body> bodies, const Medium& medium);

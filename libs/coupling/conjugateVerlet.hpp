@@ -50,6 +50,7 @@ class ConjugateVerlet {
         steps_ = steps;
         if (noFlux_) noFlux_->restore(crossings);
     }
+    const Immersed* immersed() const { return immersed_.get(); }
     const NoFlux* noFlux() const { return noFlux_.get(); }  // none without cells
 
     // The scene must stay where it is.

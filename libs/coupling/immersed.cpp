@@ -195,6 +195,7 @@ void Immersed::findWeights() {
             e.along *= along_[m].dot(of);
         }
     }
+    mostFallbacks_ = std::max(mostFallbacks_, fallbacks_);
 }
 
 void Immersed::Weights::findTouched(std::size_t particles) {

@@ -71,6 +71,7 @@ class Immersed {
     }  // entries of others' particles with weights
 
     long fallbacks() const { return fallbacks_; }  // nodes of the last build with Shepard's weights, for either reason
+    long mostFallbacks() const { return mostFallbacks_; }  // of any build
 
   private:
     struct Entry {
@@ -103,7 +104,7 @@ class Immersed {
     Vectors normal_;                                             // of each node; 0 where it has no area
     std::vector<membrane::BlockStiffness> stiffness_, damping_;  // K and C of each cell
     Vectors gradient_;                                           // g of closed cells, 0 of open ones
-    long fallbacks_ = 0;
+    long fallbacks_ = 0, mostFallbacks_ = 0;
 };
 
 }  // namespace corpuscle::coupling

@@ -84,6 +84,7 @@ class ImplicitStep {
     Statistics statistics;
     virtual double largestDensityBalance() const = 0;
     const AllowedSteps& allowed() const { return allowed_; }  // by the last one; stepControl.hpp
+    const coupling::Immersed* immersed() const { return immersed_.get(); }
     const coupling::NoFlux* noFlux() const { return noFlux_.get(); }
 
     // The scene must stay where it is.

@@ -76,6 +76,9 @@ std::vector<Fixed> fixedSettings(const Case& input) {
         fixed.push_back({"constant/fluid.yaml", "layers", layer.above, unit::metre});
         fixed.push_back({"constant/fluid.yaml", "layers", layer.viscosity, unit::pascalSecond});
     }
+    for (const CellSettings& cell : input.mesh.cells)
+        fixed.push_back({"constant/membranes.yaml", "interior.viscosityRatio",
+                         input.membraneOf(cell).interior.viscosityRatio, unit::none});
     return fixed;
 }
 

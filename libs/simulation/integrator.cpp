@@ -106,6 +106,7 @@ void Integrator::resume(const State& state, Time& time) {
 
 void Integrator::goBack(const State& state, Time& time) {
     largestBalance_ = largestDensityBalance();
+    mostFallbacks_ = mostFallbacks();
     const auto statistics = implicit_ ? implicit_->statistics : implicit::ImplicitStep::Statistics{};
     rkl2_ = nullptr;
     scheme_.reset(), conjugate_.reset(), implicit_.reset(), scene_.coupling.reset();
@@ -161,6 +162,13 @@ double Integrator::largestDensityBalance() const {
                          : scene_.coupling ? scene_.coupling->densityBalance().largest()
                                            : 0;
     return std::max(since, largestBalance_);
+}
+
+long Integrator::mostFallbacks() const {
+    const coupling::Immersed* immersed = implicit_    ? implicit_->immersed()
+                                         : conjugate_ ? conjugate_->immersed()
+                                                      : nullptr;
+    return std::max(immersed ? immersed->mostFallbacks() : 0, mostFallbacks_);
 }
 
 void Integrator::updateLimits(Time& time) {

@@ -44,6 +44,7 @@ class Integrator {
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;
+    long mostFallbacks() const;  // nodes of immersed membranes with Shepard's weights at once
     const implicit::ImplicitStep* implicitStep() const { return implicit_.get(); }
 
   private:
@@ -63,6 +64,7 @@ class Integrator {
     sph::StepLimits limits_;
     double viscousRate_ = 0, membraneRate_ = 0, springRate2_ = 0;
     double largestBalance_ = 0;                                 // before the last way back
+    long mostFallbacks_ = 0;                                    // likewise
     double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
     long rebuilds_ = -1;
 };

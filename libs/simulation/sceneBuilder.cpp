@@ -83,8 +83,9 @@ void addBodies(const Case& input, Scene& scene) {
         body.fill(places, input.particleVolume(), *input.numerics.kernel, input.support());
         all.push_back(std::move(body));
     }
-    scene.bodies = std::make_unique<bodies::Bodies>(
-        std::move(all), bodies::Bodies::Medium{input.flow.density, input.flow.bodyForce, input.spacing()});
+    bodies::Bodies::Medium medium{input.flow.density, input.flow.bodyForce, input.spacing()};
+    if (input.numerics.isImplicit()) medium.leastDistance = bodies::Bodies::Medium::unlimited;
+    scene.bodies = std::make_unique<bodies::Bodies>(std::move(all), medium);
 }
 
 // Velocity and half the curl of the undisturbed flow, by central differences.

@@ -258,6 +258,13 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     }
     record_.set("extremes", "largestDensityBalance", integrator_.largestDensityBalance());
     if (!scene.cells.empty()) {
+        record_.set("extremes", "mostNodesWithoutLinearWeights", integrator_.mostFallbacks());
+        if (const long nodes = integrator_.mostFallbacks(); nodes > 0)
+            app_.log().warning(
+                "{} nodes of membranes at once had too few particles of the fluid around them for weights that are "
+                "exact "
+                "on linear fields, and moved with a plain mean: a finer spacing would help",
+                nodes);
         record_.set("result", "guardMoves", guardMoves_);
         record_.set("result", "brokenBonds", brokenBonds_);
     }

@@ -93,7 +93,7 @@ void FluidForces::packGroups(Real* records, int owned, const std::vector<RigidMo
         const Vec3 rigid = motion[static_cast<std::size_t>(n.group)].at(n.arm);
         const double factor = support * n.inverseDistance;
         for (int k = 0; k < 3; ++k)
-            r[slope + k] = static_cast<Real>(factor * (static_cast<double>(r[3 + k]) - rigid[k]));
+            r[slope + k] += static_cast<Real>(factor * (static_cast<double>(r[3 + k]) - rigid[k]));
     }
 }
 

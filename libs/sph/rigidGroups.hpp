@@ -42,11 +42,10 @@ struct RigidGroups {
         double depth;          // below the surface, at least 0 [m]
         Vec3 arm, surfaceArm;  // of itself and of the nearest point of the surface, from the centre [m]
     };
-    // A fluid particle of this rank within the kernel's reach of a surface.
+    // A fluid particle of this rank within the kernel's reach of a surface; one entry for each body where there are several.
     struct Near {
         int particle, group;
-        double
-            inverseDistance;  // from the surface [1/m], times a weight that fades out where another surface comes as close
+        double inverseDistance;  // from the surface [1/m], times the body's share among those within reach: 1 together
         Vec3 arm;
     };
     std::vector<Member> members;

@@ -25,7 +25,7 @@ struct SphereInFluid {
 
     SphereInFluid(const Index3& boxSize, const Vec3& place, const std::string& behaviour, double density = 1,
                   double disorder = 0, double radius = 3, const Vec3& bodyForce = Vec3::Zero(),
-                  MPI_Comm among = MPI_COMM_WORLD)
+                  MPI_Comm among = MPI_COMM_WORLD, double leastDistance = Bodies::Medium{}.leastDistance)
         : size(boxSize), centre(place), comm(among) {
         fluid.bodyForce = bodyForce;
         const Box box = cube(size);
@@ -49,7 +49,7 @@ struct SphereInFluid {
         body.fill(inside, 1, *fluid.kernel, support);
         std::vector<Body> all;
         all.push_back(std::move(body));
-        bodies = std::make_unique<Bodies>(std::move(all), Bodies::Medium{1, bodyForce, 1});
+        bodies = std::make_unique<Bodies>(std::move(all), Bodies::Medium{1, bodyForce, 1, leastDistance});
         forces = std::make_unique<sph::FluidForces>(fluid, *system, &bodies->groups());
         int rank = 0;
         MPI_Comm_rank(comm, &rank);

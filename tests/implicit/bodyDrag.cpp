@@ -29,7 +29,9 @@ void run(RigidSphereScene& s, double time) {
 // tests/bodies/drag.cpp has the same of the explicit step.
 double dragFactor(double radius, int length) {
     const Vec3 middle = Vec3::Constant(0.5 * length);
-    RigidSphereScene s({{length, length, length}, middle, "held", 1, 0, radius, Vec3(2e-4, 0, 0)}, 1e-3);
+    RigidSphereScene s({{length, length, length}, middle, "held", 1, 0, radius, Vec3(2e-4, 0, 0), MPI_COMM_WORLD,
+                        bodies::Bodies::Medium::unlimited},
+                       1e-3);
     const double drag = 6 * pi * s.scene.model().viscosity * radius, volume = std::pow(length, 3);
     run(s, 3.5 * volume / (drag * hasimoto(fraction(radius, length))));
     return s.body().wrench.force[0] / (drag * s.fluidMomentum()[0] / volume);
@@ -38,7 +40,9 @@ double dragFactor(double radius, int length) {
 double torqueFactor(double radius, int length) {
     const Vec3 middle = Vec3::Constant(0.5 * length);
     RigidSphereScene s(
-        {{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius}, 2e-3);
+        {{length, length, length}, middle, "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius,
+         Vec3::Zero(), MPI_COMM_WORLD, bodies::Bodies::Medium::unlimited},
+        2e-3);
     s.body().state.motion.angular = Vec3(0, 0.002, 0);
     run(s, 0.1 * length * length / s.scene.model().viscosity);
     return -s.body().wrench.torque[1] / (8 * pi * s.scene.model().viscosity * std::pow(radius, 3) * 0.002);

@@ -411,6 +411,11 @@ def test_conjugate(folder):
     last = table(thick, "balance")[-1]
     assert last["changedSide"] == 0 and abs(last["rbc_volumeChange"]) < 1e-12, last
     assert 0.02 < table(thick, "deformation")[-1]["D12_inertia"] < 0.95 * table(cases[1], "deformation")[-1]["D12_inertia"]
+    record = json.loads((thick / "run.json").read_text())
+    assert record["extremes"]["mostNodesWithoutLinearWeights"] == 0, record["extremes"]
+    # Its particles carry the viscosity that they were made with.
+    said = run(thick, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/interior/viscosityRatio=10", "-set", "system/control.yaml:/endStrain=9", code=2).stderr
+    assert "interior.viscosityRatio: the case now has 10" in said and "start from firstTime" in said, said
     # Fluid alone, on either form of operators.
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/operators=corrected", "-set", "system/numerics.yaml:/shifting={coefficient: 1}")

@@ -12,21 +12,23 @@ def decay(folder, rate):
 
 
 class Decay:
-    """A flow whose energy falls as exp(-t), t over 1/rate. allowed: by resolution, per cent of E(0) until 1/e; and `viscosity` times that of the
-    viscosity felt (an error of the viscosity e times as large makes this error of E at 1/e). settings(n): besides the spacing."""
+    """A flow whose energy falls as exp(-t), t over 1/rate. allowed: by resolution, per cent of E(0) until 1/e; `whole` times that over the whole
+    run; `viscosity` times that of the viscosity felt (an error of the viscosity e times as large makes this error of E at 1/e). settings(n):
+    besides the spacing."""
 
-    def __init__(self, source, rate, time, allowed, order, viscosity=math.e, settings=lambda n: []):
+    def __init__(self, source, rate, time, allowed, order, viscosity=math.e, settings=lambda n: [], whole=2):
         self.source, self.rate, self.time, self.allowed, self.order = source, rate, time, allowed, order
-        self.viscosity, self.settings = viscosity, settings
+        self.viscosity, self.settings, self.whole = viscosity, settings, whole
 
     def runs(self, n):
         return [Run("flow", self.source, [f"system/numerics.yaml:/spacing={1000 / n} um", *self.settings(n)], ("particleFill", "sphFlow"))]
 
     def figures(self, done, n):
         points, allowed = decay(done["flow"], self.rate), permitted(self.allowed, n, self.order)
-        error = worst(energy - math.exp(-t) for t, energy in points if t <= 1)
+        error, all_ = (worst(energy - math.exp(-t) for t, energy in points if t <= end) for end in (1, math.inf))
         felt = tutorial.viscosity(points, 1)
         return [Figure("E/E(0) until 1/e, largest error", 100 * error, allowed, order=True),
+                Figure(f"E/E(0) until exp(-{points[-1][0]:.1f}), largest error", 100 * all_, self.whole * allowed),
                 Figure("viscosity felt, from the time of 1/e", 100 * (felt - 1), self.viscosity * allowed, "%", felt, 1, order=True)]
 
     def curves(self, done):

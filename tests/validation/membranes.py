@@ -9,7 +9,7 @@ from suite import HERE, PROGRAMS, Figure, Plot, Run, at, fromOn, rows
 from summary import axisTurned, series
 
 RADIUS = 4  # um
-COARSEST = 6  # particles along the radius
+COARSEST = 5  # particles along the radius
 
 
 def settings(n, box, strain, more=(), edge=1.0):

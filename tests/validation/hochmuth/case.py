@@ -13,6 +13,7 @@ FOLDER = HERE / "hochmuth"
 TITLE = "recovery of a stretched red cell"
 ACROSS = "particles along the radius"
 RESOLUTIONS = (6, 8, 12)
+UNBOUNDED = True
 RADIUS, BOX, EDGE = 3.91, (6, 4, 3), 1.0  # um; radii; of the mesh, in spacings
 ETA, GS = 5e-7, 4e-6  # N s/m, N/m: constant/membranes.yaml
 ALLOWED = {6: 5, 8: 5, 12: 5}  # %, of the time of recovery
@@ -99,9 +100,10 @@ def figures(done, n):
     for name, folder in done.items():
         label = f"interior of {name[len('interior'):]} mPa s"
         times, ratios = ours(folder)
-        _, tc, _ = fit(times, ratios, 1)
+        (_, free, _), (_, tc, _) = fit(times, ratios), fit(times, ratios, 1)
         furthest = worst(r / sheet(t, ratios[0], ETA / GS, 1) - 1 for t, r in zip(times, ratios))
-        found += [Figure(f"{label}: time of recovery, outside the four cells' {low:.3f} to {high:.3f} s", outside(tc, low, high), 0, "%", tc),
+        found += [Figure(f"{label}: time of recovery, R1 fitted too, outside the four cells' {low:.3f} to {high:.3f} s",
+                         outside(free, low, high), 0, "%", free),
                   relative(f"{label}: time of recovery, against eta/Gs", tc, ETA / GS, allowed),
                   Figure(f"{label}: length over width, worst, against the sheet with eta/Gs", 100 * furthest, WORST)]
         found += Course(folder).kept(label)

@@ -6,6 +6,7 @@ from suite import TUTORIALS, Figure, fromOn, outside, relative, worst
 TITLE = "red cell in shear flow, Ca 0.002: three tumbles"
 ACROSS = "particles along the radius"
 RESOLUTIONS = (6, 8, 12, 20)  # 20: that of tutorials/rbcShear/paper
+UNBOUNDED = True
 TUMBLES = {6: 1, 8: 3}
 STEP = {6: 0.05, 20: 0.1}  # of strain; 0.1 as in tutorials/rbcShear/paper
 PERIOD = 20.45  # in units of 1/gammadot: of the rigid cell and of this one, by boundary elements

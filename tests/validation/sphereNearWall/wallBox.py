@@ -9,7 +9,8 @@ import math
 
 def images(h, W, towards, reach=40):
     """Stokeslets at (i W, j W, h) near a wall at z = 0, without that of the sphere."""
-    total = 0.0
+    # What lies beyond falls as 1/s^5 towards the wall and as 6 h^2/s^3 along it: its integral outside the square.
+    total = 0.0 if towards else 6 * h**2 * 4 * math.sqrt(2) / ((reach + 0.5) * W**3)
     for i in range(-reach, reach + 1):
         for j in range(-reach, reach + 1):
             if i or j:

@@ -49,10 +49,16 @@ def figures(done, n):
 
 
 def curves(done):
-    ours, theirs = [], []
+    """The decay, and how far off it is by all resolutions that have been run."""
+    work, ours, theirs, off = next(iter(done.values())).parent.parent, [], [], []
     for Re in REYNOLDS:
         points = energies(done, Re)[::4]
         table = [row for row in reference if row["Re"] == Re]
         ours.append((f"particles, Re = {Re}", [t / Re for t, _ in points], [e for _, e in points]))
         theirs.append((f"spectral, Re = {Re}", [row["time"] / Re for row in table], [row["energy"] / 0.125 for row in table]))
-    return Plot("nu k^2 t", "E/E(0)", ours, theirs, ["set logscale y"])
+        for n in (n for n in RESOLUTIONS if (work / f"{n}/Re{Re}/run.json").exists()):
+            points = energies({f"Re{Re}": work / f"{n}/Re{Re}"}, Re)
+            off.append((f"Re = {Re}, {n} in a wavelength", [row["time"] / Re for row in table],
+                        [100 * (between(points, row["time"]) - row["energy"] / 0.125) for row in table]))
+    errors = Plot("nu k^2 t", "error of E, per cent of E(0)", off, [("spectral", [0, 0.3], [0, 0])], ["set key left top"])
+    return [Plot("nu k^2 t", "E/E(0)", ours, theirs, ["set logscale y"]), errors]
