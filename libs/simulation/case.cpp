@@ -114,6 +114,8 @@ Case Case::read(const Application& app) {
     if (c.numerics.isAutomatic()) {
         c.numerics = schemeOf(c, cheapest(predictCosts(c)));
         c.integratorChosen = true;
+    } else {
+        c.numerics = schemeOf(c, c.written.integrator);  // its step, now that the flow is known
     }
     c.mesh.fill.jitter = jitterOf(c);
     for (auto& [file, table] : c.effective)

@@ -67,10 +67,17 @@ double passes(const Case& c, double dt) {
 
 // A step that does not follow what the flow does by itself.
 std::string tooLong(const Case& c, double dt) {
-    const double longest = c.flow.transient / PassCosts::implicitStepsPerTransient;
-    if (!c.numerics.isImplicit() || c.flow.transient == 0 || dt <= longest) return "";
+    const double longest = longestStep(c.flow);
+    if (!c.numerics.isImplicit() || longest == 0 || dt <= (1 + 1e-9) * longest) return "";
     return fmt::format("its steps do not follow the flow, which changes within {}; implicit.step at most {:.2g} would",
                        formatQuantity(c.flow.transient, unit::second), longest * c.flow.rate);
+}
+
+// Vortices that decay stir their particles, on which plain operators do not tend to the flow as the spacing falls.
+std::string tooPlain(const Case& c) {
+    const bool stirs = c.flow.transient > 0 && !c.flow.settles;
+    if (!stirs || c.numerics.isCorrected() || c.written.operators != "automatic") return "";
+    return "its plain operators lose accuracy on the particles of vortices; 'operators: plain' would take them";
 }
 
 // Steps and passes of the whole run. Steps grow at first where the flow settles, and are then as long as at its end.
@@ -104,6 +111,7 @@ std::vector<IntegratorCost> predictCosts(const Case& input) {
         countPasses(named, cost);
         cost.cost = cost.passes / duration(input) / (input.flow.shearRate > 0 ? input.flow.shearRate : 1);
         if (cost.obstacle.empty()) cost.obstacle = tooLong(named, cost.step().seconds);
+        if (cost.obstacle.empty()) cost.obstacle = tooPlain(named);
     }
     return costs;
 }

@@ -25,8 +25,6 @@ struct PassCosts {
     static constexpr double conjugate = 4;  // velocity Verlet on conjugate operators
     static constexpr double implicitOverhead = 3.5, passesPerIteration = 2;
     static constexpr double iterations = 4, iterationsWithin = 12;  // of the implicit step; with cells or bodies
-    // In the time of a flow that changes by itself; the velocity of the implicit step is half a step behind.
-    static constexpr double implicitStepsPerTransient = 40;
     static constexpr double wallRate = 1.3;  // largest viscous rate beside walls over that of a lattice
 };
 
