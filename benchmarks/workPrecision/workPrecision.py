@@ -266,7 +266,7 @@ def tables():
         if not points:
             continue
         sizes = sorted({int(p["resolution"]) for p in points})
-        lines += [f"### {title(name)}", "", f"![error against core-seconds]({name}.png)", "",
+        lines += [f"### {title(name)}", "", f"![error against core-seconds]({name}.png)", "", f"[As SVG]({name}.svg).", "",
                   "| scheme | " + " | ".join(f"{n} {suite.load(name).ACROSS}" if n == sizes[0] else str(n) for n in sizes) + " |",
                   "|---|" + "---|" * len(sizes)]
         for scheme in dict.fromkeys(p["scheme"] for p in points):
