@@ -145,7 +145,7 @@ DIAGRAMS = {
     "taylorGreen2D": Diagram("flow", {
         "paper": Line(PAPER, FLUID), "explicit, plain": Line(PLAIN, FLUID), "explicit, corrected": Line(VERLET, FLUID), "RKL2": Line(RKL2, FLUID),
         "implicit, step 0.1": Line(implicit(0.1), FLUID), "implicit, step 0.05": Line(implicit(0.05), FLUID),
-        **peers(1)}, largest()),
+        **peers(1)}, largest("until 1/e", "viscosity felt")),
     "sphereArray": Diagram("c0.125", {
         "paper": Line([*PAPER, *HELD], SPHERES[:3], SPHERES[3:]), "explicit, plain": Line([*PLAIN, *HELD], SPHERES[:3], SPHERES[3:]),
         "implicit, 6 steps": Line([], SPHERES), "implicit, 24 steps": Line(lambda run: [scaled(run, NUMERICS + "/implicit/step", 0.25)], SPHERES)},

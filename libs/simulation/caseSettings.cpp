@@ -14,7 +14,9 @@ const Schema<WriteSettings>& WriteSettings::schema() {
             .quantity("time", &WriteSettings::time, unit::second, "time between two writes", {.range = positive})
             .integer("steps", &WriteSettings::steps, "time steps between two writes", {.range = atLeast(1)})
             .atMostOneOf({"strain", "time", "steps"})
-            .words("fields", &WriteSettings::fields, {"velocity", "density", "pressure", "side"}, "arrays of the fluid",
+            .words("fields", &WriteSettings::fields, {"velocity", "density", "pressure", "meanPressure", "side"},
+                   "arrays of the fluid; meanPressure: over the kernel's support on the particle's own side, without "
+                   "the noise of single particles",
                    {.fallback = "[velocity, density, pressure]"})
             .integerOr("all", "keep", &WriteSettings::keep, "how many times stay on disk",
                        {.fallback = "all", .range = atLeast(1)});

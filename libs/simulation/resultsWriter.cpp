@@ -5,6 +5,7 @@
 
 #include "core/communicator.hpp"
 #include "membrane/diagnostics.hpp"
+#include "sph/localMean.hpp"
 
 namespace corpuscle::simulation {
 
@@ -62,6 +63,12 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     auto* velocity = wants("velocity") ? &data.point.vectors["velocity"] : nullptr;
     auto* density = wants("density") ? &data.point.scalars["density"] : nullptr;
     auto* pressure = wants("pressure") ? &data.point.scalars["pressure"] : nullptr;
+    auto* meanPressure = wants("meanPressure") ? &data.point.scalars["meanPressure"] : nullptr;
+    std::vector<double> pressures, means;
+    if (pressure || meanPressure)
+        for (std::size_t i = 0; i < s.size(); ++i)
+            pressures.push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
+    if (meanPressure) means = sph::localMean(*scene.system, *model.kernel, model.mass, pressures);
     auto& spacing = data.point.scalars["spacing"];
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;
@@ -71,8 +78,8 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
         if (side) side->push_back(s.optional().side ? s.side[i] : 0);
         if (velocity) velocity->push_back(s.velocity(i));
         if (density) density->push_back(s.density[i]);
-        if (pressure)
-            pressure->push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
+        if (pressure) pressure->push_back(pressures[i]);
+        if (meanPressure) meanPressure->push_back(means[i]);
     }
     return data;
 }

@@ -3,6 +3,7 @@
 #include "particles/pairLoop.hpp"
 #include "sph/disorderPair.hpp"
 #include "sph/fluidPair.hpp"
+#include "sph/meanPair.hpp"
 #include "sph/momentPair.hpp"
 
 namespace corpuscle::sph {
@@ -26,6 +27,8 @@ struct PairKernels {
     Fluid<double> (*fluid)(FluidVariant, bool atWall);          // for lists of Precision::full
     Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);      // of Precision::mixed
     Disorder (*disorder)(KernelKind, particles::Precision list);
+    using Mean = particles::PairKernel<MeanConstants>;  // results: the mean; three that mean nothing
+    Mean (*mean)(KernelKind, particles::Precision list);
     // Of operators.hpp.
     template <class Real>
     struct Operators {

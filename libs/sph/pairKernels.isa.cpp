@@ -9,27 +9,30 @@ namespace {
 
 using particles::Precision;
 
-template <class Kernel>
-PairKernels::Disorder disorderOf(Precision precision) {
-    using Law = DisorderPair<Kernel>;
-    return precision == Precision::full ? PairBuild<Law, DisorderConstants, double, Precision::full>::kernel
-                                        : PairBuild<Law, DisorderConstants, double, Precision::mixed>::kernel;
+// Of double records, by lists of either precision.
+template <class Law, class Constants>
+particles::PairKernel<Constants> build(Precision precision) {
+    return precision == Precision::full ? PairBuild<Law, Constants, double, Precision::full>::kernel
+                                        : PairBuild<Law, Constants, double, Precision::mixed>::kernel;
 }
 
-PairKernels::Disorder disorder(KernelKind kernel, Precision precision) {
+template <template <class> class Law, class Constants>
+particles::PairKernel<Constants> choose(KernelKind kernel, Precision precision) {
     switch (kernel) {
         case KernelKind::lucy:
-            return disorderOf<Lucy>(precision);
+            return build<Law<Lucy>, Constants>(precision);
         case KernelKind::quintic:
-            return disorderOf<Quintic>(precision);
+            return build<Law<Quintic>, Constants>(precision);
         default:
-            return disorderOf<WendlandC2>(precision);
+            return build<Law<WendlandC2>, Constants>(precision);
     }
 }
 
 }  // namespace
 
 extern const PairKernels kernels;
-const PairKernels kernels{&fluidDouble, &fluidFloat, &disorder, &operatorsDouble, &operatorsFloat};
+const PairKernels kernels{
+    &fluidDouble,     &fluidFloat,    &choose<DisorderPair, DisorderConstants>, &choose<MeanPair, MeanConstants>,
+    &operatorsDouble, &operatorsFloat};
 
 }  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

@@ -28,7 +28,7 @@ class Decay:
         error, all_ = (worst(energy - math.exp(-t) for t, energy in points if t <= end) for end in (1, math.inf))
         felt = tutorial.viscosity(points, 1)
         return [Figure("E/E(0) until 1/e, largest error", 100 * error, allowed, order=True),
-                Figure(f"E/E(0) until exp(-{points[-1][0]:.1f}), largest error", 100 * all_, self.whole * allowed),
+                Figure(f"the whole run, until exp(-{points[-1][0]:.1f}), largest error", 100 * all_, self.whole * allowed),
                 Figure("viscosity felt, from the time of 1/e", 100 * (felt - 1), self.viscosity * allowed, "%", felt, 1, order=True)]
 
     def curves(self, done):

@@ -47,7 +47,7 @@ class Course:
     def kept(self, label):
         """Figures of what must be kept."""
         volume = suite.worst(row[f"{self.cell}_volumeChange"] for row in self.balance)
-        return [Figure(f"{label}: volume, at most", 100 * volume, 1e-3),
+        return [Figure(f"{label}: volume, at most", 100 * volume, 1e-5),
                 Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, ""),
                 Figure(f"{label}: particles put back", suite.worst(row["guardMoves"] for row in self.balance), 0, "")]
 
