@@ -60,5 +60,5 @@ def curves(done):
             points = energies({f"Re{Re}": work / f"{n}/Re{Re}"}, Re)
             off.append((f"Re = {Re}, {n} in a wavelength", [row["time"] / Re for row in table],
                         [100 * (between(points, row["time"]) - row["energy"] / 0.125) for row in table]))
-    errors = Plot("nu k^2 t", "error of E, per cent of E(0)", off, [("spectral", [0, 0.3], [0, 0])], ["set key left top"])
+    errors = Plot("nu k^2 t", "error of E, per cent of E(0)", off, [("spectral", [0, 0.3], [0, 0])], ["set key outside"])
     return [Plot("nu k^2 t", "E/E(0)", ours, theirs, ["set logscale y"]), errors]
