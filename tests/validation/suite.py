@@ -8,7 +8,7 @@ A case is a folder with case.py, README.md (the page) and references. case.py ha
     curves(done)         Plot of the finest resolution that has been run, or a list: plot.png, plot2.png, ...; done as for figures
     UNBOUNDED            True where the reference has no box, so that the case may be run in another one (validate -domain)
     MISSED               where there are any: by resolution, figures that its page says are outside, by name (* stands for any words), with the
-                         most that each may be off; not at the coarsest, which allows what it reaches
+                         most that each may be off
 """
 import csv
 import hashlib
