@@ -34,7 +34,7 @@ MARKS = ("<!-- tally: written by faults.py -->", "<!-- end of tally -->")
 KINDS = ("nan", "speed", "density", "node", "triangle")
 COUNT = 100
 STRAIN = 0.5
-CAPSULE = ["system/mesh.yaml:/domain/size=[20, 16, 16] um", "system/numerics.yaml:/spacing=1 um", "system/mesh.yaml:/cells/0/edge=0.8 um",
+CAPSULE = ["system/mesh.yaml:/domain/size=[20 um, 16 um, 16 um]", "system/numerics.yaml:/spacing=1 um", "system/mesh.yaml:/cells/0/edge=0.8 um",
            f"system/control.yaml:/endStrain={STRAIN + 0.02}", "system/control.yaml:/write={}", "constant/flow.yaml:/Ca=0.3",
            "system/observers.yaml:/deformation/every=0.01 strain", "system/observers.yaml:/balance/every=0.01 strain"]
 SCENES = {  # of a capsule of radius 4 um: settings, share of the faults

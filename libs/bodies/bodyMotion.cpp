@@ -24,9 +24,9 @@ struct Driven : BodyMotion {
         static const Schema<Driven> s =
             Schema<Driven>("driven", "moves and turns at constant rates")
                 .vector("velocity", &Driven::velocity, unit::metrePerSecond, "of its centre of mass",
-                        {.fallback = "[0, 0, 0] m/s"})
+                        {.fallback = "[0 m/s, 0 m/s, 0 m/s]"})
                 .vector("angularVelocity", &Driven::angularVelocity, unit::perSecond, "about its centre of mass",
-                        {.fallback = "[0, 0, 0] 1/s"})
+                        {.fallback = "[0 1/s, 0 1/s, 0 1/s]"})
                 .check([](const Driven& d, const Node& node, Problems& problems) {
                     if (d.velocity.isZero() && d.angularVelocity.isZero())
                         problems.add(node.place(), node.path,

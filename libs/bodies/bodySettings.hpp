@@ -1,7 +1,7 @@
 // constant/bodies.yaml: one entry for each kind of rigid body.
 //
 //     sphere: {density: 1000 kg/m^3, motion: free}
-//     piston: {motion: {type: driven, velocity: [1, 0, 0] mm/s}}
+//     piston: {motion: {type: driven, velocity: [1 mm/s, 0 mm/s, 0 mm/s]}}
 #pragma once
 #include <map>
 

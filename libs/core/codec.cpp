@@ -39,9 +39,8 @@ bool inRange(const Node& node, double value, Dimension dimension, const Range& r
     return false;
 }
 
-// One number with its unit; `unitAfter` is that of the list it stands in.
-std::optional<double> readNumber(const Node& node, Dimension dimension, const Range& range,
-                                 const std::string& unitAfter, Problems& problems) {
+// One number with its unit.
+std::optional<double> readNumber(const Node& node, Dimension dimension, const Range& range, Problems& problems) {
     const std::string si = dimension.si();
     const std::string expected =
         si.empty() ? "a number" : fmt::format("a quantity in {} (like '{}')", si, exampleOf(dimension));
@@ -49,12 +48,11 @@ std::optional<double> readNumber(const Node& node, Dimension dimension, const Ra
     Quantity q;
     try {
         q = parseQuantity(node.scalar);
-        if (!q.hasUnit && !unitAfter.empty()) q = parseQuantity(node.scalar + " " + unitAfter);
     } catch (const std::invalid_argument& e) {
         complain(node, problems, fmt::format("{}; {} is expected", e.what(), expected));
         return std::nullopt;
     }
-    const std::string found = unitAfter.empty() ? node.scalar : node.scalar + " " + unitAfter;
+    const std::string& found = node.scalar;
     if (q.inSpacings) {
         complain(
             node, problems,
@@ -78,9 +76,18 @@ bool isListOf(const Node& node, std::size_t n, const std::string& expected, Prob
     return false;
 }
 
+// "[20, 16, 16] um" is not YAML: the cure is shown where the items are plain numbers.
 bool hasNoUnit(const Node& list, Problems& problems) {
     if (list.unit.empty()) return true;
-    complain(list, problems, fmt::format("'{}' after the list; no unit is allowed here", list.unit));
+    std::vector<std::string> old, cured;
+    for (const Node& item : list.items) {
+        old.push_back(item.scalar);
+        cured.push_back(item.scalar + " " + list.unit);
+    }
+    complain(list, problems,
+             fmt::format("'[{}] {}' is not YAML: a unit cannot follow a list. Give each number its own, '[{}]'; "
+                         "etc/convertVectors rewrites whole cases",
+                         joinWords(old), list.unit, joinWords(cured)));
     return false;
 }
 
@@ -103,17 +110,19 @@ std::optional<std::string> without(const std::string& text, const std::string& u
 
 Codec<double> quantity(Dimension dimension, Range range) {
     return {[=](const Node& node, double& value, Problems& problems) {
-                if (const auto read = readNumber(node, dimension, range, "", problems)) value = *read;
+                if (const auto read = readNumber(node, dimension, range, problems)) value = *read;
             },
             [=](const double& value) { return Node::word(exactText(value, dimension)); }};
 }
 
 Codec<std::vector<double>> quantities(Dimension dimension, Range range) {
     return {[=](const Node& node, std::vector<double>& values, Problems& problems) {
-                if (!isListOf(node, 0, "a list of numbers, the unit after it", problems)) return;
+                if (!isListOf(node, 0, "a list of numbers, each with its unit", problems) ||
+                    !hasNoUnit(node, problems))
+                    return;
                 values.clear();
                 for (const Node& item : node.items) {
-                    const auto read = readNumber(item, dimension, range, node.unit, problems);
+                    const auto read = readNumber(item, dimension, range, problems);
                     if (!read) return;
                     values.push_back(*read);
                 }
@@ -121,8 +130,8 @@ Codec<std::vector<double>> quantities(Dimension dimension, Range range) {
             [=](const std::vector<double>& values) {
                 std::vector<std::string> texts;
                 texts.reserve(values.size());
-                for (double v : values) texts.push_back(exactText(v, unit::none));
-                return Node::list(texts, values.empty() ? "" : dimension.si());
+                for (double v : values) texts.push_back(exactText(v, dimension));
+                return Node::list(texts);
             }};
 }
 
@@ -211,11 +220,13 @@ Codec<Vec3> vector(Dimension dimension, Range range) {
                 FieldInfo info;
                 info.type = "vector";
                 info.dimension = dimension;
-                if (!isListOf(node, 3, fmt::format("a vector like '{}'", info.example()), problems)) return;
+                if (!isListOf(node, 3, fmt::format("a vector like '{}'", info.example()), problems) ||
+                    !hasNoUnit(node, problems))
+                    return;
                 Vec3 components;
                 for (int k = 0; k < 3; ++k) {
                     const auto read =
-                        readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, node.unit, problems);
+                        readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
                     if (!read) return;  // one message for a unit that all three lack
                     components[k] = *read;
                 }
@@ -223,8 +234,8 @@ Codec<Vec3> vector(Dimension dimension, Range range) {
             },
             [=](const Vec3& value) {
                 std::vector<std::string> texts;
-                for (double v : value) texts.push_back(exactText(v, unit::none));
-                return Node::list(texts, dimension.si());
+                for (double v : value) texts.push_back(exactText(v, dimension));
+                return Node::list(texts);
             }};
 }
 
@@ -264,7 +275,7 @@ Codec<Length> length(Range range) {
                 const auto spacings = node.kind == Node::Kind::scalar ? without(node.scalar, "dx") : std::nullopt;
                 Node number = node;
                 if (spacings) number.scalar = *spacings;
-                if (const auto read = readNumber(number, spacings ? unit::none : unit::metre, range, "", problems))
+                if (const auto read = readNumber(number, spacings ? unit::none : unit::metre, range, problems))
                     value = {*read, spacings.has_value()};
             },
             [](const Length& value) {
@@ -293,7 +304,7 @@ Codec<Interval> interval(Range range) {
             Range limits = range;
             if (limits.low < 0 || (limits.low == 0 && !limits.lowOpen)) limits.low = 0, limits.lowOpen = true;
             Problems own;
-            const auto read = readNumber(number, kind == Kind::time ? unit::second : unit::none, limits, "", own);
+            const auto read = readNumber(number, kind == Kind::time ? unit::second : unit::none, limits, own);
             if (!read || (kind == Kind::steps && *read != std::floor(*read)))
                 complain(node, problems,
                          fmt::format(

@@ -52,10 +52,9 @@ Node Node::word(std::string text) {
     return node;
 }
 
-Node Node::list(const std::vector<std::string>& words, std::string unit) {
+Node Node::list(const std::vector<std::string>& words) {
     Node node;
     node.kind = Kind::list;
-    node.unit = std::move(unit);
     for (const std::string& w : words) node.items.push_back(word(w));
     return node;
 }
@@ -75,8 +74,8 @@ struct Opened {
     int line, column;
 };
 
-// "[20, 16, 16] um" is no YAML. The unit is replaced by blanks before parsing, so that every column stays right, and
-// found again by the place of its bracket.
+// "[20, 16, 16] um" is not YAML. The unit is replaced by blanks before parsing, so that every column stays right, and
+// found again by the place of its bracket: the reader then shows how to write it.
 struct ListUnits {
     std::string text;
     std::map<std::pair<int, int>, std::string> unitAt;  // (line, column) of '[', from 0, in bytes as yaml-cpp counts
@@ -422,7 +421,7 @@ std::string flowText(const Node& node) {
     if (node.kind == Node::Kind::scalar) return scalarText(node, true);
     if (node.kind == Node::Kind::list) {
         for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + flowText(item);
-        return "[" + text + "]" + (node.unit.empty() ? "" : " " + node.unit);
+        return "[" + text + "]";
     }
     for (const auto& [key, value] : node.entries)
         text += (text.empty() ? "" : ", ") + scalarText(Node::word(key), true) + ": " + flowText(value);

@@ -27,7 +27,7 @@ class Node {
     std::string scalar;  // kind scalar: the text as written (quotes removed)
     bool quoted = false;
     std::vector<Node> items;     // kind list
-    std::string unit;            // kind list: the unit after it, "um" in "[20, 16, 16] um"
+    std::string unit;            // kind list: found after it, as in "[20, 16, 16] um": not YAML, every reader refuses it
     struct Entry;                // a key and its value
     std::vector<Entry> entries;  // kind table, in the order of the file
 
@@ -47,7 +47,7 @@ class Node {
     void setPath(const std::string& newPath);  // of this node and all below it
 
     static Node word(std::string text);
-    static Node list(const std::vector<std::string>& words, std::string unit = {});
+    static Node list(const std::vector<std::string>& words);
 };
 
 struct Node::Entry {

@@ -73,13 +73,12 @@ class Writer {
     static Json three(Json of) {
         return {{"type", "array"}, {"items", std::move(of)}, {"minItems", 3}, {"maxItems", 3}};
     }
-    static Json withUnitAfter(Json list) { return {{"anyOf", {list, pattern("\\[.*\\] .+")}}}; }
 
     Json value(const FieldInfo& f) {
         if (f.type == "quantity") return quantity(f.dimension, f.range);
         if (f.type == "quantities")
-            return withUnitAfter({{"type", "array"}, {"items", quantity(f.dimension, f.range)}});
-        if (f.type == "vector") return withUnitAfter(three(quantity(f.dimension, f.range)));
+            return {{"type", "array"}, {"items", quantity(f.dimension, f.range)}};
+        if (f.type == "vector") return three(quantity(f.dimension, f.range));
         if (f.type == "integer" || f.type == "integers") {
             Json whole = numberIn(f.range);
             whole["type"] = "integer";
@@ -153,11 +152,6 @@ nlohmann::ordered_json toJson(const Node& node) {
         return json;
     }
     if (node.kind == Node::Kind::list) {
-        if (!node.unit.empty()) {
-            std::string text = emit(node);
-            text.pop_back();
-            return text;
-        }
         Json json = Json::array();
         for (const Node& item : node.items) json.push_back(toJson(item));
         return json;

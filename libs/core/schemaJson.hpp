@@ -11,7 +11,7 @@ namespace corpuscle {
 nlohmann::ordered_json jsonSchema(const SchemaInfo& info);
 
 // A dictionary as JSON: plain numbers and true/false as such, every other scalar as text, a list with a unit after it
-// as the text that stands in the file ("[1, 2, 3] um").
+// as the text that stands in the file ("[1 um, 2 um, 3 um]").
 nlohmann::ordered_json toJson(const Node& node);
 
 }  // namespace corpuscle

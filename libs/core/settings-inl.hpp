@@ -146,7 +146,7 @@ class Schema : public SchemaBase {
         return add(describe("text", key, text, o), m, codec::text());
     }
 
-    // "[1, 2, 3] um", or a unit with each; the range holds for each component.
+    // "[1 um, 2 um, 3 um]"; the range holds for each component.
     Schema& vector(const Str& key, Vec3 T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("vector", key, text, o, d), m, codec::vector(d, o.range));
     }

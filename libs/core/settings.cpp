@@ -47,8 +47,8 @@ std::string FieldInfo::example() const {
     }
     const std::string si = dimension.si();
     if (type == "vector")
-        return si.empty() ? "[0, 0, 1]" : fmt::format("[1, 2, 3] {}", dimension == unit::metre ? "um" : si);
-    if (type == "quantities") return si.empty() ? "[1, 2]" : fmt::format("[1, 2] {}", si);
+        return si.empty() ? "[0, 0, 1]" : fmt::format("[1 {0}, 2 {0}, 3 {0}]", dimension == unit::metre ? "um" : si);
+    if (type == "quantities") return si.empty() ? "[1, 2]" : fmt::format("[1 {0}, 2 {0}]", si);
     if (type == "integer") return "1";
     if (type == "boolean") return "true";
     if (type == "booleans") return "[true, true, false]";

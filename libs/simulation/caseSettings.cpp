@@ -153,7 +153,7 @@ const Schema<SurfaceSettings>& SurfaceSettings::schema() {
             .name("name", &SurfaceSettings::name, "names 0/<name>.vtp and its results")
             .model("shape", &SurfaceSettings::shape, "shape, of a cell the stress-free one; axis along z")
             .length("edge", &SurfaceSettings::edgeLength, "edge length of the mesh", {.range = positive})
-            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre", {.fallback = "[0, 0, 0] m"})
+            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre", {.fallback = "[0 m, 0 m, 0 m]"})
             .vector("axis", &SurfaceSettings::axis, unit::none, "direction of its symmetry axis",
                     {.fallback = "[0, 0, 1]"})
             .check([](const SurfaceSettings& c, const Node& node, Problems& problems) {

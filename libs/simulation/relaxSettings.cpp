@@ -28,7 +28,7 @@ const Schema<SheetSettings>& SheetSettings::schema() {
                 else if (!s.diameter && s.size.size() != 2)
                     problems.add(size->mark, size->path,
                                  "found " + std::to_string(s.size.size()) +
-                                     " lengths; a rectangle has two, along x and y, such as [8, 6] um");
+                                     " lengths; a rectangle has two, along x and y, such as [8 um, 6 um]");
                 else if (s.edge > s.radius())
                     problems.add(node.find("edge")->mark, node.find("edge")->path,
                                  "found " + formatQuantity(s.edge, unit::metre) +

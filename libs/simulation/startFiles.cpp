@@ -26,7 +26,7 @@ void flatten(const Node& node, const std::string& key, Settings& settings) {
     } else if (node.kind == Node::Kind::list) {
         std::vector<std::string> values;
         for (const Node& item : node.items) values.push_back(rounded(item.scalar));
-        settings[key] = fmt::format("[{}]{}{}", joinWords(values), node.unit.empty() ? "" : " ", node.unit);
+        settings[key] = fmt::format("[{}]", joinWords(values));
     } else {
         settings[key] = node.quoted ? node.scalar : rounded(node.scalar);
     }

@@ -20,7 +20,7 @@ namespace corpuscle::simulation {
 
 std::filesystem::path startFile(const Case& input, const std::string& name);  // 0/<name>.vtp
 
-// Name ("mesh.domain.size") and value ("[1.2e-05, 1e-05, 1e-05] m", ten digits) of what 0/<name>.vtp depends on.
+// Name ("mesh.domain.size") and value ("[1.2e-05 m, 1e-05 m, 1e-05 m]", ten digits) of what 0/<name>.vtp depends on.
 std::map<std::string, std::string> startSettings(const Case& input, const std::string& name);
 
 // Writes 0/<name>.vtp at t = 0 with its settings. Throws Failure(io).

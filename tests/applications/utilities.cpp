@@ -38,7 +38,7 @@ class Utilities : public testing::Test {
                   "spacing: 1 um\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\n"
                   "coupling: dualIdentity\n");
         writeText(at("system/mesh.yaml"),
-                  "domain: {size: [12, 10, 10] um, periodic: [true, true, false]}\n"
+                  "domain: {size: [12 um, 10 um, 10 um], periodic: [true, true, false]}\n"
                   "cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, "
                   "axis: [0.2, 0, 1]}]\n");
         writeText(at("constant/fluid.yaml"), "density: 1000 kg/m^3\nviscosity: 1.0e-3 Pa s\n");
@@ -160,7 +160,7 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
 TEST_F(Utilities, CellsInEachOtherAreRefused) {
     const std::string cells =
         "-set 'system/mesh.yaml:/cells=[{name: a, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
-        "{name: b, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [1, 0, 0] um}]'";
+        "{name: b, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [1 um, 0 um, 0 um]}]'";
     const Result mesh = run("membraneMesh", cells);
     EXPECT_EQ(mesh.code, 0) << mesh.err;
     EXPECT_TRUE(contains(mesh.out, "cell b: the same mesh")) << mesh.out;
@@ -211,8 +211,8 @@ TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
     outside("constant/flow.yaml:/Ca=0.005", "edge/dx of 'rbc' = 0.8 is outside");
     const std::string twins =
         "'system/mesh.yaml:/cells=[{name: one, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, "
-        "centre: [-3, 0, 0] um}, {name: two, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, centre: "
-        "[3, 0, 0] um}]' -set ";
+        "centre: [-3 um, 0 um, 0 um]}, {name: two, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, centre: "
+        "[3 um, 0 um, 0 um]}]' -set ";
     outside(twins + "constant/flow.yaml:/Ca=0.005", "edge/dx of 'one' = 0.8 is outside");
 }
 
@@ -241,8 +241,8 @@ TEST_F(Utilities, EdgeInSpacingsIsThatInMetres) {
 TEST_F(Utilities, EveryCellHasItsGroups) {
     const std::string cells =
         "-set 'system/mesh.yaml:/cells=[{name: one, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, "
-        "centre: [-5, 0, 0] um}, {name: same, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
-        "{name: stiff, membrane: rbc, shape: {type: sphere, radius: 1 um}, edge: 0.5 um, centre: [5, 0, 0] um}]' "
+        "centre: [-5 um, 0 um, 0 um]}, {name: same, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um}, "
+        "{name: stiff, membrane: rbc, shape: {type: sphere, radius: 1 um}, edge: 0.5 um, centre: [5 um, 0 um, 0 um]}]' "
         "-set system/numerics.yaml:/integrator=implicit -set system/numerics.yaml:/coupling=immersed -json "
         "-set constant/flow.yaml:/Ca=12";
     const Result result = run("checkCase", cells);
@@ -260,7 +260,7 @@ TEST_F(Utilities, GroupsOfALaterCellAloneAreItsOwn) {
     const Result result =
         run("checkCase",
             "-set 'system/mesh.yaml:/cells=[{name: plain, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: "
-            "[-3, 0, 0] um}, {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [3, 0, 0] um}]' "
+            "[-3 um, 0 um, 0 um]}, {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [3 um, 0 um, 0 um]}]' "
             "-set 'constant/membranes.yaml:/plain={bonds: {type: harmonic, k: 5e-4 N/m}}' -json");
     ASSERT_EQ(result.code, 0) << result.err;
     const json groups = json::parse(result.out).at("groups");

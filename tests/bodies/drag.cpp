@@ -37,7 +37,7 @@ double dragFactor(double radius, int length) {
 // Torque on a sphere that turns at a constant rate, over 8 pi mu a^3 Omega.
 double torqueFactor(double radius, int length) {
     SphereInFluid f({length, length, length}, Vec3::Constant(0.5 * length),
-                    "{type: driven, angularVelocity: [0, 0.002, 0] 1/s}", 1, 0, radius);
+                    "{type: driven, angularVelocity: [0 1/s, 0.002 1/s, 0 1/s]}", 1, 0, radius);
     f.body().state.motion.angular = Vec3(0, 0.002, 0);
     sph::VelocityVerlet scheme(*f.system, *f.forces, nullptr, {f.bodies.get()});
     scheme.start();

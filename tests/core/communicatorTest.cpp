@@ -149,7 +149,7 @@ TEST(RunRecord, isWholeAtEveryMoment) {
 TEST(Used, readsBack) {
     const Communicator c;
     Problems problems;
-    const Node control = parseDictionary("endStrain: 6\nsize: [1, 2, 3] um\n", "control", problems);
+    const Node control = parseDictionary("endStrain: 6\nsize: [1 um, 2 um, 3 um]\n", "control", problems);
     writeUsed(folder() / "used.yaml", {{"system/control.yaml", control}, {"system/observers.yaml", Node{}}}, c);
     if (!c.isRoot()) return;
     const Node used = readDictionary(folder() / "used.yaml", "used.yaml", problems);

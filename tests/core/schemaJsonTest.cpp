@@ -69,8 +69,8 @@ TEST(JsonSchema, tellsTypesLimitsAndRules) {
 TEST(JsonSchema, dictionariesAsJson) {
     Problems problems;
     const auto json = toJson(
-        parseDictionary("a: 1\nb: 1.5\nc: true\nd: 8 um\ne: [1, 2] um\nf: [1, x]\ng: '1'\nh: 012\n", "f", problems));
-    EXPECT_EQ(json.dump(), R"({"a":1,"b":1.5,"c":true,"d":"8 um","e":"[1, 2] um","f":[1,"x"],"g":"1","h":12})");
+        parseDictionary("a: 1\nb: 1.5\nc: true\nd: 8 um\ne: [1 um, 2 um]\nf: [1, x]\ng: '1'\nh: 012\n", "f", problems));
+    EXPECT_EQ(json.dump(), R"({"a":1,"b":1.5,"c":true,"d":"8 um","e":["1 um","2 um"],"f":[1,"x"],"g":"1","h":12})");
 }
 
 TEST(Reference, listsEveryKeyOfFilesAndModels) {

@@ -79,7 +79,7 @@ struct Everything : Scheduled {
                 .name("title", &E::title, "title", {.fallback = "run-1"})
                 .text("path", &E::path, "path", {.fallback = "\"\""})
                 .words("fields", &E::fields, {"velocity", "density"}, "fields", {.fallback = "[velocity]"})
-                .vector("size", &E::size, unit::metre, "size", {.fallback = "[1, 2, 3] um", .range = positive})
+                .vector("size", &E::size, unit::metre, "size", {.fallback = "[1 um, 2 um, 3 um]", .range = positive})
                 .vector("axis", &E::axis, unit::none, "axis")
                 .integers("copies", &E::copies, "copies", {.fallback = "[1, 1, 1]", .range = atLeast(1)})
                 .booleans("periodic", &E::periodic, "periodic", {.fallback = "[true, true, false]"})
@@ -142,7 +142,7 @@ TEST(Settings, fallbacks) {
 
 TEST(Settings, everyKindIsRead) {
     const Outcome o = readText(
-        "viscosity: 1e-3 Pa s\nshearRate: 50 1/s\nsoundSpeed: 0.1 m/s\nporosity: 0.7\nforces: [0, 25] pN\nsteps: "
+        "viscosity: 1e-3 Pa s\nshearRate: 50 1/s\nsoundSpeed: 0.1 m/s\nporosity: 0.7\nforces: [0 pN, 25 pN]\nsteps: "
         "7\nthreads: 3\n"
         "on: true\nboundary: freeSlip\ntitle: a_b\npath: ../x y\nfields: [density, velocity]\nsize: [4 um, 5 nm, 6 "
         "um]\n"
@@ -210,11 +210,13 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("title: 7up", "title", {"no name"});
     expect("fields: [densty]", "fields[0]", {"Did you mean 'density'?"});
     expect("fields: velocity", "fields", {"a list of words"});
-    expect("fields: [velocity] um", "fields", {"no unit"});
-    expect("size: [1, 2] um", "size", {"a list of 2", "[1, 2, 3] um"});
+    expect("fields: [velocity] um", "fields", {"not YAML"});
+    expect("size: [1, 2, 3] um", "size", {"'[1, 2, 3] um' is not YAML", "'[1 um, 2 um, 3 um]'", "etc/convertVectors"});
+    expect("forces: [1, 2.5] pN", "forces", {"'[1 pN, 2.5 pN]'"});
+    expect("size: [1 um, 2 um]", "size", {"a list of 2", "[1 um, 2 um, 3 um]"});
     expect("size: [1 um, 2, 3 um]", "size[1]", {"has no unit"});
-    expect("size: [1, -2, 3] um", "size[1]", {"greater than 0"});
-    expect("axis: [0, 0, 1] um", "axis[0]", {"has a unit"});
+    expect("size: [1 um, -2 um, 3 um]", "size[1]", {"greater than 0"});
+    expect("axis: [0 um, 0 um, 1 um]", "axis[0]", {"has a unit"});
     expect("copies: [1, 0, 1]", "copies[1]", {"at least 1"});
     expect("periodic: [true, 1, false]", "periodic[1]", {"true or false"});
     expect("support: 3", "support", {"has no unit"});
@@ -266,8 +268,8 @@ TEST(Settings, writtenTableReadsBackToTheSameBits) {
     Everything e =
         readText(
             base +
-            "size: [0.1, 0.2, 0.30000000000000004] um\nskin: 0.1 dx\ninertia: {Re: 0.3333333333333333}\n"
-            "axis: [1, 0, 0]\ncells: [{name: a, edge: 0.7 um}]\nnamed: {x: {name: y, edge: 3 nm}}\nforces: [1, 2] pN\n"
+            "size: [0.1 um, 0.2 um, 0.30000000000000004 um]\nskin: 0.1 dx\ninertia: {Re: 0.3333333333333333}\n"
+            "axis: [1, 0, 0]\ncells: [{name: a, edge: 0.7 um}]\nnamed: {x: {name: y, edge: 3 nm}}\nforces: [1 pN, 2 pN]\n"
             "path: '#odd: path'\n")
             .value;
     const std::string text = emit(write(e));

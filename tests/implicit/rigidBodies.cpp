@@ -193,7 +193,7 @@ TEST(RigidBodies, everythingMovingTogetherGoesOnForEver) {
 
 TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
     SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6),
-                    "{type: driven, velocity: [0.02, 0, 0] m/s, angularVelocity: [0, 0.05, 0] 1/s}");
+                    "{type: driven, velocity: [0.02 m/s, 0 m/s, 0 m/s], angularVelocity: [0 1/s, 0.05 1/s, 0 1/s]}");
     const RigidMotion driven{Vec3(0.02, 0, 0), Vec3(0, 0.05, 0)};
     f.setVelocities([](std::size_t, const Vec3&) { return Vec3(Vec3::Zero()); }, driven);
     RigidSphereScene s(std::move(f), 0.02);

@@ -73,7 +73,7 @@ double capCurvature(const std::vector<Vec3>& x, double side, double reach) {
 // body), Laplace's law on both sides of the inner pressure.
 TEST(Aspiration, OfADropFollowsLaplace) {
     const auto aspiration =
-        testing::chosen<Protocol>("{type: aspiration, radius: 0.6 m, wall: 0.4 m, pressures: [0.8, 1.6] Pa}");
+        testing::chosen<Protocol>("{type: aspiration, radius: 0.6 m, wall: 0.4 m, pressures: [0.8 Pa, 1.6 Pa]}");
     const testing::Mesh sphere = testing::icosphere(3);
     Membrane drop(
         "drop", 1, sphere.nodes, sphere.triangles,
@@ -145,7 +145,7 @@ TEST(Aspiration, OfAFlatSheetIsThatOfAnAxisymmetricOne) {
     EXPECT_NEAR(kept.length(4), 1.8467, 0.02);  // 2 L - 1 + ln(2 L) = 4
 
     const auto aspiration =
-        testing::chosen<Protocol>("{type: aspiration, radius: 1 m, wall: 0.6 m, pressures: [0.7, 1.4, 2, 2.5, 3] Pa}");
+        testing::chosen<Protocol>("{type: aspiration, radius: 1 m, wall: 0.6 m, pressures: [0.7 Pa, 1.4 Pa, 2 Pa, 2.5 Pa, 3 Pa]}");
     const geometry::TriangleMesh mesh = geometry::disc(3.5, 0.19);
     Membrane sheet(
         "sheet", 1, mesh.nodes, mesh.triangles,
@@ -168,11 +168,11 @@ TEST(Aspiration, RefusesWhatDoesNotFit) {
     Membrane cell("cell", 1, sphere.nodes, sphere.triangles,
                   testing::parsed<MembraneSettings>("{bonds: {type: harmonic, k: 2 N/m}}"), 1);
     EXPECT_THROW(
-        testing::chosen<Protocol>("{type: aspiration, radius: 1.1 m, wall: 0.9 m, pressures: [1] Pa}")->apply(0, cell),
+        testing::chosen<Protocol>("{type: aspiration, radius: 1.1 m, wall: 0.9 m, pressures: [1 Pa]}")->apply(0, cell),
         Failure)
         << "wider than the cell";
     EXPECT_THROW(
-        testing::chosen<Protocol>("{type: aspiration, radius: 0.5 m, wall: 0.1 m, pressures: [1] Pa}")->apply(0, cell),
+        testing::chosen<Protocol>("{type: aspiration, radius: 0.5 m, wall: 0.1 m, pressures: [1 Pa]}")->apply(0, cell),
         Failure)
         << "thinner than an edge";
     EXPECT_THROW(testing::chosen<Protocol>("{type: aspiration, radius: 0.5 m, wall: 0.6 m, pressures: []}"), CaseError);

@@ -16,7 +16,7 @@ Membrane cellOf(const testing::Mesh& mesh, const std::string& laws) {
 
 // Pressure of a neo-Hookean sphere: p a/Gs = 2 (1 - l^-6)/l; a mesh of edge 0.14 is 0.4 % smaller than its sphere.
 TEST(Protocols, ASphereInflatesAsItsLawSays) {
-    const auto inflation = protocol("{type: inflation, pressures: [0.3, 0.8, 1.1] Pa}");
+    const auto inflation = protocol("{type: inflation, pressures: [0.3 Pa, 0.8 Pa, 1.1 Pa]}");
     Membrane cell = cellOf(testing::icosphere(3), "{triangles: {type: neoHookean, Gs: 1 N/m}}");
     ASSERT_EQ(inflation->stages(), 3);
     for (int stage = 0; stage < 3; ++stage) {
@@ -29,7 +29,7 @@ TEST(Protocols, ASphereInflatesAsItsLawSays) {
 }
 
 TEST(Protocols, TweezersPullWithTheForceTheyName) {
-    const auto tweezers = protocol("{type: tweezers, forces: [0.5] N, contact: 0.8 m}");
+    const auto tweezers = protocol("{type: tweezers, forces: [0.5 N], contact: 0.8 m}");
     Membrane cell = cellOf(testing::irregular(2), "{bonds: {type: harmonic, k: 2 N/m}}");
     const Loads loads = tweezers->apply(0, cell);
     double right = 0, left = 0;
@@ -44,7 +44,7 @@ TEST(Protocols, TweezersPullWithTheForceTheyName) {
     const double before = tweezers->measure(0, cell)[1];
     ASSERT_TRUE(findEquilibrium(cell, loads, {}).converged);
     EXPECT_GT(tweezers->measure(0, cell)[1], 1.1 * before);
-    EXPECT_THROW(protocol("{type: tweezers, forces: [0] N, contact: 9 m}")->apply(0, cell), Failure);
+    EXPECT_THROW(protocol("{type: tweezers, forces: [0 N], contact: 9 m}")->apply(0, cell), Failure);
     EXPECT_THROW(protocol("{type: tweezers, forces: []}"), CaseError);
     EXPECT_THROW(protocol("{type: inflation, pressures: []}"), CaseError);
 }

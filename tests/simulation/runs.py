@@ -36,8 +36,8 @@ integrator: velocityVerlet
 coupling: dualIdentity
 shifting: {coefficient: 0.5, steps: 7}
 """,
-    "system/mesh.yaml": """domain: {size: [12, 11, 10] um, periodic: [true, true, false]}
-cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, centre: [5, 0, 0] um, axis: [0.3, 0, 1]}]
+    "system/mesh.yaml": """domain: {size: [12 um, 11 um, 10 um], periodic: [true, true, false]}
+cells: [{name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um, centre: [5 um, 0 um, 0 um], axis: [0.3, 0, 1]}]
 """,
     "system/observers.yaml": """deformation: {type: shape, every: 0.01 strain}
 balance: {type: conservation, every: 0.01 strain}
@@ -58,7 +58,7 @@ inertia: {Re: 0.5}
 FLUID_CASE = {
     "system/control.yaml": "application: sphFlow\nendTime: 1 s\n",
     "system/numerics.yaml": "spacing: 62.5 um\nprecision: double\nintegrator: velocityVerlet\n",
-    "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
+    "system/mesh.yaml": "domain: {size: [0.5 mm, 0.5 mm, 1 mm], periodic: [true, true, false]}\n",
     "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n",
     "constant/flow.yaml": "type: shear\nshearRate: 0.025 1/s\n",
 }
@@ -66,8 +66,8 @@ FLUID_CASE = {
 
 BODY_CASE = {
     **{name: text for name, text in CELL_CASE.items() if name != "constant/membranes.yaml"},
-    "system/mesh.yaml": """domain: {size: [12, 11, 10] um, periodic: [true, true, false]}
-bodies: [{name: bead, shape: {type: spheroid, a: 3 um, c: 2 um}, edge: 0.7 um, centre: [5, 0, 0] um, axis: [0.3, 0, 1]}]
+    "system/mesh.yaml": """domain: {size: [12 um, 11 um, 10 um], periodic: [true, true, false]}
+bodies: [{name: bead, shape: {type: spheroid, a: 3 um, c: 2 um}, edge: 0.7 um, centre: [5 um, 0 um, 0 um], axis: [0.3, 0, 1]}]
 """,
     "system/observers.yaml": "motion: {type: body, every: 0.01 strain}\nbalance: {type: conservation, every: 0.01 strain}\n",
     "constant/bodies.yaml": "bead: {density: 1200 kg/m^3, motion: free}\n",
@@ -79,9 +79,9 @@ INCLUSION_CASE = {
     **CELL_CASE,
     "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.4"),
     "system/numerics.yaml": "spacing: 0.6 um\nprecision: double\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: velocityVerlet\ncoupling: dualIdentity\n",
-    "system/mesh.yaml": """domain: {size: [12, 9, 9.6] um, periodic: [true, true, false]}
-cells: [{name: capsule, shape: {type: sphere, radius: 3 um}, edge: 0.7 um, centre: [0, 0, 0] um}]
-bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centre: [0.3, 0, 0] um}]
+    "system/mesh.yaml": """domain: {size: [12 um, 9 um, 9.6 um], periodic: [true, true, false]}
+cells: [{name: capsule, shape: {type: sphere, radius: 3 um}, edge: 0.7 um, centre: [0 um, 0 um, 0 um]}]
+bodies: [{name: bead, shape: {type: sphere, radius: 1.2 um}, edge: 0.5 um, centre: [0.3 um, 0 um, 0 um]}]
 """,
     "system/observers.yaml": CELL_CASE["system/observers.yaml"] + "motion: {type: body, every: 0.02 strain}\n",
     "constant/membranes.yaml": "capsule:\n  triangles: {type: skalak, Gs: 4 uN/m, C: 1}\n  bending: {type: dihedral, Eb: 0.01}\n",
@@ -101,8 +101,8 @@ operators: corrected
 implicit: {step: 0.05, tolerance: 1e-5, error: 1}
 shifting: {coefficient: 1}
 """,
-    "system/mesh.yaml": """domain: {size: [16, 16, 16] um, periodic: [true, true, false]}
-cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centre: [5, 0.3, 0] um}]
+    "system/mesh.yaml": """domain: {size: [16 um, 16 um, 16 um], periodic: [true, true, false]}
+cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centre: [5 um, 0.3 um, 0 um]}]
 """,
     "constant/membranes.yaml": "rbc:\n  triangles: {type: skalak, Gs: 5e-6 N/m, C: 1}\n",
     "constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\n",
@@ -307,7 +307,7 @@ def test_account(folder):
     every = "balance: {type: conservation, every: 0.06 strain}\n"
     explicit = {**CONJUGATE_CASE, "system/control.yaml": short, "system/observers.yaml": every}
     body = {**BODY_CASE, "system/control.yaml": short, "system/observers.yaml": every}
-    driven = BODY_CASE["constant/bodies.yaml"].replace("free", "{type: driven, velocity: [0, 0, 0] m/s, angularVelocity: [0, 300, 0] 1/s}")
+    driven = BODY_CASE["constant/bodies.yaml"].replace("free", "{type: driven, velocity: [0 m/s, 0 m/s, 0 m/s], angularVelocity: [0 1/s, 300 1/s, 0 1/s]}")
     rows = {}
     for name, files, allowed, agree in (
             ("implicit", {**IMPLICIT_CASE, "system/observers.yaml": every}, 1e-3, 1e-3),
@@ -453,8 +453,8 @@ def test_integrators(folder):
     to 0.5 %, at steps where either has converged; a red cell that tears. A viscosity that thins is a step behind in the implicit step: of first order,
     and late at the start."""
     red = {**IMPLICIT_CASE,
-           "system/mesh.yaml": "domain: {size: [20, 16, 16] um, periodic: [true, true, false]}\n" + CELL_CASE["system/mesh.yaml"].splitlines()[1]
-           .replace("[5, 0, 0] um, axis: [0.3, 0, 1]", "[0, 0, 0] um") + "\n",
+           "system/mesh.yaml": "domain: {size: [20 um, 16 um, 16 um], periodic: [true, true, false]}\n" + CELL_CASE["system/mesh.yaml"].splitlines()[1]
+           .replace("[5 um, 0 um, 0 um], axis: [0.3, 0, 1]", "[0 um, 0 um, 0 um]") + "\n",
            "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
            "constant/flow.yaml": "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n"}
     observers = "deformation: {type: shape, every: 0.2 strain}\nbalance: {type: conservation, every: 0.2 strain}\n"
@@ -495,7 +495,7 @@ def test_integrators(folder):
 PLATES = {
     "system/control.yaml": "application: sphFlow\nendTime: 0.1 s\ncheckpoint: {wallClock: never}\n",
     "system/numerics.yaml": "spacing: 31.25 um\nprecision: double\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\nshifting: {coefficient: 1, steps: 10}\n",
-    "system/mesh.yaml": "domain: {size: [0.25, 0.25, 1] mm, periodic: [true, true, false]}\n",
+    "system/mesh.yaml": "domain: {size: [0.25 mm, 0.25 mm, 1 mm], periodic: [true, true, false]}\n",
     "system/observers.yaml": "profile: {type: profile, every: 0.02 s, axis: z, bins: 32}\nwall: {type: wallStress, every: 0.02 s}\n"
                              "balance: {type: conservation, every: 0.02 s}\n",
     "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n",
@@ -506,7 +506,7 @@ VORTICES = {
     **PLATES,
     "system/control.yaml": "application: sphFlow\nendTime: 0.02 s\ncheckpoint: {wallClock: never}\n",
     "system/numerics.yaml": PLATES["system/numerics.yaml"].replace("31.25", "62.5"),
-    "system/mesh.yaml": "domain: {size: [1, 0.5, 1] mm, periodic: [true, true, true]}\n",
+    "system/mesh.yaml": "domain: {size: [1 mm, 0.5 mm, 1 mm], periodic: [true, true, true]}\n",
     "system/observers.yaml": "balance: {type: conservation, every: 0.002 s}\n",
     "constant/flow.yaml": "type: taylorGreen\nspeed: 1 mm/s\n",
 }
@@ -589,7 +589,7 @@ def test_layers(folder):
         return -U + stress * sum(max(0, min(z, high) - low) / m for m, low, high in zip(mu, end, end[1:]))
     files = {**COUETTE, "system/control.yaml": "application: sphFlow\nendTime: 0.35 s\ncheckpoint: {wallClock: never}\n",
              "system/numerics.yaml": "spacing: 62.5 um\nprecision: double\nintegrator: velocityVerlet\n",
-             "system/mesh.yaml": "domain: {size: [0.5, 0.5, 1] mm, periodic: [true, true, false]}\n",
+             "system/mesh.yaml": "domain: {size: [0.5 mm, 0.5 mm, 1 mm], periodic: [true, true, false]}\n",
              "system/observers.yaml": "profile: {type: profile, every: 0.35 s, bins: 16}\nwall: {type: wallStress, every: 0.35 s}\n",
              "constant/fluid.yaml": COUETTE["constant/fluid.yaml"] + layers}
     def compare(case):
@@ -611,7 +611,7 @@ def test_layers(folder):
             other = copied(start, folder / f"{name}2")
             run(other, "sphFlow", *terms, ranks=2)
             assert all(abs(a["u_m_s"] - b["u_m_s"]) < 1e-9 * U for a, b in zip(rows, compare(other)))
-    across = prepared(folder / "across", {**files, "system/mesh.yaml": "domain: {size: [0.5, 1, 0.5] mm, periodic: [true, false, true]}\n",
+    across = prepared(folder / "across", {**files, "system/mesh.yaml": "domain: {size: [0.5 mm, 1 mm, 0.5 mm], periodic: [true, false, true]}\n",
                                           "system/observers.yaml": files["system/observers.yaml"].replace("profile,", "profile, axis: y,"),
                                           "constant/flow.yaml": files["constant/flow.yaml"] + "walls: {normal: y}\n"})
     run(across, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
@@ -680,7 +680,7 @@ def test_automatic(folder):
     assert {"integrator: velocityVerlet", "coupling: dualIdentity", "operators: plain", "jitter: 0", "support: 3 dx"} <= set(used), used
     used = settled("fluid", FLUID_CASE, "sphFlow", "spacing: 62.5 um\nintegrator: implicit\n")
     assert {"operators: corrected", "coefficient: 1", "support: 2.4 dx", "jitter: 0"} <= set(used), used
-    vortices = {"constant/flow.yaml": "type: taylorGreen\nspeed: 1 mm/s\ndimensions: 3\n", "system/mesh.yaml": "domain: {size: [1, 1, 1] mm, periodic: [true, true, true]}\n"}
+    vortices = {"constant/flow.yaml": "type: taylorGreen\nspeed: 1 mm/s\ndimensions: 3\n", "system/mesh.yaml": "domain: {size: [1 mm, 1 mm, 1 mm], periodic: [true, true, true]}\n"}
     used = settled("vortices", FLUID_CASE, "sphFlow", "spacing: 62.5 um\nkernel: {type: quintic}\noperators: plain\n", **vortices)
     assert {"support: 2.8 dx", "jitter: 0.1"} <= set(used), used
 
@@ -873,7 +873,7 @@ def test_retreat(folder):
     cells = "".join(f"  - {{name: {name}, membrane: rbc, shape: {{type: sphere, radius: 2.5 um}}, edge: 1 um, centre: [{x} um, 0 um, 0 um]}}\n"
                     for name, x in (("left", -3.5), ("right", 3.5)))
     two = prepared(folder / "two", IMPLICIT_CASE, **{
-        "system/mesh.yaml": "domain: {size: [16, 12, 12] um, periodic: [true, true, false]}\ncells:\n" + cells,
+        "system/mesh.yaml": "domain: {size: [16 um, 12 um, 12 um], periodic: [true, true, false]}\ncells:\n" + cells,
         "system/observers.yaml": "deformation: {type: shape, every: 0.1 strain}\n"})
     for ranks in (1, 2):
         harmed = copied(two, folder / f"two{ranks}")
@@ -922,8 +922,8 @@ def test_start(folder):
             assert said.count(place) == 1, said
     mesh, box = "membraneMesh and particleFill", "particleFill"
     for change, place, cure in (
-            ("system/mesh.yaml:/domain/size=[13, 11, 10] um", "-set: domain.size: the case says [1.3e-05, 1.1e-05, 1e-05] m, but 0/fluid.vtp "
-                                                              "was made for [1.2e-05, 1.1e-05, 1e-05] m", box),
+            ("system/mesh.yaml:/domain/size=[13 um, 11 um, 10 um]", "-set: domain.size: the case says [1.3e-05 m, 1.1e-05 m, 1e-05 m], but 0/fluid.vtp "
+                                                              "was made for [1.2e-05 m, 1.1e-05 m, 1e-05 m]", box),
             ("system/numerics.yaml:/spacing=0.5 um", "-set: spacing: ", box),
             ("system/numerics.yaml:/kernel/support=3 dx", "kernel.support: the case says 3 dx", box),
             ("system/numerics.yaml:/kernel={type: lucy, support: 2.4 dx}", "kernel.type: the case says lucy", box),
@@ -932,7 +932,7 @@ def test_start(folder):
             ("system/mesh.yaml:/cells/0/edge=0.7 um", "cells[0].edge: the case says 7e-07 m, but 0/rbc.vtp was made for 8e-07 m", mesh),
             ("system/mesh.yaml:/cells/0/shape/d=7.9 um", "cells[0].shape.d: ", mesh),
             ("system/mesh.yaml:/cells/0/shape={type: sphere, radius: 3 um}", "cells[0].shape.type: the case says sphere", mesh),
-            ("system/mesh.yaml:/cells/0/centre=[4, 0, 0] um", "cells[0].centre: ", mesh),
+            ("system/mesh.yaml:/cells/0/centre=[4 um, 0 um, 0 um]", "cells[0].centre: ", mesh),
             ("system/mesh.yaml:/cells/0/axis=[0, 0, 1]", "cells[0].axis: ", mesh)):
         refused(place, cure, change)
     # An edge in spacings is the length that it stands for.
@@ -941,10 +941,10 @@ def test_start(folder):
     refused("cells[0].edge: the case says 4e-07 m, but 0/rbc.vtp was made for 8e-07 m", mesh, inSpacings, "system/numerics.yaml:/spacing=0.5 um")
     refused("domain.periodic: ", box, "system/mesh.yaml:/domain/periodic=[true, false, true]",
             "constant/flow.yaml:/walls={normal: y}")
-    of("dmpFlow", 2, "system/mesh.yaml:/domain/size=[13, 11, 10] um", ranks=2)
+    of("dmpFlow", 2, "system/mesh.yaml:/domain/size=[13 um, 11 um, 10 um]", ranks=2)
 
     # A new mesh does not make an old filling fit; a cell that is gone is named once.
-    two = CELL_CASE["system/mesh.yaml"].replace("]\n", ", {name: b, membrane: rbc, shape: {type: sphere, radius: 1.5 um}, edge: 0.7 um, centre: [-1, 0, 0] um}]\n")
+    two = CELL_CASE["system/mesh.yaml"].replace("]\n", ", {name: b, membrane: rbc, shape: {type: sphere, radius: 1.5 um}, edge: 0.7 um, centre: [-1 um, 0 um, 0 um]}]\n")
     other = prepared(folder / "two", **{"system/mesh.yaml": two})
     (other / "system/mesh.yaml").write_text(CELL_CASE["system/mesh.yaml"])
     said = run(other, "dmpFlow", code=2).stderr
@@ -955,7 +955,7 @@ def test_start(folder):
     assert "cells[0].edge: the case says 7e-07 m, but 0/fluid.vtp was made for 8e-07 m; run particleFill again" in said, said
 
     # The same settings in other words, and settings that only the run depends on.
-    of("checkCase", 0, "system/mesh.yaml:/domain/size=[0.012, 0.011, 0.01] mm", "system/mesh.yaml:/cells/0/axis=[0.6, 0, 2]", "system/mesh.yaml:/fill={seed: 9}")
+    of("checkCase", 0, "system/mesh.yaml:/domain/size=[0.012 mm, 0.011 mm, 0.01 mm]", "system/mesh.yaml:/cells/0/axis=[0.6, 0, 2]", "system/mesh.yaml:/fill={seed: 9}")
     run_only = ("constant/flow.yaml:/Ca=0.2", "constant/flow.yaml:/inertia={Re: 4}", "constant/fluid.yaml:/viscosity=2e-3 Pa s",
                 "constant/membranes.yaml:/rbc/bonds/k=4e-4 N/m", "system/numerics.yaml:/skin=0.4 dx", "system/control.yaml:/endStrain=0.05")
     of("dmpFlow", 0, *run_only)
@@ -968,7 +968,7 @@ def test_start(folder):
     close(series(fresh, "balance"), series(case, "balance"), 1e-9)
 
     # A checkpoint holds on to its box and density too.
-    assert "domain.size: the case now has 13 um" in of("dmpFlow", 2, *run_only, "system/mesh.yaml:/domain/size=[13, 11, 10] um").stderr
+    assert "domain.size: the case now has 13 um" in of("dmpFlow", 2, *run_only, "system/mesh.yaml:/domain/size=[13 um, 11 um, 10 um]").stderr
     assert "start from firstTime" in of("dmpFlow", 2, *run_only, "constant/flow.yaml:/inertia={Re: 5}").stderr
 
     # Without cells the kernel matters for the depth of the walls alone.

@@ -5,7 +5,7 @@ from suite import TUTORIALS, Figure, Plot, Run, module, permitted, rows
 def slab(n):
     """A layer of fluid 1 mm high with n particles across, 8 dx long and thick, and its profile by layers of particles."""
     dx, width = 1000 / n, 8 / n  # um, mm
-    return [f"system/numerics.yaml:/spacing={dx} um", f"system/mesh.yaml:/domain/size=[{width}, {width}, 1] mm",
+    return [f"system/numerics.yaml:/spacing={dx} um", f"system/mesh.yaml:/domain/size=[{width} mm, {width} mm, 1 mm]",
             f"system/observers.yaml:/profile/bins={n}"]
 
 

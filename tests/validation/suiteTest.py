@@ -109,7 +109,7 @@ def test_execute():
 
 def test_domain():
     """Another box is that and nothing else, in a folder of its own."""
-    size, work = "[40, 32.5, 40] um", pathlib.Path("work")
+    size, work = "[40 um, 32.5 um, 40 um]", pathlib.Path("work")
     for name in suite.names():
         if not getattr(suite.load(name), "UNBOUNDED", False):
             continue
@@ -208,8 +208,8 @@ def test_tables():
 
 def test_words():
     for words, said in ((["nowhere"], "no case 'nowhere'"), (["couette", "-resolution", "fine"], "a number, or all"),
-                        (["couette", "-resolutoin", "16"], "-resolutoin"), (["couette", "-domain", "[1, 1, 1] mm", "-record"], "it has no -record"),
-                        (["couette", "-domain", "[1, 1, 1] mm"], "is that of its box")):
+                        (["couette", "-resolutoin", "16"], "-resolutoin"), (["couette", "-domain", "[1 mm, 1 mm, 1 mm]", "-record"], "it has no -record"),
+                        (["couette", "-domain", "[1 mm, 1 mm, 1 mm]"], "is that of its box")):
         done = subprocess.run([HERE / "validate", *words], capture_output=True, text=True)
         assert done.returncode == 1 and said in done.stderr and not done.stdout, done
 

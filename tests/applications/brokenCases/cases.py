@@ -64,11 +64,11 @@ NO_CELLS = [replace(MESH, """cells:
   - name: rbc
     shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}
     edge: 0.8 um
-    centre: [0, 0, 0] um
+    centre: [0 um, 0 um, 0 um]
     axis: [0, 0, 1]
 """, ""), remove(MEMBRANES)]
 # A fluid alone in a box periodic along every axis: no cells, no walls, no shear rate.
-VORTICES = NO_CELLS + [replace(MESH, "[20, 16, 16] um", "[16, 16, 16] um"), replace(MESH, "[true, true, false]", "[true, true, true]"),
+VORTICES = NO_CELLS + [replace(MESH, "[20 um, 16 um, 16 um]", "[16 um, 16 um, 16 um]"), replace(MESH, "[true, true, false]", "[true, true, true]"),
                        rewrite(FLOW, "{type: taylorGreen, speed: 1 mm/s}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
                        replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS)]
 
@@ -80,7 +80,7 @@ IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), IMMERSED]
 
 
 # The base case with a rigid sphere beside its cell.
-def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, centre: [7, 0, 0] um}"):
+def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, centre: [7 um, 0 um, 0 um]}"):
     return [append(MESH, f"bodies:\n  - {place}\n"), rewrite(BODIES, bodies)]
 
 
@@ -131,7 +131,7 @@ CASES = [
     case("unknownUnit", replace(MESH, "edge: 0.8 um", "edge: 0.8 mu"), MESH, "cells[0].edge", "0.8 mu", "unknown unit 'mu'",
          "Did you mean 'um'?", "Known:"),
     case("spacingsNotAllowed", replace(MESH, "d: 8 um", "d: 8 dx"), MESH, "cells[0].shape.d", "8 dx", "particle spacings", "not allowed"),
-    case("listWithoutUnit", replace(MESH, "[20, 16, 16] um", "[20, 16, 16]"), MESH, "domain.size[0]", "20", "no unit"),
+    case("listWithoutUnit", replace(MESH, "[20 um, 16 um, 16 um]", "[20, 16, 16]"), MESH, "domain.size[0]", "20", "no unit"),
 
     # Values
     case("negative", replace(FLUID, "1000 kg/m^3", "-1000 kg/m^3"), FLUID, "density", "-1000", "'-1000 kg/m^3'", "greater than 0"),
@@ -140,7 +140,9 @@ CASES = [
     case("numberForWord", replace(CONTROL, "application: dmpFlow", "application: 3"), CONTROL, "application", "3", "'3'",
          "dmpFlow, sphFlow"),
     case("fractionForInteger", replace(CONTROL, "keep: 2", "keep: 2.5"), CONTROL, "checkpoint.keep", "2.5", "'2.5'", "whole number"),
-    case("twoComponents", replace(MESH, "[0, 0, 0] um", "[0, 0] um"), MESH, "cells[0].centre", "[0, 0] um", "a list of 2", "vector"),
+    case("unitAfterVector", replace(MESH, "[20 um, 16 um, 16 um]", "[20, 16, 16] um"), MESH, "domain.size", "[20, 16, 16] um", "not YAML",
+         "'[20 um, 16 um, 16 um]'", "etc/convertVectors"),
+    case("twoComponents", replace(MESH, "[0 um, 0 um, 0 um]", "[0 um, 0 um]"), MESH, "cells[0].centre", "[0 um, 0 um]", "a list of 2", "vector"),
     case("tableForNumber", replace(NUMERICS, "spacing: 1 um", "spacing: {dx: 1 um}"), NUMERICS, "spacing", "{dx", "a table", "in m"),
     case("wordForBoolean", replace(MESH, "[true, true, false]", "[yes, true, false]"), MESH, "domain.periodic[0]", "yes", "'yes'",
          "true or false"),
@@ -197,7 +199,7 @@ CASES = [
          [Problem(FLOW, "Ca", "0.02", ["needs a membrane", "shearRate", "system/mesh.yaml"])]),
     Case("ReWithoutCells", NO_CELLS + [remove(OBSERVERS), replace(FLOW, "Ca: 0.02", "shearRate: 100 1/s")],
          [Problem(FLOW, "inertia", "{Re", ["radius", "physical", "constant/fluid.yaml"])]),
-    case("boxDoesNotFit", replace(MESH, "[20, 16, 16] um", "[20.3, 16, 16] um"), MESH, "domain.size", "[20.3", "along x", "20.3 um",
+    case("boxDoesNotFit", replace(MESH, "[20 um, 16 um, 16 um]", "[20.3 um, 16 um, 16 um]"), MESH, "domain.size", "[20.3", "along x", "20.3 um",
          "20 um, 21 um"),
     case("periodicAcrossWalls", replace(MESH, "[true, true, false]", "[true, true, true]"), MESH, "domain.periodic", "[true", "axis z",
          "walls", "write false"),
@@ -206,7 +208,7 @@ CASES = [
     case("wallsAlongFlow", [replace(FLOW, "normal: z", "normal: x"), replace(MESH, "[true, true, false]", "[false, true, true]")], FLOW,
          "walls.normal", "x", "found x", "allowed are y, z"),
     case("cellWithoutLaws", replace(MEMBRANES, "rbc:", "rcb:"), MEMBRANES, "rbc", "rcb:", "'rbc'", "system/mesh.yaml", "Did you mean 'rcb'?"),
-    case("cellNameTwice", append(MESH, "  - {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [7, 0, 0] um}\n"), MESH,
+    case("cellNameTwice", append(MESH, "  - {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [7 um, 0 um, 0 um]}\n"), MESH,
          "cells[1].name", "rbc", "'rbc' is taken"),
     case("reservedCellName", [replace(MESH, "name: rbc", "name: fluid"), replace(MEMBRANES, "rbc:", "fluid:")], MESH, "cells[0].name", "fluid",
          "'fluid'", "reserved"),
@@ -215,7 +217,7 @@ CASES = [
     case("surfaceFileMissing", replace(MESH, "{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}", "{type: file, file: cell.stl}"),
          MESH, "cells[0].shape", "{type", "cell.stl"),
     case("zeroAxis", replace(MESH, "axis: [0, 0, 1]", "axis: [0, 0, 0]"), MESH, "cells[0].axis", "[0, 0, 0]", "zero vector", "[0, 0, 1]"),
-    case("cellThroughWall", replace(MESH, "[0, 0, 0] um", "[0, 0, 7.5] um"), MESH, "cells[0].centre", "[0, 0, 7.5]", "through the wall", "along z"),
+    case("cellThroughWall", replace(MESH, "[0 um, 0 um, 0 um]", "[0 um, 0 um, 7.5 um]"), MESH, "cells[0].centre", "[0 um, 0 um, 7.5 um]", "through the wall", "along z"),
     case("edgeTooLarge", replace(MESH, "edge: 0.8 um", "edge: 20 um"), MESH, "cells[0].edge", "20 um", "found 20 um", "radius 4 um",
          "at most half the radius, 2 um"),
     case("unknownStart", replace(CONTROL, "latestTime", "lastTime"), CONTROL, "startFrom", "lastTime", "'lastTime'",
@@ -226,9 +228,9 @@ CASES = [
          [Problem(CONTROL, "write.strain", "0.5", ["taylorGreen", "no shear rate", "write.time"])]),
     Case("endStrainWithoutShear", VORTICES + [replace(CONTROL, "endTime: 1 ms", "endStrain: 6")],
          [Problem(CONTROL, "endStrain", "6", ["taylorGreen", "no shear rate", "endTime"])]),
-    Case("vorticesInLongBox", VORTICES + [replace(MESH, "[16, 16, 16] um", "[20, 16, 16] um")],
+    Case("vorticesInLongBox", VORTICES + [replace(MESH, "[16 um, 16 um, 16 um]", "[20 um, 16 um, 16 um]")],
          [Problem(FLOW, "type", "taylorGreen", ["as long along x as along z", "20 um, 16 um"])]),
-    Case("abcInLongBox", VORTICES + [rewrite(FLOW, "{type: abc, A: 1 mm/s, B: 1 mm/s, C: 1 mm/s}\n"), replace(MESH, "[16, 16, 16] um", "[20, 16, 16] um")],
+    Case("abcInLongBox", VORTICES + [rewrite(FLOW, "{type: abc, A: 1 mm/s, B: 1 mm/s, C: 1 mm/s}\n"), replace(MESH, "[16 um, 16 um, 16 um]", "[20 um, 16 um, 16 um]")],
          [Problem(FLOW, "type", "abc", ["as long along x as along y and z", "20 um, 16 um, 16 um"])]),
     Case("abcAtRest", VORTICES + [rewrite(FLOW, "{type: abc, A: 0 m/s, B: 0 m/s, C: 0 m/s}\n")],
          [Problem(FLOW, "A", "0 m/s", ["all zero"])]),
@@ -276,7 +278,7 @@ CASES = [
          "shifting.steps", "10}", "means nothing", "'operators: corrected'", "shifted at every step"),
     case("edgeTooCoarseForImmersed", [IMMERSED, replace(NUMERICS, "spacing: 1 um", "spacing: 0.5 um"), replace(MESH, "0.8 um", "1.2 um")],
          MESH, "cells[0].edge", "1.2 um", "too coarse", "coupling: immersed", "2 dx", "1 um"),
-    case("cellTooLongForImmersed", [IMMERSED, replace(MESH, "[20, 16, 16] um", "[9, 16, 16] um")], MESH, "cells[0].shape", "{type:",
+    case("cellTooLongForImmersed", [IMMERSED, replace(MESH, "[20 um, 16 um, 16 um]", "[9 um, 16 um, 16 um]")], MESH, "cells[0].shape", "{type:",
          "8 um long along x", "periodic with 9 um", "2 dx", "10 um or longer"),
     case("dualIdentityWithImplicit", replace(NUMERICS, "velocityVerlet", "implicit"), NUMERICS, "coupling", "dualIdentity",
          "found dualIdentity", "'integrator: velocityVerlet'", "coupling: immersed"),
@@ -303,23 +305,23 @@ CASES = [
     case("unknownMotion", with_body("bead: {motion: fixed}\n"), BODIES, "bead.motion", "fixed", "unknown body motion 'fixed'", "Known:",
          "driven, free, held"),
     case("unknownKeyOfBody", with_body("bead: {motion: free, mass: 1}\n"), BODIES, "bead.mass", "mass", "unknown key", "Allowed: density, motion"),
-    case("velocityOfHeldBody", with_body("bead: {motion: {type: held, velocity: [1, 0, 0] m/s}}\n"), BODIES, "bead.motion.velocity",
+    case("velocityOfHeldBody", with_body("bead: {motion: {type: held, velocity: [1 m/s, 0 m/s, 0 m/s]}}\n"), BODIES, "bead.motion.velocity",
          "velocity", "unknown key"),
     case("drivenWithoutRates", with_body("bead: {motion: driven}\n"), BODIES, "bead.motion", "motion: driven", "velocity",
          "angularVelocity", "write held"),
-    case("angularVelocityInMetres", with_body("bead: {motion: {type: driven, angularVelocity: [1, 0, 0] m/s}}\n"), BODIES,
+    case("angularVelocityInMetres", with_body("bead: {motion: {type: driven, angularVelocity: [1 m/s, 0 m/s, 0 m/s]}}\n"), BODIES,
          "bead.motion.angularVelocity[0]", "1", "m/s", "1/s"),
     case("bodyDensityNegative", with_body("bead: {density: -1 kg/m^3, motion: free}\n"), BODIES, "bead.density", "-1", "greater than 0"),
     case("bodyWithoutEntry", with_body("beed: {motion: free}\n"), BODIES, "bead", "beed:", "the body 'bead'", "system/mesh.yaml",
          "Did you mean 'beed'?"),
     case("bodyNamedAsCell", with_body("bead: {motion: free}\n", "{name: rbc, body: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, "
-         "centre: [7, 0, 0] um}"), MESH, "bodies[0].name", "rbc, body", "'rbc' is taken"),
+         "centre: [7 um, 0 um, 0 um]}"), MESH, "bodies[0].name", "rbc, body", "'rbc' is taken"),
     case("bodyTooThin", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: spheroid, a: 3 um, c: 1 um}, edge: 0.5 um, "
-         "centre: [7, 0, 0] um}"), MESH, "bodies[0].shape", "{type: spheroid", "2 um thick", "at least 3 um"),
+         "centre: [7 um, 0 um, 0 um]}"), MESH, "bodies[0].shape", "{type: spheroid", "2 um thick", "at least 3 um"),
     case("bodyMeetsItsImage", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: spheroid, a: 2 um, c: 6 um}, edge: 0.5 um, "
-         "axis: [0, 1, 0], centre: [7, 0, 0] um}"), MESH, "bodies[0].shape", "{type: spheroid", "periodic along y", "its own image", "18 um"),
+         "axis: [0, 1, 0], centre: [7 um, 0 um, 0 um]}"), MESH, "bodies[0].shape", "{type: spheroid", "periodic along y", "its own image", "18 um"),
     case("bodyThroughWall", with_body("bead: {motion: free}\n", "{name: bead, shape: {type: sphere, radius: 2 um}, edge: 0.5 um, "
-         "centre: [7, 0, 7] um}"), MESH, "bodies[0].centre", "[7, 0, 7]", "the body reaches through the wall", "along z"),
+         "centre: [7 um, 0 um, 7 um]}"), MESH, "bodies[0].centre", "[7 um, 0 um, 7 um]", "the body reaches through the wall", "along z"),
     Case("observerOfBodiesWithoutBodies", [append(OBSERVERS, "motion: {type: body, every: 10 steps}\n")],
          [Problem(OBSERVERS, "motion", "motion", ["body", "the case has none", "system/mesh.yaml"])]),
 
@@ -331,7 +333,7 @@ CASES = [
           Problem(CONTROL, "checkpoint.keep", "two", ["whole number"]),
           Problem(MESH, "cells[0].shape.b", "shape", ["missing", "thickness"]),
           Problem(NUMERICS, "spacing", "1 kg", ["is in kg"])]),
-    Case("severalBetweenFiles", [replace(MESH, "[true, true, false]", "[true, true, true]"), replace(MESH, "[20, 16, 16] um", "[20.3, 16, 16] um"),
+    Case("severalBetweenFiles", [replace(MESH, "[true, true, false]", "[true, true, true]"), replace(MESH, "[20 um, 16 um, 16 um]", "[20.3 um, 16 um, 16 um]"),
                                  replace(MEMBRANES, "rbc:", "red:")],
          [Problem(MEMBRANES, "rbc", "red:", ["'rbc'", "red"]),
           Problem(MESH, "domain.size", "[20.3", ["along x"]),
@@ -351,21 +353,21 @@ CASES = [
     # system/relax.yaml
     relax("relaxUnknownProtocol", replace(RELAX, "tweezers", "tweezer"), "protocol.type", "tweezer", "unknown relaxation protocol 'tweezer'",
           "Did you mean 'tweezers'?", "aspiration"),
-    relax("relaxNoStage", replace(RELAX, "[0, 50] pN", "[]"), "protocol", "type: tweezers", "found no stage", "'forces'"),
-    relax("relaxForcesWithoutUnit", replace(RELAX, "[0, 50] pN", "[0, 50]"), "protocol.forces[0]", "0", "no unit", "N"),
-    relax("relaxNegativeForce", replace(RELAX, "[0, 50] pN", "[-5] pN"), "protocol.forces[0]", "-5", "'-5", "at least 0"),
+    relax("relaxNoStage", replace(RELAX, "[0 pN, 50 pN]", "[]"), "protocol", "type: tweezers", "found no stage", "'forces'"),
+    relax("relaxForcesWithoutUnit", replace(RELAX, "[0 pN, 50 pN]", "[0, 50]"), "protocol.forces[0]", "0", "no unit", "N"),
+    relax("relaxNegativeForce", replace(RELAX, "[0 pN, 50 pN]", "[-5 pN]"), "protocol.forces[0]", "-5", "'-5", "at least 0"),
     relax("relaxCellAndSheet", append(RELAX, "sheet: {name: rbc, diameter: 8 um, edge: 0.4 um}\n"), "sheet", "sheet", "exactly one",
           "'cell', 'sheet'"),
     relax("relaxSheetWithoutSize", rewrite(RELAX, "sheet: {name: rbc, edge: 0.4 um}\nprotocol: {type: uniaxial, stretches: [1.1]}\n"),
           "sheet", "sheet", "size", "diameter"),
-    relax("relaxSheetOfThreeSides", rewrite(RELAX, "sheet: {name: rbc, edge: 0.4 um, size: [8, 8, 8] um}\nprotocol: "
-                                            "{type: uniaxial, stretches: [1.1]}\n"), "sheet.size", "[8", "3 lengths", "[8, 6] um"),
-    relax("relaxSheetTooCoarse", rewrite(RELAX, "sheet: {name: rbc, edge: 5 um, size: [8, 8] um}\nprotocol: "
+    relax("relaxSheetOfThreeSides", rewrite(RELAX, "sheet: {name: rbc, edge: 0.4 um, size: [8 um, 8 um, 8 um]}\nprotocol: "
+                                            "{type: uniaxial, stretches: [1.1]}\n"), "sheet.size", "[8", "3 lengths", "[8 um, 6 um]"),
+    relax("relaxSheetTooCoarse", rewrite(RELAX, "sheet: {name: rbc, edge: 5 um, size: [8 um, 8 um]}\nprotocol: "
                                          "{type: uniaxial, stretches: [1.1]}\n"), "sheet.edge", "5 um", "too coarse", "at most", "4 um"),
     relax("relaxStretchZero", rewrite(RELAX, "sheet: {name: rbc, edge: 1 um, diameter: 8 um}\nprotocol: {type: uniaxial, stretches: [0]}\n"),
           "protocol.stretches[0]", "0", "greater than 0"),
     relax("relaxSoftPipette", rewrite(RELAX, "sheet: {name: rbc, edge: 1 um, diameter: 8 um}\nprotocol: {type: aspiration, radius: 1 um, "
-                                      "wall: 0.4 um, softness: 0.2 um, pressures: [1] Pa}\n"), "protocol.softness", "0.2 um",
+                                      "wall: 0.4 um, softness: 0.2 um, pressures: [1 Pa]}\n"), "protocol.softness", "0.2 um",
           "through the glass", "100 nm"),
     relax("relaxNoEntry", replace(RELAX, "name: rbc", "name: rbd"), "rbd", "rbc:", "'rbd' of system/relax.yaml", "there are: rbc",
           "Did you mean 'rbc'?", file=MEMBRANES),

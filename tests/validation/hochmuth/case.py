@@ -30,7 +30,7 @@ def run(name, n, ratio):
     dx = RADIUS / n
     return Run(name, FOLDER, [
         f"system/numerics.yaml:/spacing={dx:.10g} um",
-        f"system/mesh.yaml:/domain/size=[{', '.join(f'{k * RADIUS:g}' for k in BOX)}] um",
+        f"system/mesh.yaml:/domain/size=[{', '.join(f'{k * RADIUS:g} um' for k in BOX)}]",
         f"system/mesh.yaml:/cells/0/edge={EDGE * dx:.8g} um",
         f"system/relax.yaml:/cell/edge={EDGE * dx:.8g} um",
         f"constant/membranes.yaml:/rbc/interior/viscosityRatio={ratio}"], ("membraneMesh", "membraneRelax", stretch, "particleFill", "dmpFlow"))

@@ -67,12 +67,12 @@ def run(c, n, prefix=""):
     rate = force * LAYERS * L / (8 * NU)  # that of the flow between walls without spheres, which counts the steps
     bodies = ", ".join(
         f"{{name: sphere{x}{y}{z}, body: sphere, shape: {{type: sphere, radius: {1e6 * a * INSCRIBED:.8g} um}}, edge: {1e6 * a / EDGES:.6g} um, "
-        f"centre: [{1e3 * L * (x - (m - 1) / 2):g}, {1e3 * L * (y - (m - 1) / 2):g}, {1e3 * L * (z - (LAYERS - 1) / 2):g}] mm}}"
+        f"centre: [{1e3 * L * (x - (m - 1) / 2):g} mm, {1e3 * L * (y - (m - 1) / 2):g} mm, {1e3 * L * (z - (LAYERS - 1) / 2):g} mm]}}"
         for x in range(m) for y in range(m) for z in range(LAYERS))
     return Run(prefix + name(c), HERE, [
         f"system/numerics.yaml:/spacing={1e6 * L / N:.10g} um",
         f"system/numerics.yaml:/implicit/step={3 * tau * rate:.6g}",
-        f"system/mesh.yaml:/domain/size=[{1e3 * L * m:g}, {1e3 * L * m:g}, {1e3 * L * LAYERS:g}] mm",
+        f"system/mesh.yaml:/domain/size=[{1e3 * L * m:g} mm, {1e3 * L * m:g} mm, {1e3 * L * LAYERS:g} mm]",
         f"system/mesh.yaml:/bodies=[{bodies}]",
         f"system/observers.yaml:/flux/bins={N * LAYERS}",
         f"system/control.yaml:/endTime={3 * STEPS * tau:.8g} s",

@@ -37,8 +37,8 @@ def run(way, x, n):
         f"system/numerics.yaml:/spacing={2e6 * A / n:.10g} um",
         f"system/numerics.yaml:/implicit/step={STEP * FORCE * HIGH * A / (8 * NU):g}",
         f"system/control.yaml:/endTime={STEP * STEPS:g} s",
-        f"system/mesh.yaml:/domain/size=[{side:g}, {side:g}, {1e6 * A * HIGH:g}] um",
-        f"system/mesh.yaml:/bodies/0/centre=[0, 0, {1e6 * A * (x - HIGH / 2):g}] um",
+        f"system/mesh.yaml:/domain/size=[{side:g} um, {side:g} um, {1e6 * A * HIGH:g} um]",
+        f"system/mesh.yaml:/bodies/0/centre=[0 um, 0 um, {1e6 * A * (x - HIGH / 2):g} um]",
         f"constant/bodies.yaml:/sphere/motion/velocity={velocity} m/s"], PROGRAMS)
 
 

@@ -49,13 +49,13 @@ def shape(r):
 
 def run(name, n, body, direction, motion, strain):
     """A body of the named shape, 2 A = n dx across."""
-    size = ", ".join(f"{1e6 * A * k:g}" for k in BOX)
+    size = ", ".join(f"{1e6 * A * k:g} um" for k in BOX)
     return Run(name, TUTORIALS / "jeffery", [
         f"system/numerics.yaml:/spacing={2e6 * A / n:.10g} um",
         "system/numerics.yaml:/kernel/support=2.4 dx",
         "system/numerics.yaml:/integrator=implicit",
         f"system/numerics.yaml:/implicit={{step: {STEP}, error: 1}}",  # equal steps: rates are means over those from START on
-        f"system/mesh.yaml:/domain/size=[{size}] um",
+        f"system/mesh.yaml:/domain/size=[{size}]",
         f"system/mesh.yaml:/bodies/0/shape={body}",
         f"system/mesh.yaml:/bodies/0/edge={1e6 * A / 24:.6g} um",
         f"system/mesh.yaml:/bodies/0/axis={direction}",

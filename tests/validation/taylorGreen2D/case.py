@@ -8,5 +8,5 @@ RESOLUTIONS = (16, 32, 64)
 ALLOWED = {16: 1.5, 32: 0.4, 64: 0.15}  # % of E(0); the aim is 0.5 % at 64
 
 flow = Decay(TUTORIALS / "taylorGreen", tutorial.RATE, "4 nu k^2 t", ALLOWED, 2,
-             settings=lambda n: [f"system/mesh.yaml:/domain/size=[1, {8 / n}, 1] mm"])  # a slice of 8 dx
+             settings=lambda n: [f"system/mesh.yaml:/domain/size=[1 mm, {8 / n} mm, 1 mm]"])  # a slice of 8 dx
 runs, figures, curves = flow.runs, flow.figures, flow.curves

@@ -23,7 +23,7 @@ def options():
     p.add_argument("-tolerance", type=float, default=0.02, help="relative width of the last bracket")
     p.add_argument("-strain", type=float, default=2, help="strain that a cell must bear to count as whole")
     p.add_argument("-spacing", default="0.8 0.64 0.5", help="particle spacings in um; edges of the mesh are 0.8 of them")
-    p.add_argument("-box", default="[16, 16, 16] um", help="size of the box, a whole number of every spacing")
+    p.add_argument("-box", default="[16 um, 16 um, 16 um]", help="size of the box, a whole number of every spacing")
     p.add_argument("-case", default="..", help="the case to study")
     p.add_argument("-set", action="append", default=[], metavar="FILE:/path=value", help="goes to every program")
     o = p.parse_args()
