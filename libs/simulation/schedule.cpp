@@ -8,6 +8,7 @@
 #include "particles/isa.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/memoryLimit.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 namespace corpuscle::simulation {
@@ -42,6 +43,7 @@ Time startTime(const Application& app, const Case& input) {
 
 StartingPoint prepare(Application& app, const Case& input) {
     const MPI_Comm comm = app.communicator().handle();
+    requireMemory(app.communicator(), input);
     StartingPoint from;
     from.time = startTime(app, input);
     from.checkpoint = chooseCheckpoint(input, app.value("restart").value_or(input.control.startFrom), comm, app.log());

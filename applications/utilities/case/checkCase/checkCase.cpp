@@ -16,6 +16,7 @@
 #include "membrane/moduli.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/memoryLimit.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
@@ -154,6 +155,7 @@ int main(int argc, char* argv[]) {
         reportLaws(app, input);
         reportCosts(app, input, json);
         reportSize(app, input, json);
+        simulation::requireMemory(app.communicator(), input);
         if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
             reportRun(app, input, json);
         else

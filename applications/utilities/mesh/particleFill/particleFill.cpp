@@ -22,6 +22,7 @@
 #include "bodyFill.hpp"
 #include "coupling/noFlux.hpp"
 #include "relaxation.hpp"
+#include "simulation/memoryLimit.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 using namespace corpuscle;
@@ -286,6 +287,7 @@ int main(int argc, char* argv[]) {
         app.openLog();
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
+        simulation::requireMemory(app.communicator(), input);
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
         if (const auto faults = utilities::misplaced(input, cells, bodies); !faults.empty())
