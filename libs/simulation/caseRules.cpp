@@ -7,6 +7,7 @@
 #include <set>
 
 #include "coupling/noFlux.hpp"
+#include "geometry/mesher.hpp"
 #include "io/vtkSeries.hpp"
 #include "simulation/scheme.hpp"
 
@@ -33,12 +34,23 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
     const auto& [settings, key, kind] = surface;
     if (!settings.shape) return;
     const double radius = settings.shape->radius();
+    const Eigen::AlignedBox3d box = settings.shape->box();
+    const double longest = box.sizes().maxCoeff(), room = c.mesh.domain.size.maxCoeff();
+    if (longest > room || settings.edge > 0.5 * radius)
+        if (const std::string cure = settings.shape->cureForSize(4 * settings.edge, room); !cure.empty()) {
+            problems.add(mesh, key + ".shape",
+                         "the surface is " + formatQuantity(longest, unit::metre) + " long, in a box of " +
+                             formatQuantity(room, unit::metre) + " and with edges of " +
+                             formatQuantity(settings.edge, unit::metre) + "; " + cure);
+            return;
+        }
+    if (const std::string why = geometry::tooManyTriangles(*settings.shape.model, settings.edge); !why.empty())
+        problems.add(mesh, key + ".edge", why);
     if (settings.edge > 0.5 * radius)
         problems.add(mesh, key + ".edge",
                      "found " + formatQuantity(settings.edge, unit::metre) + ", too coarse for a " + kind +
                          " of radius " + formatQuantity(radius, unit::metre) + "; at most half the radius, " +
                          formatQuantity(0.5 * radius, unit::metre));
-    const Eigen::AlignedBox3d box = settings.shape->box();
     if (kind == "body" && box.sizes().minCoeff() < leastBodyInSpacings * c.spacing())
         problems.add(mesh, key + ".shape",
                      "the body is " + formatQuantity(box.sizes().minCoeff(), unit::metre) +

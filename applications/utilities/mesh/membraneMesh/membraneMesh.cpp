@@ -45,6 +45,8 @@ class Meshes {
                       const std::function<std::string(const TriangleMesh&)>& describe, nlohmann::ordered_json& json) {
         const auto begin = std::chrono::steady_clock::now();
         const bool isNew = !made_.contains(kindOf(surface));
+        if (isNew)
+            for (const std::string& remark : surface.shape->remarks()) app_.log().info("{}", remark);
         if (isNew) made_[kindOf(surface)] = geometry::meshSurface(*surface.shape, surface.edge);
         TriangleMesh mesh = made_.at(kindOf(surface));
         const geometry::MeshQuality quality = geometry::meshQuality(mesh, surface.shape.model.get());
