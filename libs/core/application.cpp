@@ -11,6 +11,7 @@
 
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
+#include "core/runRecord.hpp"
 #include "core/startMpi.hpp"
 
 namespace corpuscle {
@@ -58,6 +59,7 @@ Application::Application(std::string name, std::string text, int argc, char** ar
 }
 
 Application::~Application() {
+    lock_.reset();
     MPI_Comm_free(&meeting_);
     if (ownsMpi_) MPI_Finalize();
 }
@@ -204,12 +206,19 @@ void Application::checkOverrides() const {
     problems.throwIfAny();
 }
 
-void Application::openLog() {
-    if (std::filesystem::is_directory(caseDirectory())) log_->open(path("log." + name_));
-    log_->info("{} {} ({})", name_, buildInfo().version, commandLine_);
+void Application::announce() { log_->info("{} {} ({})", name_, buildInfo().version, commandLine_); }
+
+void Application::lockCase() {
+    if (!lock_) lock_.emplace(caseDirectory(), name_, *communicator_, *log_);
 }
 
-void Application::printFailure(const std::exception& error, bool named) const {
+void Application::openLog(LogStart start) {
+    const std::string continuation =
+        start == LogStart::anew ? "" : fmt::format("==== continued {} by: {}", timestamp(), commandLine_);
+    if (std::filesystem::is_directory(caseDirectory())) log_->open(path("log." + name_), continuation);
+}
+
+void Application::printFailure(const std::exception& error, bool named) {
     const auto* caseError = dynamic_cast<const CaseError*>(&error);
     if (has("json")) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -235,7 +244,9 @@ void Application::printFailure(const std::exception& error, bool named) const {
     } else {
         text = fmt::format("{}: {}\n", name_, error.what());
     }
-    std::fputs((named ? fmt::format("[rank {}] {}", communicator_->rank(), text) : text).c_str(), stderr);
+    if (named) text = fmt::format("[rank {}] {}", communicator_->rank(), text);
+    std::fputs(text.c_str(), stderr);
+    log_->note(text);
 }
 
 // All ranks meet here. A rank that failed alone waits a little for the others, who may be on their way with the same
@@ -259,6 +270,7 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
         if (error && std::chrono::steady_clock::now() - start > patience) {
             if (!communicator_->isRoot()) printFailure(*error, true);
             std::fflush(nullptr);
+            if (lock_) lock_->abandon();
             MPI_Abort(communicator_->handle(), own);
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

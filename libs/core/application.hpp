@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "core/caseLock.hpp"
 #include "core/communicator.hpp"
 #include "core/dictionary.hpp"
 #include "core/log.hpp"
@@ -71,8 +72,15 @@ class Application {
     // Whether the case has this file. Collective.
     bool hasDictionary(const std::string& inCase) const;
 
-    // Starts log.<application> in the case directory.
-    void openLog();
+    // Name, version and command on the terminal, and later in the log.
+    void announce();
+    // From here until the end of the program, no other program writes in the case (caseLock.hpp). Before a program changes any file.
+    // Collective.
+    void lockCase();
+    // log.<application> in the case directory: a new one, or, of a run that continues an earlier one, the old one after a line that
+    // says so. Not before it is certain that the program does what it was asked for: a refused command changes no file.
+    enum class LogStart { anew, continued };
+    void openLog(LogStart start = LogStart::anew);
 
     int run(const std::function<ExitCode()>& body);
 
@@ -81,7 +89,7 @@ class Application {
     std::vector<Option> allOptions() const;
     std::string helpText() const;
     void checkOverrides() const;
-    void printFailure(const std::exception& error, bool named) const;
+    void printFailure(const std::exception& error, bool named);
     int endTogether(ExitCode code, const std::exception* error);
 
     std::string name_, text_, commandLine_;
@@ -94,6 +102,7 @@ class Application {
     MPI_Comm meeting_ = MPI_COMM_NULL;  // only for the end, so that nothing else can be mistaken for it
     std::optional<Communicator> communicator_;
     std::optional<Log> log_;
+    std::optional<CaseLock> lock_;
 };
 
 }  // namespace corpuscle

@@ -7,15 +7,20 @@
 
 namespace corpuscle {
 
-void Log::open(const std::filesystem::path& file) {
+void Log::open(const std::filesystem::path& file, const std::string& continuation) {
     if (!isRoot_) return;
-    file_.open(file);
+    file_.open(file, continuation.empty() ? std::ios::trunc : std::ios::app);
     if (!file_) {
         warningLine(fmt::format("cannot write {}; the log goes to the terminal only", file.string()));
         return;
     }
+    if (!continuation.empty()) file_ << (file_.tellp() > 0 ? "\n" : "") << continuation << '\n';
     file_ << beforeFile_ << std::flush;
     beforeFile_.clear();
+}
+
+void Log::note(const std::string& text) {
+    if (file_.is_open()) file_ << text << std::flush;
 }
 
 void Log::keep(const std::string& line) {

@@ -14,8 +14,11 @@ class Log {
   public:
     Log(bool isRoot, bool quiet) : isRoot_(isRoot), quiet_(quiet) {}
 
-    // Starts the file; what was said before is in it too. A file that cannot be written is a warning.
-    void open(const std::filesystem::path& file);
+    // Starts the file, or goes on at its end after the line `continuation`; what was said before is in it too. A file that cannot be
+    // written is a warning.
+    void open(const std::filesystem::path& file, const std::string& continuation = {});
+    // In the file only, once it is open: what the terminal has been told in another way.
+    void note(const std::string& text);
 
     template <class... A>
     void info(fmt::format_string<A...> format, A&&... values) {

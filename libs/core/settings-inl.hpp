@@ -46,6 +46,7 @@ class SchemaBase {
     };
     using Check = std::function<void(const void*, const Node&, Problems&)>;
 
+    void declareAtRestart(AtRestart policy, const std::vector<std::string>& keys);
     static FieldInfo describe(std::string type, std::string key, std::string text, const FieldOptions& options,
                               Dimension dimension = {});
     static std::optional<Node> writeOptional(std::optional<Node> node, const std::string& alternative);
@@ -259,6 +260,11 @@ class Schema : public SchemaBase {
     }
     Schema& atMostOneOf(std::vector<Str> keys) {
         atMostOne_.push_back(std::move(keys));
+        return *this;
+    }
+    // For the fields declared so far.
+    Schema& atRestart(AtRestart policy, const std::vector<Str>& keys) {
+        declareAtRestart(policy, keys);
         return *this;
     }
     // A rule over several fields; runs only when the table itself has no problem.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace corpuscle {
 
@@ -100,6 +101,31 @@ std::string FieldInfo::description() const {
     else
         what = "a table of named models, each a " + family;
     return what + limits + (alternative.empty() ? "" : ", or " + alternative);
+}
+
+const char* nameOf(AtRestart policy) {
+    switch (policy) {
+        case AtRestart::free:
+            return "free";
+        case AtRestart::noted:
+            return "noted";
+        case AtRestart::resolved:
+            return "resolved";
+        case AtRestart::fixed:
+        case AtRestart::undeclared:
+            break;
+    }
+    return "fixed";
+}
+
+void SchemaBase::declareAtRestart(AtRestart policy, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        const auto field =
+            std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.info.key == key; });
+        if (field == fields_.end())
+            throw std::logic_error("atRestart of '" + name_ + "' names '" + key + "', which is not declared before it");
+        field->info.atRestart = policy;
+    }
 }
 
 SchemaBase::SchemaBase(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -98,8 +99,13 @@ struct CheckpointSearch {
 };
 CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir);
 
-// The last one written whose time is `time` to 1e-6 of it. Throws with the list of available times.
-std::filesystem::path findCheckpoint(const std::filesystem::path& caseDir, double time);
+// The one nearest before `time`, or at it to 1e-6 of it; of equal times the last one written. Throws with the list of available times
+// where all are later. Not collective.
+CheckpointInfo findCheckpoint(const std::filesystem::path& caseDir, double time);
+
+// Removes those later than `last` [s], or, where no time is given, all: those that cannot be read and leftovers of killed runs too.
+// Returns how many. Not collective.
+long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<double> last);
 
 // Removes all but the `keep` last ones (0: keeps all) and leftovers of killed runs. Call it after finish().
 void keepCheckpoints(MPI_Comm comm, const std::filesystem::path& caseDir, int keep);

@@ -11,7 +11,8 @@ const Schema<ObserversSettings>& ObserversSettings::schema() {
     static const Schema<ObserversSettings> s =
         Schema<ObserversSettings>("observers", "system/observers.yaml: what is measured while the case runs")
             .models("*", &ObserversSettings::models,
-                    "one observer; its name is that of its folder under postProcessing");
+                    "one observer; its name is that of its folder under postProcessing")
+            .atRestart(AtRestart::free, {"*"});
     return s;
 }
 

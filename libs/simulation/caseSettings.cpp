@@ -89,7 +89,9 @@ const Schema<ControlSettings>& ControlSettings::schema() {
                     if (const Node* given = node.find("startFrom"))
                         problems.add(given->mark, given->path, fault.what());
                 }
-            });
+            })
+            .atRestart(AtRestart::free,
+                       {"application", "startFrom", "endTime", "endStrain", "write", "checkpoint", "stop"});
     return s;
 }
 
@@ -133,7 +135,11 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .integer("retreats", &NumericsSettings::retreats,
                      "how often in a row a run that fails goes back to its last good state and on with half the step, "
                      "before it ends; 0 for not at all",
-                     {.fallback = "4", .range = between(0, 20)});
+                     {.fallback = "4", .range = between(0, 20)})
+            .atRestart(AtRestart::fixed, {"spacing", "kernel", "coupling", "operators", "shifting", "skin"})
+            .atRestart(AtRestart::resolved, {"integrator"})
+            .atRestart(AtRestart::noted, {"precision", "implicit", "rkl2", "guard", "densityBalance", "safety"})
+            .atRestart(AtRestart::free, {"retreats"});
     return s;
 }
 
@@ -153,7 +159,8 @@ const Schema<SurfaceSettings>& SurfaceSettings::schema() {
             .name("name", &SurfaceSettings::name, "names 0/<name>.vtp and its results")
             .model("shape", &SurfaceSettings::shape, "shape, of a cell the stress-free one; axis along z")
             .length("edge", &SurfaceSettings::edgeLength, "edge length of the mesh", {.range = positive})
-            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre", {.fallback = "[0 m, 0 m, 0 m]"})
+            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre",
+                    {.fallback = "[0 m, 0 m, 0 m]"})
             .vector("axis", &SurfaceSettings::axis, unit::none, "direction of its symmetry axis",
                     {.fallback = "[0, 0, 1]"})
             .check([](const SurfaceSettings& c, const Node& node, Problems& problems) {
@@ -169,7 +176,8 @@ const Schema<CellSettings>& CellSettings::schema() {
         Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
             .include<SurfaceSettings>()
             .name("membrane", &CellSettings::membrane,
-                  "its entry of constant/membranes.yaml; the cell's own name when absent");
+                  "its entry of constant/membranes.yaml; the cell's own name when absent")
+            .atRestart(AtRestart::noted, {"membrane"});
     return s;
 }
 
@@ -178,7 +186,8 @@ const Schema<BodyPlaceSettings>& BodyPlaceSettings::schema() {
         Schema<BodyPlaceSettings>("body", "one rigid body: its shape, place and mesh")
             .include<SurfaceSettings>()
             .name("body", &BodyPlaceSettings::body,
-                  "its entry of constant/bodies.yaml; the body's own name when absent");
+                  "its entry of constant/bodies.yaml; the body's own name when absent")
+            .atRestart(AtRestart::noted, {"body"});
     return s;
 }
 
@@ -203,7 +212,8 @@ const Schema<MeshSettings>& MeshSettings::schema() {
             .table("domain", &MeshSettings::domain, "the box")
             .list("cells", &MeshSettings::cells, "the cells", {.fallback = "[]"})
             .list("bodies", &MeshSettings::bodies, "the rigid bodies", {.fallback = "[]"})
-            .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"});
+            .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"})
+            .atRestart(AtRestart::fixed, {"domain", "cells", "bodies", "fill"});
     return s;
 }
 
@@ -227,7 +237,10 @@ const Schema<FluidSettings>& FluidSettings::schema() {
             .list("layers", &FluidSettings::layers,
                   "layers of other viscosities between two walls, from the lowest up, at t = 0; for a fluid alone",
                   {.fallback = "[]"})
-            .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"});
+            .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"})
+            .atRestart(AtRestart::resolved, {"density", "viscosity"})
+            .atRestart(AtRestart::fixed, {"layers"})
+            .atRestart(AtRestart::noted, {"equationOfState"});
     return s;
 }
 

@@ -4,11 +4,13 @@
 #include <ctime>
 #include <exception>
 
+#include "io/earlierRun.hpp"
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
+#include "simulation/restart.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 namespace corpuscle::simulation {
@@ -41,21 +43,47 @@ Time startTime(const Application& app, const Case& input) {
     return time;
 }
 
+namespace {
+
+void reportFinished(Application& app, const Case& input, const StartingPoint& from) {
+    const std::string key = input.control.endTime ? "endTime" : "endStrain";
+    const std::string reason = from.time.endReason() + " is reached by " + from.checkpoint.string();
+    app.log().info(
+        "The case is finished: {}. Nothing was changed.\n"
+        "To go on, raise '{}' in system/control.yaml, or for one run: -set system/control.yaml:/{}=...\n"
+        "To start anew: -set system/control.yaml:/startFrom=firstTime",
+        reason, key, key);
+    if (!app.json()) return;
+    RunRecord record(input.directory / "run.json", app.name(), app.communicator());
+    record.set("", "status", "finished");
+    record.set("", "reason", reason);
+    record.print();
+}
+
+}  // namespace
+
 StartingPoint prepare(Application& app, const Case& input) {
     const MPI_Comm comm = app.communicator().handle();
     requireMemory(app.communicator(), input);
     StartingPoint from;
     from.time = startTime(app, input);
+    if (!app.has("dry-run")) app.lockCase();
     from.checkpoint = chooseCheckpoint(input, app.value("restart").value_or(input.control.startFrom), comm, app.log());
-    if (from.checkpoint.empty())
+    if (from.checkpoint.empty()) {
         from.scene = buildScene(input, comm);
-    else {
-        from.scene = emptyScene(input, comm);
-        from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
-        if (from.time.lastStep) *from.time.lastStep += from.time.step;
-        app.log().info("Restart from {} at t = {}", from.checkpoint.string(),
-                       formatQuantity(from.time.t, unit::second));
+        return from;
     }
+    from.notes = compareSettings(from.checkpoint, input, comm);
+    from.scene = emptyScene(input, comm);
+    from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
+    if (from.time.lastStep) *from.time.lastStep += from.time.step;
+    if (!from.time.running() && !app.has("dry-run")) {
+        from.isFinished = true;
+        reportFinished(app, input, from);
+        return from;
+    }
+    app.log().info("Restart from {} at t = {}", from.checkpoint.string(), formatQuantity(from.time.t, unit::second));
+    for (const std::string& note : from.notes) app.log().info("note: {}", note);
     return from;
 }
 
@@ -68,24 +96,25 @@ void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& s
     }
 }
 
-Schedule::Schedule(Application& app, const Case& input, const Scene& scene, const Integrator& integrator,
-                   const Time& start, const RunState& state)
+Schedule::Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator)
     : app_(app),
       input_(input),
       integrator_(integrator),
-      start_(start),
-      observers_(input.observers, scene, start, input.directory),
-      results_(input, scene, start),
+      start_(from.time),
+      isContinued_(!from.checkpoint.empty()),
+      notes_(from.notes),
+      observers_(input.observers, from.scene, from.time, input.directory),
+      results_(input, from.scene, from.time),
       checkpoints_(input.control.checkpoint.wallClock),
       stop_({input.directory / input.control.stop.file, input.control.stop.wallClock}, app.communicator()),
-      progress_(app.log(), start),
+      progress_(app.log(), from.time),
       record_(input.directory / "run.json", app.name(), app.communicator()),
       began_(std::chrono::steady_clock::now()),
       processorBegan_(processorSeconds()),
-      smallestDt_(start.dt),
-      largestDt_(start.dt) {
-    if (!state.observers.empty()) observers_.restore(state.observers);
-    particles_ = sum(scene.system->owned(), scene.system->comm());
+      smallestDt_(from.time.dt),
+      largestDt_(from.time.dt) {
+    if (!from.state.observers.empty()) observers_.restore(from.state.observers);
+    particles_ = sum(from.scene.system->owned(), from.scene.system->comm());
 }
 
 Schedule::~Schedule() {
@@ -135,6 +164,12 @@ ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
 }
 
 void Schedule::begin(const Scene& scene, const Time& time) {
+    app_.openLog(isContinued_ ? Application::LogStart::continued : Application::LogStart::anew);
+    const io::ClearedOutput cleared = io::clearAfter(scene.system->comm(), input_.directory,
+                                                     isContinued_ ? std::optional<double>(time.t) : std::nullopt);
+    if (!cleared.empty())
+        app_.log().info("removed what an earlier run of the case wrote {}: {}",
+                        isContinued_ ? "after the start of this one" : "before", cleared.text());
     describe();
     begun_ = true;
     writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
@@ -146,6 +181,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     record_.set("parameters", "particles", particles_);
     record_.set("parameters", "startTime_s", time.t);
     record_.set("parameters", "commandLine", app_.commandLine());
+    if (!notes_.empty()) record_.set("parameters", "changedAtRestart", notes_);
     record_.set("performance", "instructionSet", particles::instructionSetName());
     record_.write();
 

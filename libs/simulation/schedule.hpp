@@ -12,16 +12,32 @@
 
 namespace corpuscle::simulation {
 
+// Time at the start of a run, with its end conditions.
+Time startTime(const Application& app, const Case& input);
+
+// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
+struct StartingPoint {
+    coupling::Scene scene;
+    Time time;
+    std::filesystem::path checkpoint;  // empty: from 0/
+    RunState state;
+    std::vector<std::string> notes;  // settings that have changed since the checkpoint, and may
+    bool isFinished =
+        false;  // the checkpoint is at the end already: there is nothing to run, and the user has been told
+};
+// Takes the lock of the case, unless it is a dry run. Collective.
+StartingPoint prepare(Application& app, const Case& input);
+
 class Schedule {
   public:
-    Schedule(Application& app, const Case& input, const coupling::Scene& scene, const Integrator& integrator,
-             const Time& start, const RunState& state);
+    Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator);
     // A run that ends by an exception is recorded as failed.
     ~Schedule();
 
     // -dry-run: groups, limits, particles; writes nothing.
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
-    // Head of the log, used.yaml, run.json, and what is due before the first step.
+    // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the case: what an earlier
+    // run left after the start is removed.
     void begin(const coupling::Scene& scene, const Time& time);
     // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
@@ -52,6 +68,8 @@ class Schedule {
     const Case& input_;
     const Integrator& integrator_;
     Time start_;
+    bool isContinued_;
+    std::vector<std::string> notes_;
     observers::Observers observers_;
     ResultsWriter results_;
     WallTicker checkpoints_;
@@ -65,18 +83,6 @@ class Schedule {
     bool begun_ = false;
     std::string stopReason_;
 };
-
-// Time at the start of a run, with its end conditions.
-Time startTime(const Application& app, const Case& input);
-
-// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
-struct StartingPoint {
-    coupling::Scene scene;
-    Time time;
-    std::filesystem::path checkpoint;  // empty: from 0/
-    RunState state;
-};
-StartingPoint prepare(Application& app, const Case& input);
 
 // Forces and first step at the start, or the continuation of a checkpoint.
 void startIntegrator(const StartingPoint& from, Integrator& integrator, coupling::Scene& scene, Time& time);

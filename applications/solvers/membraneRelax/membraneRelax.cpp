@@ -132,10 +132,12 @@ int main(int argc, char* argv[]) {
                                  "membraneRelax -set 'system/relax.yaml:/cell/edge=0.3 um'"}});
     return app.run([&] {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
-        app.openLog();
+        app.announce();
         const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
         membrane::Membrane membrane =
             input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
+        app.lockCase();
+        app.openLog();
         app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),
                        formatQuantity(input.relax.edge(), unit::metre), input.relax.protocol.name,
                        input.relax.protocol->stages());

@@ -19,6 +19,7 @@
 #include "observers/observers.hpp"
 #include "simulation/caseSettings.hpp"
 #include "simulation/relaxSettings.hpp"
+#include "simulation/restart.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -193,7 +194,7 @@ int main(int argc, char* argv[]) {
         if (const auto folder = app.value("schema"))
             writeSchemas(*folder);
         else if (app.has("markdown"))
-            std::cout << referencePage(dictionaries());
+            std::cout << referencePage(dictionaries()) << restartPage(simulation::restartDictionaries());
         else if (!app.arguments().empty())
             show(app.arguments().front(), app.json());
         else

@@ -84,8 +84,10 @@ int main(int argc, char* argv[]) {
                                  "membraneMesh -set 'system/mesh.yaml:/cells/0/edge=0.3 um'"}});
     return app.run([&] {
         utilities::requireSerial(app);
-        app.openLog();
+        app.announce();
         const simulation::Case input = simulation::Case::read(app);
+        app.lockCase();
+        app.openLog();
         nlohmann::ordered_json json = nlohmann::ordered_json::object();
         Meshes meshes(app, input);
         std::vector<TriangleMesh> cells, bodies;

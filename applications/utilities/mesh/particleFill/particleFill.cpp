@@ -284,16 +284,18 @@ int main(int argc, char* argv[]) {
                                  "particleFill -set system/mesh.yaml:/fill/relaxation=0"}});
     return app.run([&] {
         utilities::requireSerial(app);
-        app.openLog();
+        app.announce();
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
         simulation::requireMemory(app.communicator(), input);
+        app.lockCase();
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
         if (const auto faults = utilities::misplaced(input, cells, bodies); !faults.empty())
             throw Failure(ExitCode::invalidCase,
                           joinWords(faults, "\n") +
                               "\nmove the cells and bodies in system/mesh.yaml, then run membraneMesh again");
+        app.openLog();
         Filling filling = placeParticles(input, cells, bodies);
         if (!cells.empty() && !input.numerics.isImmersed()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
