@@ -42,7 +42,7 @@ bool isNumber(const std::string& text) {
 std::vector<Option> solverOptions() {
     return {{"dry-run", "", "Check the case, print its numbers and limits, run nothing."},
             {"steps", "N", "Stop after N steps."},
-            {"restart", "TIME", "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom."}};
+            {"restart", "TIME", "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom; later output is removed."}};
 }
 
 Application::Application(std::string name, std::string text, int argc, char** argv, Usage usage)

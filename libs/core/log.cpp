@@ -9,6 +9,7 @@ namespace corpuscle {
 
 void Log::open(const std::filesystem::path& file, const std::string& continuation) {
     if (!isRoot_) return;
+    if (file_.is_open()) file_.close();
     file_.open(file, continuation.empty() ? std::ios::trunc : std::ios::app);
     if (!file_) {
         warningLine(fmt::format("cannot write {}; the log goes to the terminal only", file.string()));

@@ -73,7 +73,7 @@ const Schema<ControlSettings>& ControlSettings::schema() {
         Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
             .word("application", &ControlSettings::application, {"dmpFlow", "sphFlow"}, "the solver that runs the case")
             .text("startFrom", &ControlSettings::startFrom,
-                  "latestTime, firstTime, or the time of a checkpoint (1.2e-3 s)", {.fallback = "latestTime"})
+                  "latestTime, firstTime, or a time (1.2e-3 s): the checkpoint nearest before it", {.fallback = "latestTime"})
             .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends",
                       {.range = positive})
             .quantity("endStrain", &ControlSettings::endStrain, unit::none, "strain gammadot t at which the run ends",

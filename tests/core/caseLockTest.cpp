@@ -1,17 +1,16 @@
 // The lock of a case: one writer at a time, named; what is left over is told from what is held.
 #include "core/caseLock.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <fstream>
-#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../io/temporaryFolder.hpp"
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
+#include "core/error.hpp"
 
 namespace corpuscle {
 namespace {
@@ -74,14 +73,14 @@ TEST_F(Lock, TakesOverWhatIsLeftOver) {
         world.barrier();
         EXPECT_FALSE(std::filesystem::exists(file));
     }
-    for (const std::string& text : {"", "\n\n", "not a lock at all: really\n"}) {  // of nobody
+    for (const char* text : {"", "\n\n", "not a lock at all: really\n"}) {  // of nobody
         leave(text);
         EXPECT_EQ(failure(), "") << text;
     }
 }
 
 TEST_F(Lock, BelievesAnotherHostAndSaysWhatToDo) {
-    for (const std::string& host : {"node17", "node18.cluster", "laptop"}) {
+    for (const std::string host : {"node17", "node18.cluster", "laptop"}) {
         const std::string text =
             "program: sphFlow\nprocess: 4711\nhost: " + host + "\nboot: another\nsince: 2026-11-25T01:02:03Z\n";
         leave(text);
@@ -89,7 +88,9 @@ TEST_F(Lock, BelievesAnotherHostAndSaysWhatToDo) {
         for (const std::string& part : {"sphFlow, process 4711 on host " + host + ", since 2026-11-25T01:02:03Z",
                                         "'ssh " + host + " ps -p 4711'", "remove " + file.string()})
             EXPECT_NE(found.find(part), std::string::npos) << part << " in: " << found;
-        if (world.isRoot()) EXPECT_EQ(readFile(file), text);
+        if (world.isRoot()) {
+            EXPECT_EQ(readFile(file), text);
+        }
         world.barrier();
     }
 }

@@ -75,7 +75,9 @@ TEST_F(EarlierRun, AStartAnewLeavesNothingOfIt) {
     EXPECT_FALSE(std::filesystem::exists(results / "rbc" / "rbc_000005"));
     EXPECT_EQ(checkpoints(), 0u);
     expectForeignFilesKept();
-    if (world.isRoot()) EXPECT_EQ(cleared.text(), "15 times of fluid, oldCell, rbc in results/ and 2 checkpoints");
+    if (world.isRoot()) {
+        EXPECT_EQ(cleared.text(), "15 times of fluid, oldCell, rbc in results/ and 2 checkpoints");
+    }
 }
 
 TEST_F(EarlierRun, ARestartLeavesWhatCameBeforeAndTheEntryAtItsTime) {
@@ -90,7 +92,9 @@ TEST_F(EarlierRun, ARestartLeavesWhatCameBeforeAndTheEntryAtItsTime) {
         for (const char* stream : {"fluid", "rbc", "oldCell"}) EXPECT_EQ(times(stream), kept) << stream << start;
         EXPECT_EQ(checkpoints(), left) << start;
         EXPECT_TRUE(clearAfter(MPI_COMM_WORLD, folder.path(), start).empty());
-        if (world.isRoot()) EXPECT_FALSE(cleared.empty()) << start;
+        if (world.isRoot()) {
+            EXPECT_FALSE(cleared.empty()) << start;
+        }
     }
     EXPECT_FALSE(std::filesystem::exists(results / "rbc" / "rbc_000005"));
     expectForeignFilesKept();
