@@ -54,11 +54,10 @@ class AsciiStl {
         return !ended_;
     }
 
-    // The name ends with its line, or before "facet normal" or "endsolid" where all stands in one line.
+    // The name ends with its line, or before "facet normal" where all stands in one line.
     void skipName() {
         const int line = lines_.number();
         while (advance() && lines_.number() == line) {
-            if (is("endsolid")) return;
             if (is("facet") && at_ + 1 < lines_.words().size() && equalsIgnoringCase(lines_.words()[at_ + 1], "normal"))
                 return;
         }

@@ -134,13 +134,13 @@ def to_bytes(text):
 
 # A cell as a mesh: an icosahedron refined, flattened like a lentil.
 
-def lentil():
+def lentil(refinements=2):
     g = (1 + math.sqrt(5)) / 2
     points = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1),
               (-g, 0, 1)]
     faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4),
              (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
-    for _ in range(2):
+    for _ in range(refinements):
         middle, finer = {}, []
 
         def mid(a, b):
@@ -157,9 +157,9 @@ def lentil():
     return [(4 * x, 4 * y, 2.5 * z) for x, y, z in unit], faces
 
 
-def surface_files():
+def surface_files(refinements=2):
     """name -> bytes"""
-    points, faces = lentil()
+    points, faces = lentil(refinements)
     line = lambda p: " ".join(f"{x:.9g}" for x in p)
     stl = "solid cell\n" + "".join(
         " facet normal 0 0 0\n  outer loop\n" + "".join(f"   vertex {line(points[i])}\n" for i in f) + "  endloop\n endfacet\n"

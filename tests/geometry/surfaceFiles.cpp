@@ -295,7 +295,7 @@ TEST(SurfaceFile, VtpDialectsAreRead) {
     const std::size_t begin = two.find("<Piece"), end = two.find("</PolyData>");
     const std::string piece = two.substr(begin, end - begin);
     two.insert(end, replaced(piece, "\"80\"", "\"0\"", false));
-    expectBall(two, ".vtp", "a piece of points", "42 points that belong to no triangle were left out");
+    expectBall(two, ".vtp", "a piece of points");
 }
 
 TEST(SurfaceFile, PolygonsAreCut) {
@@ -395,7 +395,7 @@ TEST(SurfaceFile, SurfacesThatAreNotOneClosedOneAreNamed) {
     mesh.triangles.push_back({k, i, 42});
     expectIn(faultOf(off(mesh), ".off"), "3 non-manifold edges with more than two triangles (first: between nodes");
     mesh = ball();
-    mesh.nodes.front() *= -0.5;
+    mesh.nodes.front() *= -1.5;
     expectIn(faultOf(off(mesh), ".off"), "pairs of triangles that cut each other (first: triangles");
     mesh = ball();
     mesh.triangles.push_back(mesh.triangles.front());
