@@ -72,10 +72,12 @@ std::vector<Tick> ticksOf(const Scale& scale) {
     for (int i = 0; i <= 2; ++i) {
         const double value = (range.low + range.length() * i / 2) / scale.perUnit;
         const double tiny = 1e-9 * range.length() / scale.perUnit;
-        // As many digits as tell the ends apart.
-        const double digits = std::log10(std::max(std::abs(range.low), std::abs(range.high)) / range.length());
+        // As many digits as tell the ends apart, and no powers of ten where five digits do.
+        const double largest = std::max(std::abs(range.low), std::abs(range.high));
+        const int apart = 3 + static_cast<int>(std::ceil(std::log10(largest / range.length())));
+        const int whole = 1 + static_cast<int>(std::floor(std::log10(std::max(largest / scale.perUnit, 1.0))));
         ticks.push_back({i / 2.0, fmt::format("{:.{}g}", std::abs(value) < tiny ? 0.0 : value,
-                                              std::clamp(3 + static_cast<int>(std::ceil(digits)), 3, 10))});
+                                              std::clamp(std::max(apart, whole <= 5 ? whole : 3), 3, 10))});
     }
     return ticks;
 }
