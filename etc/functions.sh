@@ -27,7 +27,38 @@ configure_and_build() {
     [ $# -gt 0 ] && shift
     mkdir -p "$build"
     cmake -S "$root" -B "$build" -G Ninja "${options[@]}" >"$build/cmake.log" 2>&1 || { cat "$build/cmake.log"; return 1; }
-    cmake --build "$build" -- "$@" >"$build/build.log" 2>&1 || { grep -E 'error|FAILED' "$build/build.log" || tail -n 40 "$build/build.log"; return 1; }
+    (set -o pipefail; cmake --build "$build" -- "$@" 2>&1 | build_progress "$build/build.log") ||
+        { grep -E 'error|FAILED' "$build/build.log" || tail -n 40 "$build/build.log"; return 1; }
+}
+
+# build_progress LOG: keeps what ninja says in LOG and shows how far it is: on a terminal in one line that is written over, else in a line for each
+# tenth and at least one a minute. A build of a few steps is silent.
+build_progress() {
+    local log=$1 line= part done=0 all=0 shown=0 width=0 status start=$SECONDS last=$SECONDS text
+    : >"$log"
+    while true; do
+        status=0
+        IFS= read -r -t 2 part || status=$?
+        line+=$part
+        if [ $status -eq 0 ]; then
+            printf '%s\n' "$line" >>"$log"
+            [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] && done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+            line=
+        elif [ $status -le 128 ]; then  # the end; more than 128: nothing for two seconds
+            [ -z "$line" ] || printf '%s\n' "$line" >>"$log"
+            break
+        fi
+        [ "$all" -ge 20 ] || continue
+        text=$(printf 'building: %4d of %d, %3d %%, %d s' "$done" "$all" $((100 * done / all)) $((SECONDS - start)))
+        if [ -t 1 ]; then
+            printf '\r%s' "$text"
+            width=${#text}
+        elif [ $((10 * done / all)) -gt "$shown" ] || [ $((SECONDS - last)) -ge 60 ]; then
+            echo "$text"
+            shown=$((10 * done / all)) last=$SECONDS
+        fi
+    done
+    [ "$width" -eq 0 ] || printf '\r%*s\r' "$width" ''
 }
 
 # machine [CPUINFO]: "2 cores, AMD EPYC, AVX-512": cores, family of the processor, best instruction set that the program can use.
