@@ -34,7 +34,7 @@ class CloneCase : public testing::Test {
         for (const char* file :
              {"old/README.md", "old/shapes/cell.stl", "old/0/rbc.vtp", "old/results/rbc.pvd",
               "old/postProcessing/a/0/a.csv", "old/checkpoints/000001.h5", "old/runs/turn/run.json", "old/log.dmpFlow",
-              "old/log.dmpFlow.1", "old/run.json", "old/used.yaml", "old/stop", "old/.lock"})
+              "old/log.dmpFlow.1", "old/run.json", "old/used.yaml", "old/stop", "old/case.lock", "old/.hidden"})
             writeText(at(file), "text");
         writeText(at("old/system/control.yaml"), "application: dmpFlow\nendStrain: 6   # long\n");
         writeText(at("old/system/mesh.yaml"),

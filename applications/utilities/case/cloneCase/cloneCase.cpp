@@ -10,6 +10,7 @@
 
 #include "core/application.hpp"
 #include "core/atomicFile.hpp"
+#include "core/caseLock.hpp"
 #include "core/error.hpp"
 
 using namespace corpuscle;
@@ -24,8 +25,8 @@ bool isCase(const fs::path& folder) {
 
 bool isOutput(const fs::path& path) {
     const std::string name = path.filename().string();
-    const std::vector<std::string> written{"0",        "results",   "postProcessing", "checkpoints", "runs",
-                                           "run.json", "used.yaml", "stop",           "core"};
+    const std::vector<std::string> written{"0",        "results",   "postProcessing", "checkpoints",     "runs",
+                                           "run.json", "used.yaml", "stop",           CaseLock::fileName};
     return name.starts_with('.') || name.starts_with("log.") ||
            std::find(written.begin(), written.end(), name) != written.end();
 }
