@@ -1,8 +1,8 @@
 // cloneCase: copies a case without what its runs have left, so that the copy starts anew.
 //
-// Copied: system/, constant/, and whatever else is beside them (Allrun, README.md, surfaces), but for what programs write: 0/, results/,
-// postProcessing/, checkpoints/, runs/, log.*, run.json, used.yaml, stop, and hidden files. Changes by -set are written into the dictionaries of the
-// copy, in place of the old value, so that comments stay.
+// Copied: system/, constant/, and whatever else is beside them (Allrun, README.md, surfaces), but for what programs
+// write: 0/, results/, postProcessing/, checkpoints/, runs/, log.*, run.json, used.yaml, stop, and hidden files.
+// Changes by -set are written into the dictionaries of the copy, in place of the old value, so that comments stay.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,7 +73,8 @@ const Node* nodeAt(const Node& root, const std::string& path) {
     return node;
 }
 
-// Where a value that begins at `begin` ends: a list or table in brackets at its closing one, a word where it was read to.
+// Where a value that begins at `begin` ends: a list or table in brackets at its closing one, a word where it was read
+// to.
 std::size_t endOf(const std::string& text, std::size_t begin, const Node& value) {
     if (text[begin] == '[' || text[begin] == '{') {
         int depth = 0;

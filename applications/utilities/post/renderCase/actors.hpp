@@ -29,8 +29,8 @@ void addArrows(vtkRenderer* renderer, const Slice& slice, const Camera& camera, 
 double arrowSpacing(const Slice& slice);    // m
 double largestSpeedIn(const Slice& slice);  // within the plane [m/s]
 
-// The edges of the box, and a plate at each face that is not periodic, seen through where it would hide what is inside. Those behind everything else
-// go to `back`.
+// The edges of the box, and a plate at each face that is not periodic, seen through where it would hide what is inside.
+// Those behind everything else go to `back`.
 void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const Camera& camera,
             double metresPerPixel);
 double wallThickness(const particles::Box& box);

@@ -1,7 +1,7 @@
 // The eye: directions, perspective or parallel, and where a point appears.
 //
-// A point appears at (u, v) metres from the focus along the picture's right and up. In perspective these are metres at the distance of the focus, the
-// middle of what is shown: there alone a scale bar holds.
+// A point appears at (u, v) metres from the focus along the picture's right and up. In perspective these are metres at
+// the distance of the focus, the middle of what is shown: there alone a scale bar holds.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
@@ -29,7 +29,8 @@ struct View {
     Vec3 ahead() const { return up.cross(right); }
 };
 
-// tilted: from in front, above and a little upstream, in perspective; iso: the same kind of view without perspective; xz, xy, yz: along an axis.
+// tilted: from in front, above and a little upstream, in perspective; iso: the same kind of view without perspective;
+// xz, xy, yz: along an axis.
 const std::vector<View>& views();
 // With walls across y the tilted view has y upwards.
 View turnedForWalls(View view, const std::array<bool, 3>& periodic);

@@ -12,7 +12,8 @@ namespace {
 
 using Colours = FieldStyle::Colours;
 
-// The unit in which the larger end of a range is a number of at least 1, and what the numbers are divided by: "mm/s" and 1e-3.
+// The unit in which the larger end of a range is a number of at least 1, and what the numbers are divided by: "mm/s"
+// and 1e-3.
 std::pair<std::string, double> unitFor(const Range& range, Dimension dimension) {
     if (dimension.isDimensionless()) return {"", 1};
     const double size = std::max(std::abs(range.low), std::abs(range.high));

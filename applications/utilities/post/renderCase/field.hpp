@@ -30,8 +30,8 @@ struct Values {
     std::vector<double> numbers;
     bool ofCells = false;
 };
-// Vectors by their magnitude, integers as numbers. Of kinds always one number for each triangle, the largest of its corners. Throws Failure(usage)
-// naming the arrays that the surface has and the nearest name.
+// Vectors by their magnitude, integers as numbers. Of kinds always one number for each triangle, the largest of its
+// corners. Throws Failure(usage) naming the arrays that the surface has and the nearest name.
 Values valuesOf(const io::PolyData& surface, const std::string& name, const std::string& field);
 
 // A field with its range, ready to be drawn and explained by a bar.

@@ -1,5 +1,5 @@
-// What a picture shows: the surfaces of a case at some times. Cells in a periodic box are unwrapped in the results; here each surface is moved as a
-// whole, by box lengths, until the mean of its points lies in the box.
+// What a picture shows: the surfaces of a case at some times. Cells in a periodic box are unwrapped in the results;
+// here each surface is moved as a whole, by box lengths, until the mean of its points lies in the box.
 #pragma once
 #include <filesystem>
 #include <map>

@@ -1,5 +1,5 @@
-// Panels side by side, one per time, seen by one eye and with the same colours; labels above, a scale bar, the axes and an arrow for the velocity below,
-// colour bars at the right.
+// Panels side by side, one per time, seen by one eye and with the same colours; labels above, a scale bar, the axes and
+// an arrow for the velocity below, colour bars at the right.
 #pragma once
 #include <filesystem>
 #include <optional>

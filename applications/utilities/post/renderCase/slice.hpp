@@ -1,9 +1,10 @@
 // The fluid in a plane, interpolated from its particles.
 //
-// At each point x of a grid in the plane the field and its gradient are those of the plane's least-squares fit to the particles around:
+// At each point x of a grid in the plane the field and its gradient are those of the plane's least-squares fit to the
+// particles around:
 //     minimise over (f, g)   sum_i W(|x - x_i|/h) (f + g.(x_i - x) - f_i)^2,   h = 2.2 dx, W Wendland C2,
-// exact for linear fields, at walls too. Where the particles do not determine a gradient it is Shepard's mean. A point further than 1.3 dx from all
-// particles is left blank. Arrays of integers take the value of the nearest particle.
+// exact for linear fields, at walls too. Where the particles do not determine a gradient it is Shepard's mean. A point
+// further than 1.3 dx from all particles is left blank. Arrays of integers take the value of the nearest particle.
 #pragma once
 #include <optional>
 #include <string>
@@ -33,8 +34,8 @@ struct Slice {
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns + column; }
 };
 
-// `field`: u, v, w or speed of the particles' velocity, or an array of theirs. Without a box the slice is as large as the fluid. Throws
-// Failure(usage) for a field that there is not, naming those that there are.
+// `field`: u, v, w or speed of the particles' velocity, or an array of theirs. Without a box the slice is as large as
+// the fluid. Throws Failure(usage) for a field that there is not, naming those that there are.
 Slice sampleSlice(const io::PolyData& fluid, const std::optional<particles::Box>& box, const SlicePlane& plane,
                   const std::string& field, bool withVelocity);
 
