@@ -1,12 +1,12 @@
 #include "simulation/memoryLimit.hpp"
 
 #include "core/machineMemory.hpp"
-#include "simulation/groups.hpp"
+#include "simulation/size.hpp"
 
 namespace corpuscle::simulation {
 
 void requireMemory(const Communicator& communicator, const Case& input) {
-    const std::string shortage = memoryShortage(communicator, estimateSize(input).memory);
+    const std::string shortage = memoryShortage(communicator, estimateSize(input, communicator.size()).memory);
     if (shortage.empty()) return;
     Problems problems;
     problems.add(

@@ -5,7 +5,7 @@
 
 namespace corpuscle::simulation {
 
-// Collective. CaseError at system/numerics.yaml: spacing where estimateSize(input).memory, spread over the ranks, is more than the
+// Collective. CaseError at system/numerics.yaml: spacing where estimateSize().memory (size.hpp), spread over the ranks, is more than the
 // memory that a machine or its limits have left (core/machineMemory.hpp).
 void requireMemory(const Communicator& communicator, const Case& input);
 

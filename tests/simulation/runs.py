@@ -145,20 +145,20 @@ def prepared(folder, files=CELL_CASE, **changes):
 FILE = {"balance": "conservation.csv"}  # of observers with several files, the one meant where none is named
 
 
+def lines(case, observer, name=None):
+    """Of an observer's table, without its comments."""
+    (path,) = (case / "postProcessing" / observer).glob(name or FILE.get(observer, "*.csv"))
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
 def series(case, observer, name=None):
-    """All rows of an observer, start times joined."""
-    rows = []
-    for folder in sorted((case / "postProcessing" / observer).iterdir(), key=lambda p: float(p.name)):
-        (table,) = folder.glob(name or FILE.get(observer, "*.csv"))
-        with open(table) as file:
-            rows += [row for row in csv.reader(file)][1:]
-    return rows
+    """All rows of an observer, as they stand in its table."""
+    return list(csv.reader(lines(case, observer, name)))[1:]
 
 
 def table(case, observer, name=None):
     """Rows of an observer by the names of its columns."""
-    with open(next((case / "postProcessing" / observer).glob(f"*/{name or FILE.get(observer, '*.csv')}"))) as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines(case, observer, name))]
 
 
 def last_checkpoint(case):
@@ -837,8 +837,7 @@ def test_retreat(folder):
         rows = [list(map(float, row)) for row in series(case, "deformation")]
         times = [row[0] for row in rows]
         assert times == sorted(set(times)), f"rows out of order: {times}"
-        with open(next((case / "postProcessing/deformation").glob("*/*.csv"))) as file:
-            return dict(zip(next(csv.reader(file)), rows[-1])), len(rows)
+        return dict(zip(next(csv.reader(lines(case, "deformation"))), rows[-1])), len(rows)
     for name, numerics, at, ranks in (("implicit", implicit, 12, 2), ("verlet", CELL_CASE["system/numerics.yaml"], 93, 1)):
         case = prepared(folder / name, **{"system/numerics.yaml": numerics, "system/control.yaml": length})
         calm = copied(case, folder / (name + "Calm"))
@@ -1024,8 +1023,7 @@ def tearing(folder, rupture, strain):
 
 def tables(case):
     """The observer's tables with numbers for values."""
-    return {p.stem: [{key: float(value) for key, value in row.items()} for row in csv.DictReader(open(p))]
-            for p in case.glob("postProcessing/tear/0/*.csv")}
+    return {p.stem: table(case, "tear", p.name) for p in case.glob("postProcessing/tear/*.csv")}
 
 
 def test_rupture(folder):
@@ -1117,8 +1115,7 @@ forceScale: 1 pN
         case = make(folder / name, {"system/relax.yaml": relax, "constant/membranes.yaml": laws})
         run(case, "membraneRelax")
         (surface,) = (case / "results/rbc").glob("*/*.vtp")
-        with open(case / "postProcessing/relax/0/rbc.csv") as table:
-            return surface, list(csv.DictReader(table))[-1]
+        return surface, table(case, "relax")[-1]
     blown, end = relaxed("blown", laws + "  volume: {modulus: 1 kPa, reducedVolume: 0.8}\n")
     assert float(end["volumeStrain"]) > 0.1
     (folder / "back/constant").mkdir(parents=True)

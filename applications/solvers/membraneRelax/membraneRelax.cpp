@@ -1,7 +1,7 @@
 // membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers, inflated, at
 // rest; or of a flat sheet, stretched and sheared.
 //
-// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/0/<name>.csv and
+// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/<name>.csv and
 // results/<name>.pvd, whose times are the numbers of the stages.
 //
 // Sample runs:
@@ -44,21 +44,18 @@ struct Input {
     }
 };
 
-// "force_N" -> {"force", "N"}.
-io::Column column(const std::string& name) {
-    const std::size_t bar = name.rfind('_');
-    return bar == std::string::npos ? io::Column{name, ""} : io::Column{name.substr(0, bar), name.substr(bar + 1)};
-}
-
 // Where stages are written to, and what areas and volumes are compared with.
 class Results {
   public:
-    Results(const Application& app, const membrane::Protocol& protocol, const membrane::Membrane& membrane, double edge)
+    Results(const Application& app, const std::string& name, const membrane::Protocol& protocol,
+            const membrane::Membrane& membrane, double edge)
         : protocol_(protocol),
           edge_(edge),
           area0_(membrane.area()),
           volume0_(membrane.network().isOpen() ? 0 : membrane.volume()),
-          table_(app.communicator().handle(), app.caseDirectory(), "relax", 0, membrane.name, columns(protocol)),
+          table_(app.communicator().handle(), app.caseDirectory(),
+                 {"relax", membrane.name, "protocol " + name, Registry<membrane::Protocol>::instance().find(name)->text,
+                  columns(protocol)}),
           surfaces_(app.communicator().handle(), app.caseDirectory(), membrane.name, 0, 0) {}
 
     // Returns the line for the log.
@@ -77,7 +74,7 @@ class Results {
         surfaces_.write(stage, std::nullopt, surface);
         std::string values;
         for (std::size_t k = 0; k < measured.size(); ++k)
-            values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k], measured[k]);
+            values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k].header(), measured[k]);
         return fmt::format("stage {}, {}: {}; area {:+.3f} %, volume {:+.3f} %; {} iterations, residual {:.2g} N",
                            stage, protocol_.describe(stage), values, 100 * areaStrain, 100 * volumeStrain,
                            report.iterations, report.residual);
@@ -85,11 +82,9 @@ class Results {
 
   private:
     static std::vector<io::Column> columns(const membrane::Protocol& protocol) {
-        std::vector<io::Column> all{{"stage", ""}};
-        for (const std::string& name : protocol.columns()) all.push_back(column(name));
-        for (const char* name : {"area_m2", "volume_m3", "areaStrain", "volumeStrain", "energy_J", "iterations"})
-            all.push_back(column(name));
-        all.push_back({"residual", "N"});
+        std::vector<io::Column> all;
+        for (const auto& some : {protocol.columnsBefore(), protocol.columns(), protocol.columnsAfter()})
+            for (const membrane::Protocol::Column& c : some) all.push_back({c.name, c.unit, c.meaning});
         return all;
     }
 
@@ -103,7 +98,8 @@ class Results {
 void runStages(Application& app, const simulation::RelaxSettings& relax, membrane::Membrane& membrane,
                RunRecord& record) {
     const membrane::Protocol& protocol = *relax.protocol;
-    Results results(app, protocol, membrane, relax.edge());
+    io::clearTables(app.communicator().handle(), app.caseDirectory(), "protocol");
+    Results results(app, relax.protocol.name, protocol, membrane, relax.edge());
     for (int stage = 0; stage < protocol.stages(); ++stage) {
         const membrane::Loads loads = protocol.apply(stage, membrane);
         const membrane::EquilibriumReport report =

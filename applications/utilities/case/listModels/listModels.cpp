@@ -40,6 +40,12 @@ SchemaInfo flowInfo() {
     return info;
 }
 
+// For a cell of a Markdown table.
+std::string inTable(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+    return text;
+}
+
 ordered_json flowSchema() {
     SchemaInfo holder;
     FieldInfo flow;
@@ -76,14 +82,64 @@ void writeSchemas(const std::filesystem::path& folder) {
     }
 }
 
-ordered_json toJson(const ModelInfo& model) {
+// A model with its defaults; what it says of itself does not depend on the settings that a case must give.
+template <class Family>
+std::shared_ptr<const Family> sample(const std::string& name) {
+    Problems missing;
+    return Registry<Family>::instance().find(name)->make(Node{}, missing);
+}
+
+struct Table {
+    std::string file;  // "deformation/<cell>.csv"
+    std::vector<io::Column> columns;
+};
+
+// What a model writes under postProcessing; none of most families.
+std::vector<Table> tablesOf(const std::string& family, const std::string& name) {
+    std::vector<Table> all;
+    if (family == observers::Observer::familyName)
+        for (const auto& table : sample<observers::Observer>(name)->tables(observers::SceneParts::all())) {
+            all.push_back({"<name>/" + table.file + ".csv", observers::timeColumns()});
+            all.back().columns.insert(all.back().columns.end(), table.columns.begin(), table.columns.end());
+        }
+    if (family == membrane::Protocol::familyName) {
+        const auto protocol = sample<membrane::Protocol>(name);
+        all.push_back({"relax/<membrane>.csv", {}});
+        for (const auto& some : {protocol->columnsBefore(), protocol->columns(), protocol->columnsAfter()})
+            for (const auto& c : some) all.back().columns.push_back({c.name, c.unit, c.meaning});
+    }
+    return all;
+}
+
+std::string tablesPage() {
+    std::string text =
+        "## Tables\n\nWhat observers and protocols write under postProcessing. Those of `<cell>`, `<body>` and of "
+        "walls, body forces, rupture are there where a case has them.\n\n";
+    for (const auto& [family, info] : families())
+        for (const ModelInfo& model : info.models())
+            for (const Table& table : tablesOf(family, model.name)) {
+                text += fmt::format("### {} `{}`, {}\n\n| column | unit | meaning |\n|---|---|---|\n", family,
+                                    model.name, table.file);
+                for (const io::Column& c : table.columns)
+                    text += fmt::format("| `{}` | {} | {} |\n", c.header(), c.unitText(), inTable(c.meaning));
+                text += '\n';
+            }
+    return text;
+}
+
+ordered_json toJson(const std::string& family, const ModelInfo& model) {
     ordered_json settings = ordered_json::array();
     for (const FieldInfo& f : model.settings.fields) {
         ordered_json field{{"key", f.key}, {"value", f.description()}, {"text", f.text}, {"required", f.required}};
         if (!f.fallback.empty()) field["default"] = f.fallback;
         settings.push_back(std::move(field));
     }
-    return {{"text", model.text}, {"settings", settings}};
+    ordered_json json{{"text", model.text}, {"settings", settings}};
+    for (const Table& table : tablesOf(family, model.name))
+        for (const io::Column& c : table.columns)
+            json["tables"][table.file].push_back(
+                {{"column", c.header()}, {"unit", c.unitText()}, {"meaning", c.meaning}});
+    return json;
 }
 
 // "bond law", "bondLaw" and "bond-law" are the same.
@@ -127,6 +183,13 @@ void printTable(const SchemaInfo& info, const std::string& path, const std::stri
 void printModel(const std::string& family, const ModelInfo& model) {
     std::cout << model.name << " (" << family << "): " << model.text << '\n';
     printTable(model.settings, "", "  ");
+    for (const Table& table : tablesOf(family, model.name)) {
+        std::cout << "\n  postProcessing/" << table.file << ":\n";
+        std::vector<std::vector<std::string>> rows;
+        for (const io::Column& c : table.columns) rows.push_back({c.header(), c.unitText(), c.meaning});
+        for (const std::string& line : alignedTable({"column", "unit", "meaning"}, rows))
+            std::cout << "  " << line << '\n';
+    }
 }
 
 // The family or the models of that name; a dictionary file goes by its name too ("numerics").
@@ -141,7 +204,7 @@ void show(const std::string& wanted, bool asJson) {
             known.push_back(model.name);
             if (!all && plain(model.name) != plain(wanted)) continue;
             if (asJson)
-                json[name][model.name] = toJson(model);
+                json[name][model.name] = toJson(name, model);
             else {
                 if (found) std::cout << '\n';
                 printModel(name, model);
@@ -170,7 +233,7 @@ void showAll(bool asJson) {
     ordered_json json = ordered_json::object();
     for (const auto& [name, family] : families()) {
         if (!asJson) std::cout << name << '\n' << oneLinePerModel(family.models()) << '\n';
-        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(model);
+        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(name, model);
     }
     if (asJson)
         std::cout << json.dump(2) << '\n';
@@ -194,7 +257,7 @@ int main(int argc, char* argv[]) {
         if (const auto folder = app.value("schema"))
             writeSchemas(*folder);
         else if (app.has("markdown"))
-            std::cout << referencePage(dictionaries()) << restartPage(simulation::restartDictionaries());
+            std::cout << referencePage(dictionaries()) << restartPage(simulation::restartDictionaries()) << tablesPage();
         else if (!app.arguments().empty())
             show(app.arguments().front(), app.json());
         else
