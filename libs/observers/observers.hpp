@@ -5,7 +5,7 @@
 //
 // Each writes postProcessing/<name>/<start time>/<file>.csv, first columns time_s and strain; files are made at the first run(). A run
 // from t = 0 begins with a row at t = 0; after a restart the first row is that of the next due time, so that both together have each
-// row once. Observers may be added, removed or changed between a run and its restart.
+// row once. Rows stand at the multiples of an interval exactly, unless it is shorter than a step. Observers may be added, removed or changed between a run and its restart.
 //
 //     Observers observers(settings, scene, time, caseDir);     // settings without models, or Observers(): none, at no cost
 //     observers.restore(saved);                                // from a checkpoint
@@ -38,6 +38,9 @@ class Observers {
 
     // Lets look those that are due. Collective.
     void run(const Scene& scene, const Time& time);
+
+    // When those look next whose interval is not shorter than a step. The others look after the first step past each of their times.
+    void addEvents(const Time& time, std::vector<Event>& events) const;
 
     // Of those that have something to say at the end, by name. Collective.
     std::vector<std::pair<std::string, Summary>> summaries(const Scene& scene, const Time& time);

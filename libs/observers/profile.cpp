@@ -29,6 +29,7 @@ class ProfileObservation : public Observation {
           axis_(axis),
           bins_(bins) {}
 
+    bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         constexpr std::size_t numbers = 5;
         const particles::ParticleStore& s = scene.store();

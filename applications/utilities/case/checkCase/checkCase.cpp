@@ -9,6 +9,7 @@
 //     mpirun -np 2 checkCase -case tutorials/rbcShear/Ca0.02
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <vector>
@@ -16,10 +17,9 @@
 #include "membrane/moduli.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/retreat.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
-#include "simulation/schedule.hpp"
-#include "simulation/watch.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -126,12 +126,13 @@ void reportRun(Application& app, const simulation::Case& input, ordered_json& js
 
     const double dt = time.dt;
     const auto begin = std::chrono::steady_clock::now();
-    for (int k = 0; k < burstSteps; ++k) integrator.advance(scene, time);
+    simulation::Retreat step(input, scene, time, integrator,
+                             app.log());  // as the solver steps, and back where it would go back
+    int made = 0;
+    for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) made += step.advance();
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
-        burstSteps;
-    if (const simulation::Fault fault = simulation::Watch(input, scene).find(scene, time))
-        throw Failure(ExitCode::numerics, fault.text);
+        std::max(1, made);
     const auto [steps, seconds] = predictRun(input, dt, integrator.limits().stages, perStep);
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
     app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)",
