@@ -8,6 +8,7 @@ namespace {
 
 // A sum of steps misses a round time by rounding; a millionth of a step is well above that and of no consequence.
 constexpr double stepFraction = 1e-6;
+constexpr double together = 1e-3;  // of a step: events that one step serves
 
 }  // namespace
 
@@ -17,9 +18,45 @@ bool Time::running() const {
 }
 
 void Time::advance(double by) {
-    dt = by;
     t += by;
+    strained += shearRate * by;
     ++step;
+    if (aim && aim->t) t = *aim->t;
+    if (aim && aim->strain) strained = *aim->strain;
+    aim.reset();
+}
+
+double Time::shorten(const std::vector<Event>& events) {
+    aim.reset();
+    double first = std::numeric_limits<double>::infinity();
+    for (const Event& event : events)
+        if (event.wait > stepFraction * dt) first = std::min(first, event.wait);
+    if (!(first < 2 * dt)) return dt;
+    // Of events that differ by rounding, the first in the list.
+    const Event* last = nullptr;
+    for (const Event& event : events)
+        if (event.wait > stepFraction * dt && event.wait <= first + together * dt &&
+            (!last || event.wait > last->wait + stepFraction * dt))
+            last = &event;
+    if (last->wait > (1 + together) * dt) return std::min(dt, 0.5 * last->wait);
+    aim = *last;
+    return last->wait;
+}
+
+Event Time::atTime(double when) const { return {when - t, when, {}}; }
+Event Time::atStrain(double when) const { return {(when - strained) / shearRate, {}, when}; }
+
+std::vector<Event> Time::ends() const {
+    std::vector<Event> all;
+    if (endTime) all.push_back(atTime(*endTime));
+    if (endStrain) all.push_back(atStrain(*endStrain));
+    return all;
+}
+
+double Time::left() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Event& end : ends()) least = std::min(least, end.wait);
+    return std::max(0.0, least);
 }
 
 double Time::fraction() const {
@@ -34,7 +71,8 @@ std::string Time::endReason() const {
     const double now = t + stepFraction * dt;
     if (lastStep && step >= *lastStep) return "step " + std::to_string(*lastStep);
     if (endTime && now >= *endTime) return "endTime " + formatQuantity(*endTime, unit::second);
-    if (endStrain && now * shearRate >= *endStrain) return "endStrain " + formatQuantity(*endStrain, unit::none);
+    if (endStrain && strained + stepFraction * dt * shearRate >= *endStrain)
+        return "endStrain " + formatQuantity(*endStrain, unit::none);
     return "";
 }
 
@@ -47,14 +85,14 @@ Ticker::Ticker(const Interval& interval, const Time& start) : interval_(interval
 }
 
 double Ticker::multiples(const Time& time) const {
-    const double now = time.t + stepFraction * time.dt;
+    const double slack = stepFraction * time.dt;
     switch (interval_.kind) {
         case Interval::Kind::steps:
             return static_cast<double>(time.step) / interval_.value;
         case Interval::Kind::time:
-            return now / interval_.value;
+            return (time.t + slack) / interval_.value;
         case Interval::Kind::strain:
-            return now * time.shearRate / interval_.value;
+            return (time.strained + slack * time.shearRate) / interval_.value;
         case Interval::Kind::never:
             break;
     }
@@ -67,6 +105,18 @@ bool Ticker::due(const Time& time) {
     if (passed < next_) return false;
     next_ = passed + 1;
     return true;
+}
+
+Event Ticker::next(const Time& time) const {
+    const double at = next_ * interval_.value;
+    if (interval_.kind == Interval::Kind::time) return time.atTime(at);
+    if (interval_.kind == Interval::Kind::strain) return time.atStrain(at);
+    return {};
+}
+
+double Ticker::seconds(const Time& time) const {
+    if (interval_.kind == Interval::Kind::time) return interval_.value;
+    return interval_.kind == Interval::Kind::strain ? interval_.value / time.shearRate : 0;
 }
 
 }  // namespace corpuscle

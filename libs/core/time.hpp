@@ -1,33 +1,53 @@
-// Physical time, when to stop, and what is due.
+// Physical time, strain, when to stop, and what is due.
 //
-// Nothing here ever changes dt: what is written, watched or stopped has no influence on the state. So events fall on
-// the first step at or past their time, at most one step late.
+// A step ends exactly at the next event: the end of the run, the time of results, that of an observer whose interval is not shorter than a step
+// (docs/simulation.md). So the step before an event may be shorter than the limits allow; where one and a bit remain, two equal ones are made. dt
+// between two steps is always what the limits allow, so that the step after an event has its full length again, and checkpoints and
+// requests to stop, which are no events, leave the steps as they are.
 #pragma once
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/settings.hpp"
 
 namespace corpuscle {
 
+// Where a step is to end: at a time, or at a strain.
+struct Event {
+    double wait = std::numeric_limits<double>::infinity();  // s from now
+    std::optional<double> t = {}, strain = {};              // one of them, or none: never
+};
+
 struct Time {
     double t = 0;          // s
-    double dt = 0;         // s, of the step to come (of the last one when the run has ended)
+    double dt = 0;         // s, of the step to come, as the limits allow it
     long step = 0;         // steps done since t = 0, restarts included
     double shearRate = 0;  // 1/s; 0: the flow has none, and nothing can be counted in strain
+    double strained = 0;   // sum of gammadot dt: a restart may have another shear rate
 
     std::optional<double> endTime = {};    // s
     std::optional<double> endStrain = {};  // gammadot t
     std::optional<long> lastStep = {};     // of -steps N: step at the start + N
 
-    double strain() const { return shearRate * t; }
+    double strain() const { return strained; }
     bool running() const;  // false too when there is no end condition at all
+    // Ends exactly at the event that shorten() has aimed at.
     void advance(double by);
+    // dt of the step to come, by these events: dt itself, or shorter. Events that are nearer than a thousandth of dt to each other count as one,
+    // and dt grows by that much at most.
+    double shorten(const std::vector<Event>& events);
+    Event atTime(double when) const;
+    Event atStrain(double when) const;
+    std::vector<Event> ends() const;
+    double left() const;  // s to the nearest end in time or strain
     // 0 at the start of the physical time, 1 at the nearest end.
     double fraction() const;
     // The end condition that holds: "endTime 1 ms", "endStrain 6", "100 steps"; empty while running.
     std::string endReason() const;
+
+    std::optional<Event> aim = {};  // where the step to come ends; of shorten()
 };
 
 // True on the first step at or past each multiple of an interval, once. A run from t = 0 starts with the multiple 0, a
@@ -39,6 +59,8 @@ class Ticker {
     Ticker(const Interval& interval, const Time& start);
 
     bool due(const Time& time);
+    Event next(const Time& time) const;      // none for an interval in steps
+    double seconds(const Time& time) const;  // of an interval in time or strain; 0: of one in steps
     bool never() const { return interval_.kind == Interval::Kind::never; }
 
   private:

@@ -52,9 +52,11 @@ class Step final : public ImplicitStep {
         isLinear_ = std::all_of(terms_.begin(), terms_.end(), [](const Term<Real>* term) { return term->isLinear(); });
     }
 
-    Events advance(double dt) override {
+    using ImplicitStep::advance;
+    Events advance(double dt, double planned) override {
+        planned_ = std::max(dt, planned);
         moveVelocities(-ahead());
-        Events events = advance(dt, isBackward(), 0);
+        Events events = make(dt, isBackward(), 0);
         moveVelocities(ahead());
         return events;
     }
@@ -78,8 +80,8 @@ class Step final : public ImplicitStep {
     Copies copies() const { return {width * store().size(), width * entries()}; }
 
     bool isBackward() const { return backward_ || damped; }  // every step, not only halves
-    Events advance(double dt, bool backward, int halvings) {
-        if (attempt(dt, backward)) {
+    Events make(double dt, bool backward, int halvings) {
+        if (attempt(dt, halvings == 0 ? planned_ : dt, backward)) {
             ++statistics.steps;
             return coupling::endStep(scene_, options_, ++state.steps, dt);
         }
@@ -89,13 +91,13 @@ class Step final : public ImplicitStep {
                                       "system/numerics.yaml",
                                       state.steps + 1, fault_, 1 << halvings));
         ++statistics.halvings;
-        Events events = advance(0.5 * dt, true, halvings + 1), later = advance(0.5 * dt, true, halvings + 1);
+        Events events = make(0.5 * dt, true, halvings + 1), later = make(0.5 * dt, true, halvings + 1);
         std::move(later.begin(), later.end(), std::back_inserter(events));
         return events;
     }
 
     // False, and everything where it was, where it fails for the reason in fault_.
-    bool attempt(double dt, bool backward) {
+    bool attempt(double dt, double planned, bool backward) {
         const double share = backward ? 1 : 0.5;  // of dt, at which forces are taken
         setTimes(dt, share);
         moveBy(share * dt);
@@ -110,8 +112,8 @@ class Step final : public ImplicitStep {
             return false;
         }
         const double bondRate = immersed_ ? largestBondRate(scene_.cells, membranes_->velocities()) : 0;
-        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, dt, isBackward(),
-                                hasAcceleration() ? difference() : 0, bondRate);
+        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, {dt, planned, isBackward()},
+                                hasAcceleration() ? unevenness(dt) * difference() : 0, bondRate);
         finish(dt, share);
         return true;
     }
@@ -209,6 +211,11 @@ class Step final : public ImplicitStep {
             takeDefect();
             ++statistics.refinements;
         }
+    }
+
+    // By which factor the second difference over steps of this length would be larger than that over the last three middles.
+    double unevenness(double dt) const {
+        return isBackward() || state.lastSpacing == 0 ? 1 : 2 * dt * dt / (h_ * (h_ + state.lastSpacing));
     }
 
     // By which the velocity found differs from the extrapolated one, with backward Euler from the last, over the lengths of stepControl.hpp [1/s].
@@ -460,6 +467,7 @@ class Step final : public ImplicitStep {
     MembraneCorrection<Real> membraneCorrection_;
     ConjugateGradients<Real> solver_;
     Reach reach_{};
+    double planned_ = 0;              // length of the step but for an event [s]
     double h_ = 0, c1_ = 0, c2_ = 0;  // of dv/dt
     Field guess_, residual_, correction_, inverse_, left_;
     RealArray rows_;            // c1 times mass, 0 where the velocity is prescribed; place where its own rank has it

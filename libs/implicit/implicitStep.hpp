@@ -58,8 +58,10 @@ class ImplicitStep {
     // Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one (docs/implicit.md).
     static constexpr double stiffMembrane = 50;
 
-    // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help.
-    virtual std::vector<coupling::RuptureEvent> advance(double dt) = 0;
+    // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help. planned: its length but for an event
+    // that shortens it (core/time.hpp) [s].
+    virtual std::vector<coupling::RuptureEvent> advance(double dt, double planned) = 0;
+    std::vector<coupling::RuptureEvent> advance(double dt) { return advance(dt, dt); }
 
     bool damped = false;  // every step by backward Euler, whatever the case says
 

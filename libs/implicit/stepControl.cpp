@@ -46,16 +46,17 @@ AllowedSteps firstStep(const ImplicitSettings& settings, double rate) {
     return {.error = settings.step / rate * std::sqrt(settings.error / ImplicitSettings{}.error)};
 }
 
-AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, double dt, bool backwardEuler,
-                          double difference, double bondRate) {
+AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
+                          double bondRate) {
     AllowedSteps allowed;
     if (bondRate > 0) allowed.bond = settings.bondStrain / bondRate;
-    const double error = difference / ((backwardEuler ? 2 : 24) * rate);
+    const double error = difference / ((last.backwardEuler ? 2 : 24) * rate);
     if (error > 0) {
         const double ratio = settings.error / error;
-        allowed.error = dt * std::clamp(backwardEuler ? ratio : std::sqrt(ratio), least, most);
+        allowed.error =
+            std::clamp(last.dt * (last.backwardEuler ? ratio : std::sqrt(ratio)), least * last.dt, most * last.planned);
     } else if (isStrict(settings)) {
-        allowed.error = most * dt;
+        allowed.error = most * last.planned;
     }
     return allowed;
 }

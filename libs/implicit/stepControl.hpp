@@ -10,6 +10,7 @@
 // cells        | the largest of the nodes                            | radius of the sphere of the cell's volume
 // free bodies  | the largest of |dU| + a |dOmega|                    | the same of the body
 // neither      | root mean square of the fluid                       | length of the flow (sph/flow.hpp)
+// Steps of different length: the second difference is scaled to what it would be over steps as long as the last.
 // With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is asked for.
 //
 // Nothing is known of the error before the third step (the second, of a flow that begins as it goes on), and the start from a velocity that does not
@@ -30,9 +31,14 @@ struct AllowedSteps {
 // Of the first step.
 AllowedSteps firstStep(const ImplicitSettings& settings, double rate);
 
-// difference: that of the last step of dt over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a bond [1/s].
-AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, double dt, bool backwardEuler,
-                          double difference, double bondRate);
+struct LastStep {
+    double dt,
+        planned;  // [s]; its length, and that which it would have had but for an event (core/time.hpp): from this the next one grows
+    bool backwardEuler;
+};
+// difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a bond [1/s].
+AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
+                          double bondRate);
 
 // Largest difference of two velocities of all nodes, in radii of their cell [1/s].
 double largestDifference(const std::vector<coupling::Cell>& cells, const coupling::Immersed::Vectors& a,

@@ -14,6 +14,22 @@ std::array<Vec3, 3> places(std::span<const Vec3> x, const Index3& node) { return
 
 double total(const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); }
 
+// Of slope d2A/dx2 what resists displacements along the normal n, where the slope is a tension: slope (e_i . e_j)/(4 A) n n^T with e_i the edge opposite
+// corner i. On a flat sheet nothing else remains, as the parts within the plane cancel around each node.
+void addTension(const std::array<Vec3, 3>& x, double area, double slope, Eigen::Matrix<double, 9, 9>& matrix) {
+    if (!(slope > 0) || !(area > 0)) {
+        return;
+    }
+    const std::array<Vec3, 3> opposite{x[2] - x[1], x[0] - x[2], x[1] - x[0]};
+    const Vec3 normal = opposite[0].cross(opposite[1]).normalized();
+    const Mat3 along = normal * normal.transpose();
+    for (int m = 0; m < 3; ++m) {
+        for (int n = 0; n < 3; ++n) {
+            matrix.block<3, 3>(3 * m, 3 * n) += slope * opposite[m].dot(opposite[n]) / (4 * area) * along;
+        }
+    }
+}
+
 // slope d2A/dx2 + curvature (dA/dx)(dA/dx)^T of one triangle.
 void addTriangle(std::span<const Vec3> x, const Index3& node, double slope, double curvature, Definiteness definiteness,
                  Stiffness& stiffness) {
@@ -22,7 +38,9 @@ void addTriangle(std::span<const Vec3> x, const Index3& node, double slope, doub
     Eigen::Matrix<double, 9, 1> gradient;
     gradient << area.gradient[0], area.gradient[1], area.gradient[2];
     Eigen::Matrix<double, 9, 9> matrix = curvature * gradient * gradient.transpose();
-    if (definiteness != Definiteness::partwise) {
+    if (definiteness == Definiteness::partwise) {
+        addTension(corners, area.value, slope, matrix);
+    } else {
         matrix += slope * hessian<TriangleArea>(corners);
     }
     if (definiteness == Definiteness::semiDefinite) {
@@ -107,7 +125,7 @@ class GlobalArea final : public WholeSurfaceTerm {
     }
     void addCurvature(std::span<const Vec3> x, double slope, Definiteness definiteness,
                       Stiffness& stiffness) const override {
-        if (definiteness == Definiteness::partwise) {
+        if (definiteness == Definiteness::partwise && !(slope > 0)) {
             return;
         }
         for (const Index3& node : network_.triangles()) {

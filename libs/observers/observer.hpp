@@ -67,6 +67,9 @@ class Observation {
     virtual bool watchesSteps() const { return false; }
     virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
 
+    // Whether its rows may have NaN where there is nothing to be seen: a bin without particles, the section of an open cell.
+    virtual bool leavesGaps() const { return false; }
+
     // At the end of a run; empty: nothing to say. Collective.
     virtual std::optional<Summary> summary(const Scene& scene, const Time& time);
 

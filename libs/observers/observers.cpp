@@ -1,6 +1,9 @@
 #include "observers/observers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "observers/summary.hpp"
@@ -71,10 +74,28 @@ void Observers::openFiles(const Scene& scene) {
     filesOpen_ = true;
 }
 
+namespace {
+
+// Rows are the same on all ranks, and so is this.
+void requireFinite(const std::string& name, const Observation& observation, const Row& row, const Time& time) {
+    const Table& table = observation.tables()[row.table];
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+        const double value = row.values[k];
+        if (std::isfinite(value) || (std::isnan(value) && observation.leavesGaps())) continue;
+        throw Failure(ExitCode::numerics,
+                      fmt::format("step {}, t = {:.6g} s: the observer '{}' has {} in the column {} of {}.csv: the run "
+                                  "has diverged, or a value of the case is beyond what numbers can hold",
+                                  time.step, time.t, name, value, table.columns[k].header(), table.file));
+    }
+}
+
+}  // namespace
+
 void Observers::write(Running& observer, const Time& time, const std::vector<Row>& rows) {
     for (const Row& row : rows) {
         std::vector<double> values{time.t, time.strain()};
         values.insert(values.end(), row.values.begin(), row.values.end());
+        requireFinite(observer.name, *observer.observation, row, time);
         observer.files[row.table].row(values);
     }
 }
@@ -85,6 +106,11 @@ void Observers::run(const Scene& scene, const Time& time) {
         if (observer.observation->watchesSteps()) write(observer, time, observer.observation->afterStep(scene, time));
         if (observer.ticker.due(time)) write(observer, time, observer.observation->observe(scene, time));
     }
+}
+
+void Observers::addEvents(const Time& time, std::vector<Event>& events) const {
+    for (const Running& observer : running_)
+        if (observer.ticker.seconds(time) > (1 - 1e-3) * time.dt) events.push_back(observer.ticker.next(time));
 }
 
 std::vector<std::pair<std::string, Summary>> Observers::summaries(const Scene& scene, const Time& time) {

@@ -5,8 +5,8 @@
 //
 // Each writes postProcessing/<name>/<file>.csv (io/csvSeries.hpp), first columns time_s and strain; files are opened at the first run(), where
 // a run from t = 0 writes them anew, removes tables that earlier runs have left, and begins with a row at t = 0. A restart goes on in the
-// same files; its first row is that of the next due time, so that each row is there once. Observers may be added, removed or changed
-// between a run and its restart.
+// same files; its first row is that of the next due time, so that each row is there once. Rows stand at the multiples of an interval
+// exactly, unless it is shorter than a step. Observers may be added, removed or changed between a run and its restart.
 //
 //     Observers observers(settings, scene, time, caseDir);     // settings without models, or Observers(): none, at no cost
 //     observers.restore(saved);                                // from a checkpoint
@@ -42,6 +42,8 @@ class Observers {
 
     // What the user is to know of the tables that earlier runs have left, on rank 0, after the first run().
     const std::vector<std::string>& notes() const { return notes_; }
+    // When those look next whose interval is not shorter than a step. The others look after the first step past each of their times.
+    void addEvents(const Time& time, std::vector<Event>& events) const;
 
     // Of those that have something to say at the end, by name. Collective.
     std::vector<std::pair<std::string, Summary>> summaries(const Scene& scene, const Time& time);

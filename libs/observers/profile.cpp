@@ -24,6 +24,7 @@ class ProfileObservation : public Observation {
     ProfileObservation(std::vector<Table> tables, int axis, int bins)
         : Observation(std::move(tables)), axis_(axis), bins_(bins) {}
 
+    bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         constexpr std::size_t numbers = 5;
         const particles::ParticleStore& s = scene.store();

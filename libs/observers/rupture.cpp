@@ -110,6 +110,7 @@ class RuptureObservation : public Observation {
         return rows;
     }
 
+    bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         const std::size_t cells = scene.cells.size();
         const std::vector<Interior> interior = interiors(scene);

@@ -53,6 +53,7 @@ class ShapeObservation : public Observation {
         }
     }
 
+    bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         const auto measured = ofEachCell(scene, 11, [&](const coupling::Cell& cell, std::size_t c, double* out) {
             const std::vector<Vec3>& x = cell.membrane.position;

@@ -5,6 +5,7 @@
 
 #include "simulation/caseRules.hpp"
 #include "simulation/cost.hpp"
+#include "simulation/readyCell.hpp"
 #include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
@@ -12,13 +13,61 @@ namespace corpuscle::simulation {
 namespace {
 
 template <class T>
-T readFile(const Application& app, const std::string& file, Case& result, Problems& problems) {
+T readNode(const std::string& file, Case& result, Problems& problems) {
     const std::size_t before = problems.count();
-    const Node& node = result.files[file] = app.dictionary(file, problems);
-    if (problems.count() != before) return T{};  // the file itself is missing or malformed
-    T settings = read<T>(node, problems);
+    T settings = read<T>(result.files.at(file), problems);
     if (problems.count() == before) result.effective.emplace_back(file, write(settings));
     return settings;
+}
+
+template <class T>
+T readFile(const Application& app, const std::string& file, Case& result, Problems& problems) {
+    const std::size_t before = problems.count();
+    result.files[file] = app.dictionary(file, problems);
+    if (problems.count() != before) return T{};  // the file itself is missing or malformed
+    return readNode<T>(file, result, problems);
+}
+
+// A cell without a shape is named here, and read with another one, so that all else is read too.
+void requireShapes(Node& mesh, Problems& problems) {
+    Node* const cells = mesh.find("cells");
+    if (!cells) return;
+    for (Node& cell : cells->items) {
+        if (cell.kind != Node::Kind::table || cell.find("shape") || cell.find("cell")) continue;
+        const bool isMisspelt = std::any_of(cell.entries.begin(), cell.entries.end(), [](const Node::Entry& entry) {
+            return !nearestWord(entry.key, {"shape", "cell"}).empty();
+        });
+        if (!isMisspelt)
+            problems.add(cell.place(), cell.path + ".shape",
+                         "missing: shape of the cell. Expected a model of the family shape, for example 'shape: {type: "
+                         "sphere, radius: 4 um}', or a ready cell in its place, for example 'cell: healthyRBC'");
+        Problems none;
+        Node any = parseValue("{type: sphere, radius: 1 um}", cell.mark.file, none);
+        any.setPath(cell.path + ".shape");
+        cell.entries.emplace_back("shape", std::move(any));
+    }
+}
+
+// What the cells are, and their membranes: of two files, since a ready cell has its part in both.
+void readCells(const Application& app, Case& c, Problems& problems) {
+    const std::size_t before = problems.count();
+    Node& mesh = c.files["system/mesh.yaml"] = app.dictionary("system/mesh.yaml", problems);
+    const std::size_t inMesh = problems.count() - before;
+    const bool areReady = namesReadyCells(mesh);
+    const bool hasLaws = app.hasDictionary("constant/membranes.yaml");
+    Node laws = hasLaws ? app.dictionary("constant/membranes.yaml", problems) : Node();
+    const std::size_t inLaws = problems.count() - before - inMesh;
+    if (inMesh + inLaws == 0 && areReady) insertReadyCells(app, mesh, laws, problems);
+    const std::size_t inReady = problems.count() - before - inMesh - inLaws;
+    if (inMesh == 0) requireShapes(mesh, problems);
+    if (inMesh + inReady == 0) c.mesh = readNode<MeshSettings>("system/mesh.yaml", c, problems);
+    if (!hasLaws && !areReady) {
+        if (!c.mesh.cells.empty())
+            app.dictionary("constant/membranes.yaml", problems);  // which says that it is missing
+        return;
+    }
+    c.files["constant/membranes.yaml"] = std::move(laws);
+    if (inLaws + inReady == 0) c.membranes = readNode<MembranesSettings>("constant/membranes.yaml", c, problems);
 }
 
 // Place of a key, or of the innermost table around it that was written.
@@ -59,10 +108,8 @@ Case Case::read(const Application& app) {
     c.directory = app.caseDirectory();
     c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
     c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
-    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, problems);
+    readCells(app, c, problems);
     c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
-    if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
-        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
     if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml"))
         c.bodies = readFile<bodies::BodiesSettings>(app, "constant/bodies.yaml", c, problems);
     {

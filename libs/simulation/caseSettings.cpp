@@ -153,31 +153,47 @@ const Schema<DomainSettings>& DomainSettings::schema() {
     return s;
 }
 
+namespace {
+// The keys of all closed surfaces; those of a cell may come from a ready one.
+template <class Surface>
+void addSurface(Schema<Surface>& s, const FieldOptions& ofShape = {}) {
+    s.name("name", static_cast<std::string Surface::*>(&SurfaceSettings::name), "names 0/<name>.vtp and its results")
+        .model("shape", static_cast<Choice<geometry::Shape> Surface::*>(&SurfaceSettings::shape),
+               "shape, of a cell the stress-free one; axis along z", ofShape)
+        .length("edge", static_cast<Length Surface::*>(&SurfaceSettings::edgeLength), "edge length of the mesh",
+                {.range = positive})
+        .vector("centre", static_cast<Vec3 Surface::*>(&SurfaceSettings::centre), unit::metre, "place of its centre",
+                {.fallback = "[0 m, 0 m, 0 m]"})
+        .vector("axis", static_cast<Vec3 Surface::*>(&SurfaceSettings::axis), unit::none,
+                "direction of its symmetry axis", {.fallback = "[0, 0, 1]"})
+        .check([](const Surface& c, const Node& node, Problems& problems) {
+            if (const Node* axis = node.find("axis"); axis && c.axis.norm() == 0)
+                problems.add(axis->mark, axis->path, "found the zero vector; a direction is needed, such as [0, 0, 1]");
+        });
+}
+}  // namespace
+
 const Schema<SurfaceSettings>& SurfaceSettings::schema() {
-    static const Schema<SurfaceSettings> s =
-        Schema<SurfaceSettings>("surface", "one closed surface: its shape, place and mesh")
-            .name("name", &SurfaceSettings::name, "names 0/<name>.vtp and its results")
-            .model("shape", &SurfaceSettings::shape, "shape, of a cell the stress-free one; axis along z")
-            .length("edge", &SurfaceSettings::edgeLength, "edge length of the mesh", {.range = positive})
-            .vector("centre", &SurfaceSettings::centre, unit::metre, "place of its centre",
-                    {.fallback = "[0 m, 0 m, 0 m]"})
-            .vector("axis", &SurfaceSettings::axis, unit::none, "direction of its symmetry axis",
-                    {.fallback = "[0, 0, 1]"})
-            .check([](const SurfaceSettings& c, const Node& node, Problems& problems) {
-                if (const Node* axis = node.find("axis"); axis && c.axis.norm() == 0)
-                    problems.add(axis->mark, axis->path,
-                                 "found the zero vector; a direction is needed, such as [0, 0, 1]");
-            });
+    static const Schema<SurfaceSettings> s = [] {
+        Schema<SurfaceSettings> keys("surface", "one closed surface: its shape, place and mesh");
+        addSurface(keys);
+        return keys;
+    }();
     return s;
 }
 
 const Schema<CellSettings>& CellSettings::schema() {
-    static const Schema<CellSettings> s =
-        Schema<CellSettings>("cell", "one cell: its shape, place and mesh")
-            .include<SurfaceSettings>()
+    static const Schema<CellSettings> s = [] {
+        Schema<CellSettings> keys("cell", "one cell: its shape, place and mesh");
+        addSurface(keys, {.fallback = "that of 'cell'"});
+        keys.name("cell", &CellSettings::cell,
+                  "a ready cell, in place of 'shape' and 'membrane': a file of constant/cells or etc/cells")
             .name("membrane", &CellSettings::membrane,
                   "its entry of constant/membranes.yaml; the cell's own name when absent")
-            .atRestart(AtRestart::noted, {"membrane"});
+            .atRestart(AtRestart::noted, {"membrane", "cell"})
+            .exactlyOneOf({"shape", "cell"});
+        return keys;
+    }();
     return s;
 }
 

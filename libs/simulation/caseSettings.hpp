@@ -83,6 +83,7 @@ struct SurfaceSettings {
     static const Schema<SurfaceSettings>& schema();
 };
 struct CellSettings : SurfaceSettings {
+    std::optional<std::string> cell;      // ready one (readyCell.hpp), whose values have been put here
     std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
     static const Schema<CellSettings>& schema();
     const std::string& type() const { return membrane ? *membrane : name; }

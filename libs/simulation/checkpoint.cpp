@@ -117,6 +117,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
 template <class File>
 RunState load(File& file, const std::string& where, const Case& input, Scene& scene, Time& time) {
     time.t = file.template attribute<double>("time");
+    time.strained = file.template attribute<double>("strain");
     time.step = file.template attribute<std::int64_t>("step");
     RunState state;
     state.integrator = {file.template attribute<double>("viscousRate"),

@@ -101,7 +101,8 @@ void Integrator::resume(const State& state, Time& time) {
     springRate2_ = state.springRate2;
     if (rkl2_) rkl2_->setRate(viscousRate_ / input_.numerics.safety);
     updateLimits(time);
-    time.dt = state.dt;
+    // The implicit step's limit follows from the case, which may have another shear rate now.
+    time.dt = implicit_ ? std::min(state.dt, time.dt) : state.dt;
 }
 
 void Integrator::goBack(const State& state, Time& time) {
@@ -120,24 +121,26 @@ void Integrator::shorten(double longest, bool damped) {
     if (implicit_) implicit_->damped = damped;
 }
 
-void Integrator::advance(Scene& scene, Time& time) {
+void Integrator::advance(Scene& scene, Time& time, const std::vector<Event>& events) {
+    const double dt = time.shorten(events);
+    tried_ = dt, shortened_ = dt < time.dt;
     if (implicit_) {
-        scene.broken = implicit_->advance(time.dt);
+        scene.broken = implicit_->advance(dt, time.dt);
         if (implicit_->noFlux()) scene.putBack = implicit_->noFlux()->crossings();
-        time.advance(time.dt);
+        time.advance(dt);
         updateLimits(time);
         return;
     }
     if (conjugate_) {
-        scene.broken = conjugate_->advance(time.dt);
+        scene.broken = conjugate_->advance(dt);
         if (conjugate_->noFlux()) scene.putBack = conjugate_->noFlux()->crossings();
     } else
-        scheme_->advance(time.dt);
+        scheme_->advance(dt);
     if (scene.coupling) {
-        scene.broken = scene.coupling->endStep(*scene.system, time.dt, account());
+        scene.broken = scene.coupling->endStep(*scene.system, dt, account());
         scene.putBack = scene.coupling->guard().moves();
     }
-    time.advance(time.dt);
+    time.advance(dt);
     if (time.step % (rkl2_ ? rkl2StepsPerEstimate : stepsPerEstimate) == 0) estimateRates();
     if (rkl2_ || scene.system->rebuilds() != rebuilds_) updateLimits(time);
 }

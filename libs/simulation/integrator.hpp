@@ -1,7 +1,8 @@
 // Advances a scene by time steps as large as every limit allows (sph/stepLimits.hpp).
 //
 // The explicit scheme's viscous and spring limits come from power iterations, at the start and every 1,000 steps; the acoustic limit is taken anew
-// when lists are rebuilt. The implicit step is as large as the case says. Steps do not depend on what is written when.
+// when lists are rebuilt. The implicit step is as large as the case says. A step that an event shortens
+// (core/time.hpp) says nothing about the length of the next one.
 #pragma once
 #include <limits>
 #include <memory>
@@ -38,9 +39,11 @@ class Integrator {
     // From the next step that is chosen on: none longer than this [s], and of the implicit step backward Euler where damped.
     void shorten(double longest, bool damped);
 
-    // One step of time.dt; then time is on and time.dt is the next step. Collective. Throws Failure(numerics), on all ranks, where a step
-    // cannot be made.
-    void advance(coupling::Scene& scene, Time& time);
+    // One step of time.dt, shorter where one of the events comes before its end; then time is on and time.dt is what the limits allow next.
+    // Collective. Throws Failure(numerics), on all ranks, where a step cannot be made.
+    void advance(coupling::Scene& scene, Time& time, const std::vector<Event>& events = {});
+    double tried() const { return tried_; }           // length of the last step, made or not [s]
+    bool wasShortened() const { return shortened_; }  // that, by an event
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;
@@ -66,6 +69,8 @@ class Integrator {
     double largestBalance_ = 0;                                 // before the last way back
     long mostFallbacks_ = 0;                                    // likewise
     double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
+    double tried_ = 0;
+    bool shortened_ = false;
     long rebuilds_ = -1;
 };
 

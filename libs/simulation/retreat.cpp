@@ -21,10 +21,43 @@ constexpr long implicitInterval = 5, explicitInterval = 50;  // steps between tw
 constexpr long explicitLook = 10;                            // steps between two looks at the state
 constexpr long goodStepsToRelax = 10;                        // past a fault
 constexpr double surroundings = 5;                           // supports
+constexpr double leastStep = 1e-7, leastAdvance = 1e-4;      // of a full step
+constexpr long triesToLook = 200;                            // at progress
+constexpr double mostSteps = 1e9;                            // of a run
 constexpr auto patience = std::chrono::seconds(10);          // for ranks on their way with the same failure
+// What to do about a limit of the step that lets a run come no further.
+std::string cureOf(const std::string& limit) {
+    if (limit == "error")
+        return "nodes of the membrane or bodies change their velocity faster than 'implicit.error' of "
+               "system/numerics.yaml "
+               "allows: take a larger one, or a finer mesh, or look for a membrane that is far stiffer than the flow "
+               "(Ca)";
+    if (limit == "bond strain")
+        return "a bond changes its length faster than 'implicit.bondStrain' of system/numerics.yaml allows: look for "
+               "edges "
+               "far below the spacing in 0/ (checkMesh), take a larger 'edge' in system/mesh.yaml, or a larger "
+               "bondStrain";
+    if (limit == "spring" || limit == "membrane viscosity")
+        return "the membrane is too stiff for an explicit step: look for edges far below the spacing in 0/ "
+               "(checkMesh), take "
+               "a larger 'edge' in system/mesh.yaml, or 'integrator: implicit' in system/numerics.yaml";
+    if (limit == "acoustic")
+        return "sound is too fast for the step: take a lower 'soundSpeed' in constant/fluid.yaml, or 'integrator: "
+               "implicit' "
+               "in system/numerics.yaml";
+    if (limit == "viscous")
+        return "the fluid is too viscous for an explicit step: take a coarser 'spacing' or 'integrator: implicit' in "
+               "system/numerics.yaml";
+    return "take a smaller step ('implicit.step' or 'safety') in system/numerics.yaml, or a finer mesh or spacing";
+}
 }  // namespace
 
 Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule& schedule, Log& log)
+    : Retreat(input, scene, time, integrator, &schedule, log) {}
+Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Log& log)
+    : Retreat(input, scene, time, integrator, nullptr, log) {}
+
+Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule* schedule, Log& log)
     : input_(input),
       scene_(scene),
       time_(time),
@@ -34,7 +67,15 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
       watch_(input, scene),
       meeting_(MPI_COMM_NULL) {
     MPI_Comm_dup(scene.system->comm(), &meeting_);
-    schedule_.record().set("performance", "retreats", count_);
+    if (schedule_) schedule_->record().set("performance", "retreats", count_);
+    full_ = input.numerics.isImplicit() ? input.numerics.implicit.step / input.flow.rate : time.dt;
+    now_.t = mark_.t = time.t;
+    if (const double steps = time.left() / full_; !time.lastStep && steps > mostSteps)
+        throw Failure(
+            ExitCode::numerics,
+            fmt::format("the run would take {:.2g} steps of {:.3g} s, the limit '{}' of the step: {}; or give "
+                        "an earlier end, or -steps",
+                        steps, full_, integrator.limits().binding().name, cureOf(integrator.limits().binding().name)));
 }
 
 Retreat::~Retreat() { MPI_Comm_free(&meeting_); }
@@ -47,6 +88,7 @@ double Retreat::longest() const {
 bool Retreat::advance() {
     const long interval = input_.numerics.isImplicit() ? implicitInterval : explicitInterval;
     if (input_.numerics.retreats > 0 && (good_[0].step < 0 || time_.step >= good_[0].step + interval)) remember();
+    if (const Fault stall = creeping()) end(stall, "", cureOf(integrator_.limits().binding().name));
     const Fault fault = step();
     if (fault) {
         report(fault);
@@ -61,14 +103,21 @@ bool Retreat::advance() {
 
 // What is wrong after one; nothing where all is well.
 Fault Retreat::step() {
-    tried_ = time_.dt;
+    const implicit::ImplicitStep* const parts = integrator_.implicitStep();
+    const auto made = [&] { return parts ? parts->statistics.steps + parts->statistics.halvings : 0; };
+    const long before = made();
+    bool isEvent = false;
     try {
-        integrator_.advance(scene_, time_);
+        integrator_.advance(scene_, time_, schedule_ ? schedule_->events(time_) : time_.ends());
+        isEvent = integrator_.wasShortened();
+        if (!isEvent) now_.tries += std::max(1L, made() - before);
+        now_.t = std::max(now_.t, time_.t);
     } catch (const Failure& failure) {
         if (failure.code() != ExitCode::numerics || !allFailed()) throw;
+        now_.tries += std::max(1L, made() - before);
         return {failure.what(), Watch::suspect(scene_)};
     }
-    if (!input_.numerics.isImplicit() && time_.step % explicitLook != 0) return {};
+    if (!input_.numerics.isImplicit() && time_.step % explicitLook != 0 && !isEvent && time_.running()) return {};
     return watch_.find(scene_, time_);
 }
 
@@ -89,7 +138,7 @@ void Retreat::remember() {
     std::swap(good_[0], good_[1]);
     Good& good = good_[0];
     simulation::remember(good.state, input_, scene_, time_, {.integrator = integrator_.state(time_), .observers = {}});
-    good.schedule = schedule_.remember();
+    if (schedule_) good.schedule = schedule_->remember();
     good.t = time_.t, good.step = time_.step;
 }
 
@@ -99,41 +148,73 @@ void Retreat::goBack(Good& good) {
     restoreCoupling(state, scene_);
     integrator_.shorten(longest(), inRow_ > 1);
     time_.dt = std::min(time_.dt, longest());
-    schedule_.goBack(good.schedule, scene_, time_);
+    if (schedule_) schedule_->goBack(good.schedule, scene_, time_);
     watch_.take(scene_);
     goodSteps_ = 0;
 }
 
 void Retreat::report(const Fault& fault) {
     faultTime_ = inRow_ > 0 ? std::max(faultTime_, time_.t) : time_.t;
-    if (inRow_ == 0) failed_ = tried_;
+    if (inRow_ == 0) failed_ = integrator_.tried();
     const long most = input_.numerics.retreats;
+    if (fault.isGeometric)
+        end(fault, "a shorter step would not help",
+            "cells have no contact force, and nothing keeps them apart but the fluid between them: place them further "
+            "apart in "
+            "system/mesh.yaml, give an earlier end, or a finer spacing, which resolves more of the fluid between them");
     if (inRow_ < most) {
         ++inRow_, ++count_;
-        schedule_.record().set("performance", "retreats", count_);
+        if (schedule_) schedule_->record().set("performance", "retreats", count_);
         if (inRow_ > 2 && good_[1].step >= 0) std::swap(good_[0], good_[1]), good_[1].step = -1;
         log_.warning("{}. Back to step {}, t = {:.6g} s, and on with 1/{} of the step{}", fault.text, good_[0].step,
                      good_[0].t, 1L << inRow_, inRow_ > 1 && integrator_.implicitStep() ? ", by backward Euler" : "");
         goBack(good_[0]);
         return;
     }
+    end(fault, most > 0 ? fmt::format("{} retreats with steps down to 1/{} did not help", most, 1L << most) : "",
+        fmt::format("take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing",
+                    input_.numerics.isImplicit() ? "implicit.step" : "safety"));
+}
+
+void Retreat::end(const Fault& fault, const std::string& tried, const std::string& cure) {
+    throw Failure(ExitCode::numerics,
+                  fault.text + keepFault(fault) + (tried.empty() ? "" : ". " + tried) + ": " + cure);
+}
+
+std::string Retreat::keepFault(const Fault& fault) {
+    if (!schedule_) return "";
     writeSurroundings(fault);
     std::string where = "; its surroundings are in results/fault.pvd";
-    if (most > 0) {
+    if (input_.numerics.retreats > 0) {
         goBack(good_[0]);
-        schedule_.saveCheckpoint(scene_, time_);
-        where += fmt::format(
-            ", and a checkpoint of the last good state, t = {:.6g} s, is written. {} retreats with steps down to 1/{} "
-            "did not help",
-            time_.t, most, 1L << most);
+        schedule_->saveCheckpoint(scene_, time_);
+        where += fmt::format(", and a checkpoint of the last good state, t = {:.6g} s, is written", time_.t);
     }
-    schedule_.record().set("fault", "text", fault.text);
-    schedule_.record().set("fault", "time_s", faultTime_);
-    schedule_.record().set("fault", "place_m", std::vector<double>(fault.place.data(), fault.place.data() + 3));
-    throw Failure(ExitCode::numerics,
-                  fault.text + where +
-                      fmt::format(": take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing",
-                                  input_.numerics.isImplicit() ? "implicit.step" : "safety"));
+    schedule_->record().set("fault", "text", fault.text);
+    schedule_->record().set("fault", "time_s", faultTime_);
+    schedule_->record().set("fault", "place_m", std::vector<double>(fault.place.data(), fault.place.data() + 3));
+    return where;
+}
+
+Fault Retreat::creeping() {
+    const sph::StepLimit bound = integrator_.limits().binding();
+    const auto because = [&](const std::string& what) {
+        faultTime_ = time_.t;
+        return Fault{
+            fmt::format("step {}, t = {:.6g} s: {}. A full step is {:.3g} s; the limit '{}' holds it at {:.3g} s, "
+                        "after {} retreat{} since the start",
+                        time_.step, time_.t, what, full_, bound.name, bound.seconds, count_, count_ == 1 ? "" : "s"),
+            Watch::suspect(scene_)};
+    };
+    if (time_.dt < leastStep * full_)
+        return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
+    const long tries = now_.tries - mark_.tries;
+    if (tries < triesToLook) return {};
+    const double gained = now_.t - mark_.t;
+    mark_ = now_;
+    if (gained >= leastAdvance * full_ * static_cast<double>(tries)) return {};
+    return because(
+        fmt::format("{} tries have brought the run {:.3g} s further, and it would never end", tries, gained));
 }
 
 void Retreat::writeSurroundings(const Fault& fault) {

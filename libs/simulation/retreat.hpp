@@ -7,6 +7,11 @@
 // good state is written as a checkpoint, the surroundings of the fault as streams `fault` and `fault_<cell>` of results/, and the run ends with exit
 // code 3 and where, when and why. Rows and results of steps that are taken back are taken out of the files.
 //
+// A fault that lies in the geometry (Fault::isGeometric) is not tried again: no shorter step cures it. And a run never creeps: where the step
+// falls below 1e-7 of that which the case has at its start (implicit: asks for), or the time comes forward by less than 1e-4 of it a step over
+// 200 steps, parts of steps and those taken back included, the run ends with exit code 3, the limit of the step that binds, and what to change.
+// A run that would take more than 1e9 steps of its first length ends before it begins, unless -steps is given.
+//
 // Cost: of the order of a hundredth of a step (docs/simulation.md).
 #pragma once
 #include "simulation/schedule.hpp"
@@ -19,6 +24,8 @@ class Retreat {
     // All of these must stay where they are; integrator and schedule have been started.
     Retreat(const Case& input, coupling::Scene& scene, Time& time, Integrator& integrator, Schedule& schedule,
             Log& log);
+    // The same for a few steps of which nothing is written (checkCase); they end at the ends of the run alone.
+    Retreat(const Case& input, coupling::Scene& scene, Time& time, Integrator& integrator, Log& log);
     ~Retreat();
     Retreat(const Retreat&) = delete;
     Retreat& operator=(const Retreat&) = delete;
@@ -40,20 +47,31 @@ class Retreat {
     bool allFailed();
     void goBack(Good& good);
     void report(const Fault& fault);
+    Fault creeping();  // why the run comes no further; none: it does
+    [[noreturn]] void end(const Fault& fault, const std::string& tried, const std::string& cure);
     void writeSurroundings(const Fault& fault);
-    double longest() const;  // step [s]
+    Retreat(const Case& input, coupling::Scene& scene, Time& time, Integrator& integrator, Schedule* schedule,
+            Log& log);
+    std::string keepFault(const Fault& fault);  // in files; what they are
+    double longest() const;                     // step [s]
 
     const Case& input_;
     coupling::Scene& scene_;
     Time& time_;
     Integrator& integrator_;
-    Schedule& schedule_;
+    Schedule* schedule_;  // none: nothing is written
     Log& log_;
     Watch watch_;
     MPI_Comm meeting_;
     Good good_[2];  // the later one first
     long inRow_ = 0, goodSteps_ = 0, count_ = 0;
-    double faultTime_ = 0, failed_ = 0, tried_ = 0;  // when; the first step of a row that failed, the last one made [s]
+    double faultTime_ = 0, failed_ = 0;  // when; the first step of a row that failed [s]
+    double full_ = 0;                    // step that the case has at its start, or asks for [s]
+    struct Progress {
+        long tries = 0;  // steps, parts of steps, and those taken back
+        double t = 0;
+    };
+    Progress now_, mark_;  // t: furthest so far; as they were when progress was looked at last
 };
 
 }  // namespace corpuscle::simulation

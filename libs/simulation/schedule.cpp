@@ -12,6 +12,7 @@
 #include "simulation/memoryLimit.hpp"
 #include "simulation/restart.hpp"
 #include "simulation/sceneBuilder.hpp"
+#include "simulation/watch.hpp"
 
 namespace corpuscle::simulation {
 
@@ -156,8 +157,8 @@ void Schedule::describe() {
 ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
     describe();
     app_.log().info("dry run: about {:.0f} steps to {}; nothing written, {} MiB in lists and particles of rank 0",
-                    ((time.endTime ? *time.endTime : *time.endStrain / time.shearRate) - time.t) / time.dt,
-                    time.endTime ? "the end time" : "the end strain", scene.system->bytes() >> 20);
+                    time.left() / time.dt, time.endTime ? "the end time" : "the end strain",
+                    scene.system->bytes() >> 20);
     record_.set("", "status", "dryRun");
     if (app_.json()) record_.print();
     return ExitCode::done;
@@ -195,12 +196,20 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     largestDt_ = std::max(largestDt_, time.dt);
     observers_.run(scene, time);
     if (results_.due(time)) {
+        Watch::requireFinite(scene, time, "results were");
         results_.write(scene, time);
         reportGuard(scene, time);
         reportRupture(scene, time);
     }
     if (checkpoints_.due(stop_)) saveCheckpoint(scene, time);
     progress_.report(time);
+}
+
+std::vector<Event> Schedule::events(const Time& time) const {
+    std::vector<Event> all = time.ends();
+    all.push_back(results_.ticker().next(time));
+    observers_.addEvents(time, all);
+    return all;
 }
 
 bool Schedule::stopRequested(const Scene& scene, const Time& time) {
@@ -240,6 +249,7 @@ void Schedule::reportGuard(const Scene& scene, const Time& time) {
 }
 
 void Schedule::saveCheckpoint(const Scene& scene, const Time& time) {
+    Watch::requireFinite(scene, time, "a checkpoint was");
     writeCheckpoint(input_, scene, time, {.integrator = integrator_.state(time), .observers = observers_.state()});
 }
 

@@ -42,6 +42,8 @@ class Schedule {
     // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
     void afterStep(const coupling::Scene& scene, const Time& time);
+    // Where steps are to end: the ends of the run, results, observers.
+    std::vector<Event> events(const Time& time) const;
 
     // What is to be seen and written again where the run goes back to an earlier state (retreat.hpp). Collective.
     struct Memory {

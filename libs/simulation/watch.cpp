@@ -80,6 +80,7 @@ Fault Watch::find(const Scene& scene, const Time& time) {
     if (most[0] > 0) {
         const int first = firstFailed(comm, static_cast<bool>(fault), fault.text);
         MPI_Bcast(fault.place.data(), 3, MPI_DOUBLE, first, comm);
+        MPI_Bcast(&fault.isGeometric, 1, MPI_CXX_BOOL, first, comm);
         return fault;
     }
     if (count != particles_)
@@ -206,10 +207,33 @@ Fault Watch::ofPairs(const Scene& scene, std::size_t index, const Time& time) {
                 const Vec3& x = both.nodes[static_cast<std::size_t>(both.triangles[static_cast<std::size_t>(a)][0])];
                 return {fmt::format("step {}, t = {:.6g} s: the membranes '{}' and '{}' cut each other at {}",
                                     time.step, time.t, m.name, cell.membrane.name, words(x)),
-                        x};
+                        x, true};
             }
     }
     return {};
+}
+
+void Watch::requireFinite(const Scene& scene, const Time& time, const std::string& what) {
+    const auto& s = scene.store();
+    std::string text;
+    for (std::size_t i = 0; i < s.size() && text.empty(); ++i) {
+        if (s.position(i).allFinite() && s.velocity(i).allFinite() && std::isfinite(s.density[i])) continue;
+        text = fmt::format("particle {} has place {}, density {:.4g} kg/m^3 and velocity ({:.3g}, {:.3g}, {:.3g}) m/s",
+                           s.id[i], words(s.position(i)), s.density[i], s.u[i], s.v[i], s.w[i]);
+    }
+    for (const Cell& cell : scene.cells) {
+        const std::vector<Vec3>& nodes = cell.membrane.position;
+        if (!cell.held || !text.empty()) continue;
+        for (std::size_t n = 0; n < nodes.size() && text.empty(); ++n)
+            if (!nodes[n].allFinite())
+                text = fmt::format("node {} of the membrane '{}' is at {}", n, cell.membrane.name, words(nodes[n]));
+    }
+    throwTogether(
+        scene.system->comm(), !text.empty(),
+        fmt::format("step {}, t = {:.6g} s: {}; {} not written. The run has diverged: take a shorter step, a "
+                    "finer mesh or spacing",
+                    time.step, time.t, text, what),
+        ExitCode::numerics);
 }
 
 Vec3 Watch::suspect(const Scene& scene) {

@@ -26,6 +26,7 @@ namespace corpuscle::simulation {
 struct Fault {
     std::string text;  // empty: none
     Vec3 place = Vec3::Zero();
+    bool isGeometric = false;  // of how things lie: a shorter step does not cure it
     explicit operator bool() const { return !text.empty(); }
 };
 
@@ -37,6 +38,8 @@ class Watch {
     Fault find(const coupling::Scene& scene, const Time& time);
     // Compare with this state next, unseen: after going back.
     void take(const coupling::Scene& scene);
+    // Throws Failure(numerics) on all ranks, naming `what` that is to be written, where a number of the state is not finite. Collective.
+    static void requireFinite(const coupling::Scene& scene, const Time& time, const std::string& what);
     // The particle that is fastest, or first of those not finite: where to look after a step that could not be made. Collective.
     static Vec3 suspect(const coupling::Scene& scene);
 

@@ -266,11 +266,11 @@ TEST(Settings, checksRunOnCleanTablesOnly) {
 
 TEST(Settings, writtenTableReadsBackToTheSameBits) {
     Everything e =
-        readText(
-            base +
-            "size: [0.1 um, 0.2 um, 0.30000000000000004 um]\nskin: 0.1 dx\ninertia: {Re: 0.3333333333333333}\n"
-            "axis: [1, 0, 0]\ncells: [{name: a, edge: 0.7 um}]\nnamed: {x: {name: y, edge: 3 nm}}\nforces: [1 pN, 2 pN]\n"
-            "path: '#odd: path'\n")
+        readText(base +
+                 "size: [0.1 um, 0.2 um, 0.30000000000000004 um]\nskin: 0.1 dx\ninertia: {Re: 0.3333333333333333}\n"
+                 "axis: [1, 0, 0]\ncells: [{name: a, edge: 0.7 um}]\nnamed: {x: {name: y, edge: 3 nm}}\nforces: [1 pN, "
+                 "2 pN]\n"
+                 "path: '#odd: path'\n")
             .value;
     const std::string text = emit(write(e));
     const Outcome back = readText(text);

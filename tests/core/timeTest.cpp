@@ -19,7 +19,7 @@ TEST(Time, endsAtEachOfItsConditions) {
     EXPECT_EQ(steps, 10);
     EXPECT_EQ(time.endReason(), "endTime 1 s");
 
-    time = {.shearRate = 50, .endStrain = 6};
+    time = {.dt = 0.01, .shearRate = 50, .endStrain = 6};
     for (steps = 0; time.running(); time.advance(0.01)) ++steps;
     EXPECT_EQ(steps, 12);
     EXPECT_EQ(time.endReason(), "endStrain 6");
@@ -32,7 +32,7 @@ TEST(Time, endsAtEachOfItsConditions) {
 }
 
 TEST(Ticker, isDueOnTheFirstStepAtOrPastEachMultiple) {
-    Time time;
+    Time time{.dt = 0.1};
     Ticker ticker(every(Interval::Kind::time, 0.25), time);
     std::vector<long> due;
     for (; time.step <= 10; time.advance(0.1))
@@ -41,7 +41,7 @@ TEST(Ticker, isDueOnTheFirstStepAtOrPastEachMultiple) {
 }
 
 TEST(Ticker, roundMultiplesDespiteRounding) {
-    Time time;
+    Time time{.dt = 0.1};
     Ticker ticker(every(Interval::Kind::time, 0.3), time);
     std::vector<long> due;
     for (; time.step <= 12; time.advance(0.1))
@@ -64,12 +64,12 @@ TEST(Ticker, restartContinuesTheSeries) {
                                      every(Interval::Kind::steps, 4), every(Interval::Kind::time, 0.3)})
         for (long stop = 1; stop < 20; ++stop) {
             std::vector<long> whole, parts;
-            Time time{.shearRate = 2};
+            Time time{.dt = 0.1, .shearRate = 2};
             Ticker one(interval, time);
             for (; time.step < 20; time.advance(0.1))
                 if (one.due(time)) whole.push_back(time.step);
 
-            time = {.shearRate = 2};
+            time = {.dt = 0.1, .shearRate = 2};
             Ticker first(interval, time);
             while (true) {
                 if (first.due(time)) parts.push_back(time.step);
@@ -98,7 +98,7 @@ TEST(Ticker, stepsAndNever) {
 
 TEST(Ticker, strainNeedsAShearRate) {
     EXPECT_THROW(Ticker(every(Interval::Kind::strain, 0.1), Time{}), Failure);
-    Time time{.shearRate = 100};
+    Time time{.dt = 0.0001, .shearRate = 100};
     Ticker ticker(every(Interval::Kind::strain, 0.1), time);
     EXPECT_TRUE(ticker.due(time));
     time.advance(0.0009);

@@ -224,7 +224,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     }
     const auto observation = begin("{type: rupture, every: 10 steps}", scene);
     ASSERT_TRUE(observation->watchesSteps());
-    const Time time{.t = 0.25, .step = 7, .shearRate = 2};
+    const Time time{.t = 0.25, .step = 7, .shearRate = 2, .strained = 0.5};
     EXPECT_TRUE(observation->afterStep(scene, time).empty());
     auto rows = observation->observe(scene, time);
     EXPECT_TRUE(std::isnan(value(*observation, rows, "firstBreak_s", 1)));
@@ -327,7 +327,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
 
     // What comes later is not the first.
     scene.broken = {{2, {{0, 9, Vec3::Zero()}}}};
-    observation->afterStep(scene, {.t = 0.5, .step = 8, .shearRate = 2});
+    observation->afterStep(scene, {.t = 0.5, .step = 8, .shearRate = 2, .strained = 1});
     scene.broken.clear();
 
     const auto after = begin("{type: rupture, every: 10 steps}", scene);

@@ -1,8 +1,8 @@
-"""Every cell type of etc/cells, copied into a case as its README says, is valid and can be meshed.
+"""Every cell type of etc/cells, named in a case as its README says, is valid and can be meshed.
 
     python3 cellTypes.py BIN
 
-The file becomes constant/membranes.yaml, the line in its head the cells of system/mesh.yaml; checkCase and membraneMesh must end well.
+The line in the head of a file becomes the cells of system/mesh.yaml; checkCase and membraneMesh must end well.
 """
 import concurrent.futures
 import os
@@ -22,8 +22,8 @@ def check(programs, file, directory):
     shutil.copytree(BASE, directory)
     text = file.read_text()
     line = re.search(r"^#   - (\{name: (\w+), .*\})$", text, re.MULTILINE)
-    if not line or line.group(2) != file.stem or f"\n{file.stem}:\n" not in text:
-        return f"{file.name}: its head has no line '#   - {{name: {file.stem}, ...}}' or it has no entry '{file.stem}'"
+    if not line or line.group(2) != file.stem or f"cell: {file.stem}," not in line.group(1):
+        return f"{file.name}: its head has no line '#   - {{name: {file.stem}, cell: {file.stem}, ...}}'"
     mesh = directory / "system" / "mesh.yaml"
     mesh.write_text(mesh.read_text().split("cells:")[0] + f"cells:\n  - {line.group(1)}\n")
     inclusion = re.search(r"^#   - (\{name: parasite, .*\})$", text, re.MULTILINE)
@@ -33,7 +33,7 @@ def check(programs, file, directory):
         (directory / "constant" / "bodies.yaml").write_text("parasite: {motion: free}\n")
         numerics = directory / "system" / "numerics.yaml"
         numerics.write_text(re.sub(r"spacing: .*", "spacing: 0.25 um", numerics.read_text(), count=1))
-    shutil.copy(file, directory / "constant" / "membranes.yaml")
+    (directory / "constant" / "membranes.yaml").unlink()
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     for program in ("checkCase", "membraneMesh"):
         result = subprocess.run([programs / program, "-case", directory], capture_output=True, text=True, timeout=300, env=environment)

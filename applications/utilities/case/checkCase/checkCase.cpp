@@ -20,11 +20,11 @@
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
+#include "simulation/retreat.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
 #include "simulation/size.hpp"
-#include "simulation/watch.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -288,15 +288,16 @@ void reportRun(Report& report, const simulation::Case& input) {
     const double dt = time.dt;
     Timing timing(report);
     const auto begin = std::chrono::steady_clock::now();
-    for (int k = 0; k < burstSteps; ++k) {
-        integrator.advance(scene, time);
-        timing.step(k + 1);
+    simulation::Retreat step(input, scene, time, integrator,
+                             app.log());  // as the solver steps, and back where it would go back
+    int made = 0;
+    for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) {
+        made += step.advance();
+        timing.step(made);
     }
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
-        burstSteps;
-    if (const simulation::Fault fault = simulation::Watch(input, scene).find(scene, time))
-        throw Failure(ExitCode::numerics, fault.text);
+        std::max(1, made);
     const auto [steps, seconds] = predictRun(input, dt, integrator.limits().stages, perStep);
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
     report.line(fmt::format("predicted: {:.4g} steps of {:.3g} s = {} on {} ({:.3g} million particle-steps per second)",
