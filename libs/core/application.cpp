@@ -53,7 +53,7 @@ std::vector<Option> solverOptions() {
 
 Application::Application(std::string name, std::string text, int argc, char** argv, Usage usage)
     : name_(std::move(name)), text_(std::move(text)), usage_(std::move(usage)) {
-    ignoreWriteSignals();
+    prepareOutput();
     ownsMpi_ = startMpi(argc, argv);
     communicator_.emplace();
     MPI_Comm_dup(MPI_COMM_WORLD, &meeting_);

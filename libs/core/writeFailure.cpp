@@ -103,7 +103,10 @@ int tryWriting(const fs::path& file) {
     return reason;
 }
 
-void ignoreWriteSignals() {
+void prepareOutput() {
+    for (int descriptor = 0; descriptor <= 2; ++descriptor)
+        if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF) [[maybe_unused]]
+            const int replaced = ::open("/dev/null", O_RDWR);
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
 }

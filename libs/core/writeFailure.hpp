@@ -15,8 +15,9 @@ Failure writeFailure(const std::filesystem::path& file, int reason);
 // not say why they could not.
 int tryWriting(const std::filesystem::path& file);
 
-// The signals of a limit on file sizes (SIGXFSZ) and of a closed pipe (SIGPIPE) end a program without a word; ignored, they become errors of the write
-// that caused them. Called once by every program.
-void ignoreWriteSignals();
+// Once, at the start of a program. The signals of a limit on file sizes (SIGXFSZ) and of a closed pipe (SIGPIPE) end a program without a word; ignored, they
+// become errors of the write that caused them. Where standard output or error is closed, what is said goes nowhere, and not into a file of the case that has
+// been given its number.
+void prepareOutput();
 
 }  // namespace corpuscle

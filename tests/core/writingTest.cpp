@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class SizeLimit {
   public:
     explicit SizeLimit(rlim_t bytes) {
-        ignoreWriteSignals();
+        prepareOutput();
         getrlimit(RLIMIT_FSIZE, &before_);
         rlimit small = before_;
         small.rlim_cur = bytes;

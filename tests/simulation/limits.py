@@ -103,6 +103,57 @@ def test_sizeLimit(folder):
     assert (case / "0/fluid.vtp").read_bytes() == fluid and not temporaries(case)
 
 
+def fill(folder, left):
+    """Takes all of a disk but so many bytes."""
+    with open(folder / "filler", "wb", buffering=0) as filler:
+        try:
+            while True:
+                filler.write(bytes(1 << 14))
+        except OSError:
+            pass
+        filler.truncate(max(0, os.fstat(filler.fileno()).st_size - left))
+
+
+def test_smallDisk(folder):
+    """Within a mount namespace of its own: a disk of 6 MiB, on which runs find no room at different times."""
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=6m", "none", str(folder)], check=True)
+    try:
+        onSmallDisk(folder)
+    finally:
+        subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+def onSmallDisk(folder):
+    case = prepared(folder / "case", SHORT)
+    failed(start("dmpFlow", case, "-steps", "2"), 0)
+    good = last_checkpoint(case)
+    content = good.read_bytes()
+    often = ("-set", "system/control.yaml:/write/strain=0.0005")
+    for left, ranks, words in ((20000, 1, ["run.json", "checkpoints"]), (200000, 1, ["cannot write"]), (400000, 2, ["cannot write"]), (1000000, 2, ["cannot write"])):
+        (folder / "filler").unlink(missing_ok=True)
+        fill(folder, left)
+        before = record(case)
+        failed(start("dmpFlow", case, *often, ranks=ranks), 4, "No space left on device", "free on its disk", *words)
+        if left > 1 << 16:
+            assert record(case)["status"] == "failed" and "No space left on device" in record(case)["reason"], record(case)
+        else:
+            assert record(case) == before, "refused before anything was changed"
+        assert good.read_bytes() == content and not temporaries(case), temporaries(case)
+        assert not any(p.stat().st_size == 0 for p in case.rglob("*") if p.is_file()), "a file without content"
+    (folder / "filler").unlink()
+    failed(start("dmpFlow", case), 0, "Restart from")
+
+
+def test_fullDisk(folder):
+    """A disk that fills up at the start, with the first results, and during the run; where the system lets a test have a disk of its own."""
+    alone = ["unshare", "--map-root-user", "--mount"]
+    if subprocess.run([*alone, "mount", "-t", "tmpfs", "none", str(folder)], capture_output=True).returncode != 0:
+        print("not tested: no mount namespaces on this machine")
+        return
+    done = subprocess.run([*alone, sys.executable, __file__, str(BIN), "smallDisk", str(folder)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_unwritable(folder):
     """What cannot be written is found before anything is computed."""
     case = prepared(folder / "case", SHORT)
@@ -194,6 +245,6 @@ def test_damage(folder):
 
 if __name__ == "__main__":
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as a shell has it; Python ignores it, and children would inherit that
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory(dir=sys.argv[3] if len(sys.argv) > 3 else None) as temporary:
         globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
     print("passed")
