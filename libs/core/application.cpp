@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -13,6 +15,8 @@
 #include "core/buildInfo.hpp"
 #include "core/runRecord.hpp"
 #include "core/startMpi.hpp"
+#include "core/together.hpp"
+#include "core/writeFailure.hpp"
 
 namespace corpuscle {
 namespace {
@@ -40,13 +44,16 @@ bool isNumber(const std::string& text) {
 }  // namespace
 
 std::vector<Option> solverOptions() {
-    return {{"dry-run", "", "Check the case, print its numbers and limits, run nothing."},
-            {"steps", "N", "Stop after N steps."},
-            {"restart", "TIME", "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom; later output is removed."}};
+    return {
+        {"dry-run", "", "Check the case, print its numbers and limits, run nothing."},
+        {"steps", "N", "Stop after N steps."},
+        {"restart", "TIME",
+         "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom; later output is removed."}};
 }
 
 Application::Application(std::string name, std::string text, int argc, char** argv, Usage usage)
     : name_(std::move(name)), text_(std::move(text)), usage_(std::move(usage)) {
+    prepareOutput();
     ownsMpi_ = startMpi(argc, argv);
     communicator_.emplace();
     MPI_Comm_dup(MPI_COMM_WORLD, &meeting_);
@@ -218,7 +225,7 @@ void Application::openLog(LogStart start) {
     if (std::filesystem::is_directory(caseDirectory())) log_->open(path("log." + name_), continuation);
 }
 
-void Application::printFailure(const std::exception& error, bool named) {
+void Application::reportFailure(ExitCode code, const std::exception& error, bool named) {
     const auto* caseError = dynamic_cast<const CaseError*>(&error);
     if (has("json")) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -247,13 +254,14 @@ void Application::printFailure(const std::exception& error, bool named) {
     if (named) text = fmt::format("[rank {}] {}", communicator_->rank(), text);
     std::fputs(text.c_str(), stderr);
     log_->note(text);
+    if (record_) record_->fail(code, error.what());
 }
 
 // All ranks meet here. A rank that failed alone waits a little for the others, who may be on their way with the same
 // failure, and then ends them, since they wait for it inside the body.
 int Application::endTogether(ExitCode code, const std::exception* error) {
     const int own = static_cast<int>(code);
-    if (error && communicator_->isRoot()) printFailure(*error, false);
+    if (error && communicator_->isRoot()) reportFailure(code, *error, false);
     if (communicator_->size() == 1) return own;
 
     const int none = communicator_->size();
@@ -268,15 +276,22 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
         MPI_Test(&request, &met, MPI_STATUS_IGNORE);
         if (met) break;
         if (error && std::chrono::steady_clock::now() - start > patience) {
-            if (!communicator_->isRoot()) printFailure(*error, true);
+            if (!communicator_->isRoot()) reportFailure(code, *error, true);
             std::fflush(nullptr);
             if (lock_) lock_->abandon();
             MPI_Abort(communicator_->handle(), own);
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (error && receive[1] == communicator_->rank() && !communicator_->isRoot()) printFailure(*error, true);
+    if (error && receive[1] == communicator_->rank() && !communicator_->isRoot()) reportFailure(code, *error, true);
     return -receive[0];
+}
+
+// JSON on standard output is a result: one that could not be written is a failure, unless the reader has closed its pipe.
+void Application::requireOutput() const {
+    if (!has("json") || !communicator_->isRoot()) return;
+    errno = 0;
+    if (std::fflush(stdout) != 0 && errno != EPIPE) throw writeFailure("standard output", errno);
 }
 
 int Application::run(const std::function<ExitCode()>& body) {
@@ -293,11 +308,17 @@ int Application::run(const std::function<ExitCode()>& body) {
             return endTogether(ExitCode::done, nullptr);
         }
         checkOverrides();
-        return endTogether(body(), nullptr);
+        const ExitCode code = body();
+        requireOutput();
+        return endTogether(code, nullptr);
     } catch (const Failure& failure) {
         return endTogether(failure.code(), &failure);
     } catch (const std::filesystem::filesystem_error& error) {
-        return endTogether(ExitCode::io, &error);
+        const Failure failure = fileFailure(error);
+        return endTogether(failure.code(), &failure);
+    } catch (const std::bad_alloc&) {
+        const Failure failure = memoryFailure();
+        return endTogether(failure.code(), &failure);
     } catch (const std::exception& error) {
         return endTogether(ExitCode::numerics, &error);
     }

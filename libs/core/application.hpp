@@ -12,11 +12,12 @@
 //
 // A wrong command line, -help and -version are dealt with in run(), which then does not enter the body. Whatever the
 // body throws is printed once and becomes the exit code; when one rank fails while others wait for it, all are ended
-// with that code.
+// with that code. A closed pipe (dmpFlow | head) does not end a program: its log file has what the terminal misses.
 #pragma once
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@
 #include "core/communicator.hpp"
 #include "core/dictionary.hpp"
 #include "core/log.hpp"
+#include "core/runRecord.hpp"
 
 namespace corpuscle {
 
@@ -82,6 +84,9 @@ class Application {
     enum class LogStart { anew, continued };
     void openLog(LogStart start = LogStart::anew);
 
+    // Where an error that ends the program is to be recorded, as well as on the terminal and in the log.
+    void keepRecord(std::shared_ptr<RunRecord> record) { record_ = std::move(record); }
+
     int run(const std::function<ExitCode()>& body);
 
   private:
@@ -89,7 +94,8 @@ class Application {
     std::vector<Option> allOptions() const;
     std::string helpText() const;
     void checkOverrides() const;
-    void printFailure(const std::exception& error, bool named);
+    void reportFailure(ExitCode code, const std::exception& error, bool named);
+    void requireOutput() const;
     int endTogether(ExitCode code, const std::exception* error);
 
     std::string name_, text_, commandLine_;
@@ -103,6 +109,7 @@ class Application {
     std::optional<Communicator> communicator_;
     std::optional<Log> log_;
     std::optional<CaseLock> lock_;
+    std::shared_ptr<RunRecord> record_;
 };
 
 }  // namespace corpuscle

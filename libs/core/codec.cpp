@@ -117,8 +117,7 @@ Codec<double> quantity(Dimension dimension, Range range) {
 
 Codec<std::vector<double>> quantities(Dimension dimension, Range range) {
     return {[=](const Node& node, std::vector<double>& values, Problems& problems) {
-                if (!isListOf(node, 0, "a list of numbers, each with its unit", problems) ||
-                    !hasNoUnit(node, problems))
+                if (!isListOf(node, 0, "a list of numbers, each with its unit", problems) || !hasNoUnit(node, problems))
                     return;
                 values.clear();
                 for (const Node& item : node.items) {
@@ -225,8 +224,7 @@ Codec<Vec3> vector(Dimension dimension, Range range) {
                     return;
                 Vec3 components;
                 for (int k = 0; k < 3; ++k) {
-                    const auto read =
-                        readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
+                    const auto read = readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
                     if (!read) return;  // one message for a unit that all three lack
                     components[k] = *read;
                 }

@@ -26,9 +26,9 @@ class Node {
     std::string path;    // "cells[0].shape.d"; empty for the whole file
     std::string scalar;  // kind scalar: the text as written (quotes removed)
     bool quoted = false;
-    std::vector<Node> items;     // kind list
-    std::string unit;            // kind list: found after it, as in "[20, 16, 16] um": not YAML, every reader refuses it
-    struct Entry;                // a key and its value
+    std::vector<Node> items;  // kind list
+    std::string unit;         // kind list: found after it, as in "[20, 16, 16] um": not YAML, every reader refuses it
+    struct Entry;             // a key and its value
     std::vector<Entry> entries;  // kind table, in the order of the file
 
     Node();

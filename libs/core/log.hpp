@@ -1,5 +1,6 @@
 // What a program tells its user: on the terminal and, when opened, in the file log.<application> of the case. Only the
-// root speaks. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr.
+// root speaks. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr. A log that can no longer be written
+// does not end a run: it is a warning, once.
 #pragma once
 #include <fmt/core.h>
 
@@ -44,6 +45,7 @@ class Log {
     void keep(const std::string& line);
 
     bool isRoot_, quiet_;
+    std::filesystem::path path_;
     std::ofstream file_;
     std::string beforeFile_;
     std::vector<std::string> warnings_;

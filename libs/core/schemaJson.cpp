@@ -76,8 +76,7 @@ class Writer {
 
     Json value(const FieldInfo& f) {
         if (f.type == "quantity") return quantity(f.dimension, f.range);
-        if (f.type == "quantities")
-            return {{"type", "array"}, {"items", quantity(f.dimension, f.range)}};
+        if (f.type == "quantities") return {{"type", "array"}, {"items", quantity(f.dimension, f.range)}};
         if (f.type == "vector") return three(quantity(f.dimension, f.range));
         if (f.type == "integer" || f.type == "integers") {
             Json whole = numberIn(f.range);

@@ -87,6 +87,12 @@ CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& ca
             else
                 search.warnings.push_back(problem + " It is passed over.");
         }
+        if (!files.empty() && search.path.empty())
+            throw Failure(ExitCode::io,
+                          fmt::format("{}: none of the {} checkpoint{} is intact:\n{}\nStart from the beginning with "
+                                      "'startFrom: firstTime' in system/control.yaml, or bring back a copy.",
+                                      folderOf(caseDir).string(), files.size(), files.size() == 1 ? "" : "s",
+                                      joinWords(search.warnings, "\n")));
     });
     search.path = Communicator(comm).broadcast(search.path.string());
     int count = static_cast<int>(search.warnings.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -214,10 +215,7 @@ CsvSeries::CsvSeries(MPI_Comm comm, const fs::path& caseDir, const CsvHead& head
             resume(*restart);
         else
             writeFileAtomically(path_, head_);
-        file_.open(path_, std::ios::app);
-        if (!file_)
-            throw Failure(ExitCode::io,
-                          fmt::format("cannot write {}; check permissions and free space", path_.string()));
+        file_ = AppendedFile(path_);
     });
 }
 
@@ -252,8 +250,7 @@ void CsvSeries::row(std::span<const double> values) {
     }
     std::string line;
     for (const double value : values) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", value);
-    file_ << line << '\n' << std::flush;
-    if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check free space", path_.string()));
+    file_.add(line + '\n');
 }
 
 void CsvSeries::cutAfter(double time) {
@@ -261,8 +258,7 @@ void CsvSeries::cutAfter(double time) {
     const Earlier found = readUntil(path_, time);
     file_.close();
     writeFileAtomically(path_, head_ + found.rows);
-    file_.open(path_, std::ios::app);
-    if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check permissions", path_.string()));
+    file_ = AppendedFile(path_);
 }
 
 void clearTables(MPI_Comm comm, const fs::path& caseDir, const std::string& kind, std::optional<double> restart) {

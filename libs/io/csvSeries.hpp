@@ -16,11 +16,12 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/appendedFile.hpp"
 
 namespace corpuscle::io {
 
@@ -63,7 +64,7 @@ class CsvSeries {
     std::string head_;  // comments and header row
     std::size_t columns_;
     bool root_ = false;
-    std::ofstream file_;
+    AppendedFile file_;
     std::string note_;
 };
 

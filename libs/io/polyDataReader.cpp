@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "io/dataChecksum.hpp"
 #include "io/polyData.hpp"
 #include "io/vtpFile.hpp"
 #include "io/xml.hpp"
@@ -88,6 +89,13 @@ PolyData readVtp(const std::filesystem::path& path) {
         if (array.reals.size() == 1) data.field[array.name] = array.reals.front();
         if (array.integers.size() == 1) data.field[array.name] = static_cast<double>(array.integers.front());
         if (array.texts.size() == 1) data.texts[array.name] = array.texts.front();
+    }
+    if (const auto noted = data.texts.find(checksumText); noted != data.texts.end()) {
+        if (noted->second != dataChecksum(data))
+            throw fail(
+                "the file is damaged, or was changed by another program: its data do not agree with its checksum.");
+        data.texts.erase(noted);
+        data.verified = true;
     }
     return data;
 }

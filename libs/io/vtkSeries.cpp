@@ -147,7 +147,14 @@ void VtkSeries::write(double time, std::optional<double> strain, const PolyData&
     const Cells cells = agreeOnCells(piece);
 
     onRoot(comm_, [&] { makeFolder(folder / name); });
-    together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
+    try {
+        together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
+    } catch (const Failure&) {
+        // Nothing names the pieces, and a full disk needs the room.
+        std::error_code ignored;
+        if (rank_ == 0) std::filesystem::remove_all(folder / name, ignored);
+        throw;
+    }
 
     const std::string rootArrays = Communicator(comm_).broadcast(arrays);
     throwTogether(comm_, arrays != rootArrays,

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <exception>
 
+#include "core/writable.hpp"
 #include "io/earlierRun.hpp"
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
@@ -61,11 +62,28 @@ void reportFinished(Application& app, const Case& input, const StartingPoint& fr
     record.print();
 }
 
+// What a run will write, by the temporary names, which are the longest.
+std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
+    std::vector<std::string> streams{"fluid"};
+    for (const CellSettings& cell : input.mesh.cells) streams.push_back(cell.name);
+    for (const BodyPlaceSettings& body : input.mesh.bodies) streams.push_back(body.name);
+    std::vector<std::filesystem::path> files{input.directory / "run.json.0000000.tmp",
+                                             input.directory / "checkpoints" / ".000000.h5.part"};
+    for (const std::string& name : streams)
+        files.push_back(input.directory / "results" / name / (name + "_000000") /
+                        fmt::format(".{}_000000_{}.vtp.part", name, ranks - 1));
+    for (const auto& observer : input.observers.models)
+        files.push_back(input.directory / "postProcessing" / observer.first / "0.123456789" /
+                        "observer.csv.0000000.tmp");
+    return files;
+}
+
 }  // namespace
 
 StartingPoint prepare(Application& app, const Case& input) {
     const MPI_Comm comm = app.communicator().handle();
     requireMemory(app.communicator(), input);
+    if (!app.has("dry-run")) requireWritable(app.communicator(), outputs(input, app.communicator().size()));
     StartingPoint from;
     from.time = startTime(app, input);
     if (!app.has("dry-run")) app.lockCase();
@@ -109,7 +127,8 @@ Schedule::Schedule(Application& app, const Case& input, const StartingPoint& fro
       checkpoints_(input.control.checkpoint.wallClock),
       stop_({input.directory / input.control.stop.file, input.control.stop.wallClock}, app.communicator()),
       progress_(app.log(), from.time),
-      record_(input.directory / "run.json", app.name(), app.communicator()),
+      kept_(std::make_shared<RunRecord>(input.directory / "run.json", app.name(), app.communicator())),
+      record_(*kept_),
       began_(std::chrono::steady_clock::now()),
       processorBegan_(processorSeconds()),
       smallestDt_(from.time.dt),
@@ -119,12 +138,12 @@ Schedule::Schedule(Application& app, const Case& input, const StartingPoint& fro
 }
 
 Schedule::~Schedule() {
-    if (std::uncaught_exceptions() == 0 || !begun_) return;
-    try {
-        record_.finish(ExitCode::numerics, "ended by an error: see log." + app_.name());
-    } catch (const std::exception& fault) {
-        app_.log().error("run.json could not be completed: {}", fault.what());
-    }
+    if (std::uncaught_exceptions() == 0 || !begun_ || !app_.communicator().isRoot()) return;
+    const std::vector<io::CheckpointInfo> all = io::listCheckpoints(input_.directory);
+    if (!all.empty())
+        app_.log().info(
+            "{} is the last checkpoint, at t = {}: once the cause is removed, the same command goes on from there",
+            all.back().path.string(), formatQuantity(all.back().time, unit::second));
 }
 
 void Schedule::describe() {
@@ -173,6 +192,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
                         isContinued_ ? "after the start of this one" : "before", cleared.text());
     describe();
     begun_ = true;
+    app_.keepRecord(kept_);
     writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
     record_.set("parameters", "density_kg_m3", input_.flow.density);
     record_.set("parameters", "densityFromRe", input_.flow.densityFromRe);

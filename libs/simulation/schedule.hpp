@@ -31,9 +31,8 @@ StartingPoint prepare(Application& app, const Case& input);
 class Schedule {
   public:
     Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator);
-    // A run that ends by an exception is recorded as failed.
+    // Says what a run that ends by an error leaves to go on from.
     ~Schedule();
-
     // -dry-run: groups, limits, particles; writes nothing.
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
     // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the case: what an earlier
@@ -77,7 +76,8 @@ class Schedule {
     WallTicker checkpoints_;
     StopControl stop_;
     Progress progress_;
-    RunRecord record_;
+    std::shared_ptr<RunRecord> kept_;  // outlives this where an error ends the run
+    RunRecord& record_;
     std::chrono::steady_clock::time_point began_;
     double processorBegan_;  // of this rank [s]
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;

@@ -11,6 +11,7 @@
 
 #include "core/application.hpp"
 #include "core/runRecord.hpp"
+#include "core/writable.hpp"
 #include "io/csvSeries.hpp"
 #include "io/vtkSeries.hpp"
 #include "simulation/relaxSettings.hpp"
@@ -110,7 +111,6 @@ void runStages(Application& app, const simulation::RelaxSettings& relax, membran
             "stage {} ({}): no equilibrium after {} iterations, the largest residual force is {:.3g} N. Take "
             "smaller steps between the stages of system/relax.yaml, or more 'iterations'",
             stage, protocol.describe(stage), report.iterations, report.residual);
-        record.finish(ExitCode::numerics, reason);
         throw Failure(ExitCode::numerics, reason);
     }
     record.set("result", "stages", static_cast<long>(protocol.stages()));
@@ -129,6 +129,8 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
         app.announce();
+        requireWritable(app.communicator(), {app.path("run.json.0000000.tmp"), app.path("results/.file.part"),
+                                             app.path("postProcessing/.file.part")});
         const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
         membrane::Membrane membrane =
             input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
@@ -138,10 +140,12 @@ int main(int argc, char* argv[]) {
                        formatQuantity(input.relax.edge(), unit::metre), input.relax.protocol.name,
                        input.relax.protocol->stages());
 
-        RunRecord record(app.path("run.json"), app.name(), app.communicator());
+        const auto kept = std::make_shared<RunRecord>(app.path("run.json"), app.name(), app.communicator());
+        RunRecord& record = *kept;
         record.set("parameters", "nodes", static_cast<long>(membrane.position.size()));
         record.set("parameters", "commandLine", app.commandLine());
         record.write();
+        app.keepRecord(kept);
         writeUsed(app.path("used.yaml"), input.effective, app.communicator());
         runStages(app, input.relax, membrane, record);  // 3. loads, equilibrium, a row and a surface each
         return ExitCode::done;

@@ -86,6 +86,7 @@ int main(int argc, char* argv[]) {
         utilities::requireSerial(app);
         app.announce();
         const simulation::Case input = simulation::Case::read(app);
+        simulation::requireStartWritable(app.communicator(), input);
         app.lockCase();
         app.openLog();
         nlohmann::ordered_json json = nlohmann::ordered_json::object();

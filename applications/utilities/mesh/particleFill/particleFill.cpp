@@ -288,6 +288,7 @@ int main(int argc, char* argv[]) {
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
         simulation::requireMemory(app.communicator(), input);
+        simulation::requireStartWritable(app.communicator(), input);
         app.lockCase();
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);

@@ -49,8 +49,7 @@ void writePng(vtkImageData* image, const std::filesystem::path& output) {
     writer->SetInputConnection(shrink->GetOutputPort());
     writer->SetFileName(temporary.c_str());
     writer->Write();
-    if (writer->GetErrorCode() != 0)
-        throw Failure(ExitCode::io, fmt::format("cannot write {}; check permissions and free space.", output.string()));
+    if (writer->GetErrorCode() != 0) throw io::notWritten(output, temporary);
     io::publish(temporary, output, io::Sync::none);
 }
 
