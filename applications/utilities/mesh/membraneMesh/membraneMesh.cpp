@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "simulation/dictionaries.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -89,6 +90,7 @@ int main(int argc, char* argv[]) {
         simulation::requireStartWritable(app.communicator(), input);
         app.lockCase();
         app.openLog();
+        simulation::refreshSchemas(app);
         nlohmann::ordered_json json = nlohmann::ordered_json::object();
         Meshes meshes(app, input);
         std::vector<TriangleMesh> cells, bodies;
