@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "geometry/triangleMesh.hpp"
+#include "geometry/surfaceAlgorithms.hpp"
 
 namespace corpuscle::geometry {
 namespace {
@@ -157,7 +157,9 @@ std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh, const std
     Fault cuts;
     for (const auto& [s, t] : selfIntersections(mesh))
         cuts.add(fmt::format("triangles {} and {} at {}", s, t, at(mesh.nodes[mesh.triangles[s][0]])));
-    cuts.report(faults, "pairs of triangles that cut each other");
+    cuts.report(faults, cuts.count < static_cast<int>(mostSelfIntersections)
+                            ? "pairs of triangles that cut each other"
+                            : "pairs of triangles, or more, that cut each other");
     return faults;
 }
 

@@ -29,21 +29,27 @@ constexpr double largestEdgeInSpacings = 2;  // immersed
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
+// A surface whose size fits neither box nor edge, where another unit of its file would.
+std::string wrongScale(const Case& c, const SurfaceSettings& surface) {
+    const double longest = surface.shape->box().sizes().maxCoeff(), room = c.mesh.domain.size.maxCoeff();
+    if (longest <= room && surface.edge <= 0.5 * surface.shape->radius()) return {};
+    const std::string cure = surface.shape->cureForSize(4 * surface.edge, room);
+    if (cure.empty()) return {};
+    return "the surface is " + formatQuantity(longest, unit::metre) + " long, in a box of " +
+           formatQuantity(room, unit::metre) + " and with edges of " + formatQuantity(surface.edge, unit::metre) +
+           "; " + cure;
+}
+
 void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
     const auto& [settings, key, kind] = surface;
     if (!settings.shape) return;
     const double radius = settings.shape->radius();
     const Eigen::AlignedBox3d box = settings.shape->box();
-    const double longest = box.sizes().maxCoeff(), room = c.mesh.domain.size.maxCoeff();
-    if (longest > room || settings.edge > 0.5 * radius)
-        if (const std::string cure = settings.shape->cureForSize(4 * settings.edge, room); !cure.empty()) {
-            problems.add(mesh, key + ".shape",
-                         "the surface is " + formatQuantity(longest, unit::metre) + " long, in a box of " +
-                             formatQuantity(room, unit::metre) + " and with edges of " +
-                             formatQuantity(settings.edge, unit::metre) + "; " + cure);
-            return;
-        }
+    if (const std::string why = wrongScale(c, settings); !why.empty()) {
+        problems.add(mesh, key + ".shape", why);
+        return;
+    }
     if (const std::string why = geometry::tooManyTriangles(*settings.shape.model, settings.edge); !why.empty())
         problems.add(mesh, key + ".edge", why);
     if (settings.edge > 0.5 * radius)
@@ -184,6 +190,7 @@ void checkUnused(const Case& c, Problems& problems) {
 
 // What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
 void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
+    if (!wrongScale(c, cell).empty()) return;
     const Mark mesh{"system/mesh.yaml", 0, 0};
     const double longest = largestEdgeInSpacings * c.spacing(),
                  margin = coupling::NoFlux::imageMarginInSpacings * c.spacing();

@@ -329,7 +329,7 @@ class Surfaces(Kind):
 
 class Start(Kind):
     def prepare(self):
-        write_case(self.folder / "base", CELL, "{type: sphere, r: 3 um}")
+        write_case(self.folder / "base", CELL, "{type: sphere, radius: 3 um}")
         self.setup("membraneMesh", "-case", self.folder / "base")
         self.setup("particleFill", "-case", self.folder / "base")
         self.names = ["0/rbc.vtp", "0/fluid.vtp", "0/walls.vtp"]

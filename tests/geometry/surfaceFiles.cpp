@@ -402,6 +402,15 @@ TEST(SurfaceFile, SurfacesThatAreNotOneClosedOneAreNamed) {
     expectIn(faultOf(off(mesh), ".off"), "non-manifold");
 }
 
+// Closed, but every node at a place of its own making: nearly all triangles cut each other.
+TEST(SurfaceFile, ACrumpledSurfaceIsNamedInTime) {
+    TriangleMesh mesh = starSurface([](const Vec3& x) { return x.norm() - 4; }, Vec3::Constant(4), 5);
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        mesh.nodes[i] =
+            Vec3(std::sin(1.0 + 3.0 * double(i)), std::sin(2.0 + 5.0 * double(i)), std::sin(7.0 * double(i)));
+    expectIn(faultOf(off(mesh), ".off"), "10000 pairs of triangles, or more, that cut each other (first: triangles");
+}
+
 TEST(SurfaceFile, EdgesThatWouldTakeForEverAreRefused) {
     const Sphere sphere(4e-6);
     const std::string why = tooManyTriangles(sphere, 1e-9);
