@@ -300,7 +300,7 @@ void checkTogether(const Case& c, Problems& problems) {
             problems.add(
                 mesh, "domain.size",
                 std::string("along ") + axisName(k) + " found " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
-                    ", which is no whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
+                    ", which is not a whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
