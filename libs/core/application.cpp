@@ -11,6 +11,7 @@
 
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
+#include "core/dictionaryText.hpp"
 #include "core/startMpi.hpp"
 
 namespace corpuscle {
@@ -160,12 +161,20 @@ Node Application::dictionary(const std::string& inCase, Problems& problems) cons
     Node root;
     if (hasDictionary(inCase)) {
         std::string text, reason;
+        ExitCode code = ExitCode::done;
         if (communicator_->isRoot()) try {
+                const std::size_t bytes = std::filesystem::file_size(path(inCase));
+                if (bytes > largestDictionary) throw Failure(ExitCode::invalidCase, tooLarge(bytes));
                 text = readFile(path(inCase));
             } catch (const Failure& failure) {
                 reason = failure.what();
+                code = failure.code();
             }
-        if (reason = communicator_->broadcast(reason); !reason.empty()) throw Failure(ExitCode::io, reason);
+        reason = communicator_->broadcast(reason);
+        if (communicator_->broadcast(static_cast<long>(code)) == static_cast<long>(ExitCode::invalidCase))
+            problems.add({inCase, 0, 0}, "", reason);
+        else if (!reason.empty())
+            throw Failure(ExitCode::io, reason);
         root = parseDictionary(communicator_->broadcast(text), inCase, problems);
     } else {
         root = readDictionary(path(inCase), inCase, problems);
@@ -222,7 +231,9 @@ void Application::printFailure(const std::exception& error, bool named) const {
                                 {"message", p.message}});
         else
             list.push_back({{"message", error.what()}});
-        const std::string text = nlohmann::ordered_json{{"problems", list}}.dump(
+        nlohmann::ordered_json json{{"problems", list}};
+        if (caseError && caseError->more()) json["more"] = caseError->more();
+        const std::string text = json.dump(
             2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         std::fputs((text + "\n").c_str(), stdout);
         std::fflush(stdout);
@@ -230,8 +241,9 @@ void Application::printFailure(const std::exception& error, bool named) const {
     std::string text;
     if (caseError) {
         for (const Problem& p : caseError->problems()) text += p.text() + "\n";
-        text += fmt::format("{}: {} problem{} in the case {}\n", name_, caseError->problems().size(),
-                            caseError->problems().size() == 1 ? "" : "s", caseDirectory().string());
+        if (caseError->more()) text += fmt::format("and {} more\n", caseError->more());
+        text += fmt::format("{}: {} problem{} in the case {}\n", name_, caseError->total(),
+                            caseError->total() == 1 ? "" : "s", caseDirectory().string());
     } else {
         text = fmt::format("{}: {}\n", name_, error.what());
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/scheme.hpp"
@@ -49,23 +50,28 @@ void Case::throwIfAny(const Problems& problems) const {
             placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key,
                        p.message);
         }
+        placed.addUncounted(error.more());
         placed.throwIfAny();
     }
 }
 
 Case Case::read(const Application& app) {
     Problems problems;
+    const std::set<std::string> misnamed = checkFiles(app, problems);
     Case c;
     c.directory = app.caseDirectory();
-    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
-    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
-    c.mesh = readFile<MeshSettings>(app, "system/mesh.yaml", c, problems);
-    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
+    const auto readInto = [&]<class T>(T& settings, const std::string& file) {
+        if (!misnamed.contains(file)) settings = readFile<T>(app, file, c, problems);
+    };
+    readInto(c.control, "system/control.yaml");
+    readInto(c.numerics, "system/numerics.yaml");
+    readInto(c.mesh, "system/mesh.yaml");
+    readInto(c.fluid, "constant/fluid.yaml");
     if (!c.mesh.cells.empty() || app.hasDictionary("constant/membranes.yaml"))
-        c.membranes = readFile<MembranesSettings>(app, "constant/membranes.yaml", c, problems);
+        readInto(c.membranes, "constant/membranes.yaml");
     if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml"))
-        c.bodies = readFile<bodies::BodiesSettings>(app, "constant/bodies.yaml", c, problems);
-    {
+        readInto(c.bodies, "constant/bodies.yaml");
+    if (!misnamed.contains("constant/flow.yaml")) {
         const std::size_t before = problems.count();
         const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
         if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
@@ -104,6 +110,8 @@ Case Case::read(const Application& app) {
         context.radius = c.mesh.bodies.front().shape->radius();
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
+    c.throwIfAny(problems);
+    checkSizes(c, context.shearModulus, problems);
     c.throwIfAny(problems);
     if (c.control.endStrain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "endStrain",

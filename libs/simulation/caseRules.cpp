@@ -281,7 +281,7 @@ void checkTogether(const Case& c, Problems& problems) {
             problems.add(
                 mesh, "domain.size",
                 std::string("along ") + axisName(k) + " found " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
-                    ", which is no whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
+                    ", which is not a whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
@@ -321,6 +321,32 @@ void checkTogether(const Case& c, Problems& problems) {
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
                      "found " + formatQuantity(c.support() / c.spacing(), unit::none) +
                          " dx, which reaches too few neighbours; at least 1.2 dx, usually 2.4 to 3 dx");
+}
+
+void checkSizes(const Case& c, double shearModulus, Problems& problems) {
+    constexpr double least = 1e-60, largest = 1e60;  // squares and products of a few stay far from overflow
+    const double soundSpeed = c.soundSpeed();
+    struct Value {
+        const char* what;
+        double size;
+        Dimension dimension;
+    };
+    for (const auto& [what, size, dimension] :
+         {Value{"the density of the fluid", c.flow.density, unit::kilogramPerMetre3},
+          Value{"the shear modulus of the membrane", shearModulus, unit::newtonPerMetre},
+          Value{"the shear rate", c.flow.shearRate, unit::perSecond}, Value{"the speed", c.flow.speed, unit::metrePerSecond},
+          Value{"the rate of the flow", c.flow.rate, unit::perSecond},
+          Value{"the time in which the flow changes", c.flow.transient, unit::second},
+          Value{"the speed of sound", soundSpeed, unit::metrePerSecond},
+          Value{"the mass of a particle", c.particleMass(), {1, 0, 0}}}) {
+        const double magnitude = std::abs(size);
+        if (size == 0 || (magnitude >= least && magnitude <= largest)) continue;
+        problems.add({"constant/flow.yaml", 0, 0}, "",
+                     fmt::format("{} comes out as {}, which cannot be computed with: one of the values that it follows "
+                                 "from (Ca, Re, viscosity, moduli, sizes) is far from anything real",
+                                 what, formatQuantity(size, dimension)));
+        return;  // others follow from it
+    }
 }
 
 }  // namespace corpuscle::simulation

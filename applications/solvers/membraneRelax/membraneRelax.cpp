@@ -13,6 +13,8 @@
 #include "core/runRecord.hpp"
 #include "io/csvSeries.hpp"
 #include "io/vtkSeries.hpp"
+#include "simulation/caseFiles.hpp"
+#include "simulation/dictionaries.hpp"
 #include "simulation/relaxSettings.hpp"
 #include "simulation/resultsWriter.hpp"
 
@@ -28,8 +30,12 @@ struct Input {
     static Input read(const Application& app) {
         Problems problems;
         Input input;
-        const Node relax = app.dictionary("system/relax.yaml", problems);
-        const Node membranes = app.dictionary("constant/membranes.yaml", problems);
+        const std::set<std::string> misnamed = simulation::checkFiles(app, problems);
+        const auto dictionary = [&](const std::string& file) {
+            return misnamed.contains(file) ? Node() : app.dictionary(file, problems);
+        };
+        const Node relax = dictionary("system/relax.yaml");
+        const Node membranes = dictionary("constant/membranes.yaml");
         problems.throwIfAny();
         input.relax = corpuscle::read<simulation::RelaxSettings>(relax, problems);
         input.membranes = corpuscle::read<simulation::MembranesSettings>(membranes, problems);
@@ -134,6 +140,7 @@ int main(int argc, char* argv[]) {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
         app.openLog();
         const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
+        simulation::refreshSchemas(app);
         membrane::Membrane membrane =
             input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
         app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),

@@ -13,67 +13,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/application.hpp"
-#include "core/atomicFile.hpp"
 #include "core/reference.hpp"
-#include "core/schemaJson.hpp"
-#include "observers/observers.hpp"
-#include "simulation/caseSettings.hpp"
-#include "simulation/relaxSettings.hpp"
+#include "simulation/dictionaries.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
 
 namespace {
-
-// constant/flow.yaml is one model: `type` with its settings beside it.
-SchemaInfo flowInfo() {
-    FieldInfo type;
-    type.key = "type";
-    type.type = "word";
-    type.text = "what drives the fluid; the settings of that [flow](#flow) stand beside it";
-    type.words = Registry<sph::Flow>::instance().names();
-    SchemaInfo info;
-    info.name = "flow";
-    info.text = "constant/flow.yaml: what drives the fluid";
-    info.fields.push_back(type);
-    return info;
-}
-
-ordered_json flowSchema() {
-    SchemaInfo holder;
-    FieldInfo flow;
-    flow.key = flow.type = "model";
-    flow.family = sph::Flow::familyName;
-    holder.fields.push_back(flow);
-    const ordered_json json = jsonSchema(holder);
-    return {{"$schema", json["$schema"]},
-            {"title", "flow"},
-            {"description", flowInfo().text},
-            {"allOf", {{{"$ref", json["properties"]["model"]["$ref"]}}}},
-            {"definitions", json["definitions"]}};
-}
-
-std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
-    using namespace simulation;
-    return {{"system/control.yaml", ControlSettings::schema().info()},
-            {"system/numerics.yaml", NumericsSettings::schema().info()},
-            {"system/mesh.yaml", MeshSettings::schema().info()},
-            {"system/relax.yaml", RelaxSettings::schema().info()},
-            {"system/observers.yaml", observers::ObserversSettings::schema().info()},
-            {"constant/fluid.yaml", FluidSettings::schema().info()},
-            {"constant/membranes.yaml", MembranesSettings::schema().info()},
-            {"constant/bodies.yaml", bodies::BodiesSettings::schema().info()},
-            {"constant/flow.yaml", flowInfo()}};
-}
-
-void writeSchemas(const std::filesystem::path& folder) {
-    for (const auto& [file, info] : dictionaries()) {
-        const ordered_json schema = info.name == "flow" ? flowSchema() : jsonSchema(info);
-        const std::filesystem::path path = folder / std::filesystem::path(file).filename().replace_extension(".json");
-        writeFileAtomically(path, schema.dump(2) + "\n");
-        std::cout << path.string() << '\n';
-    }
-}
 
 ordered_json toJson(const ModelInfo& model) {
     ordered_json settings = ordered_json::array();
@@ -148,12 +94,12 @@ void show(const std::string& wanted, bool asJson) {
             found = true;
         }
     }
-    for (const auto& [file, info] : dictionaries()) {
+    for (const auto& [file, info] : simulation::dictionaries()) {
         known.push_back(info.name);
         if (found || plain(info.name) != plain(wanted)) continue;
         found = true;
         if (asJson)
-            json[file] = jsonSchema(info);
+            json[file] = simulation::schemaOf(info);
         else {
             std::cout << info.text << '\n';
             printTable(info, "", "  ");
@@ -191,9 +137,9 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         if (!app.communicator().isRoot()) return ExitCode::done;
         if (const auto folder = app.value("schema"))
-            writeSchemas(*folder);
+            for (const std::filesystem::path& file : simulation::writeSchemas(*folder)) std::cout << file.string() << '\n';
         else if (app.has("markdown"))
-            std::cout << referencePage(dictionaries());
+            std::cout << referencePage(simulation::dictionaries());
         else if (!app.arguments().empty())
             show(app.arguments().front(), app.json());
         else

@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "simulation/dictionaries.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -84,6 +85,7 @@ int main(int argc, char* argv[]) {
         utilities::requireSerial(app);
         app.openLog();
         const simulation::Case input = simulation::Case::read(app);
+        simulation::refreshSchemas(app);
         nlohmann::ordered_json json = nlohmann::ordered_json::object();
         Meshes meshes(app, input);
         std::vector<TriangleMesh> cells, bodies;

@@ -22,6 +22,7 @@
 #include "bodyFill.hpp"
 #include "coupling/noFlux.hpp"
 #include "relaxation.hpp"
+#include "simulation/dictionaries.hpp"
 #include "simulation/memoryLimit.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -287,6 +288,7 @@ int main(int argc, char* argv[]) {
         app.openLog();
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
+        simulation::refreshSchemas(app);
         simulation::requireMemory(app.communicator(), input);
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
