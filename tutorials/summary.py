@@ -31,18 +31,22 @@ COLUMNS = {  # name in the CSV file: text in the table
 }
 
 
+def rows(path):
+    """Numbers of a table by column. Comment lines are passed over, and a last line that is being written."""
+    with open(path) as text:
+        lines = [line for line in text if not line.startswith("#") and line.endswith("\n")]
+    return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+
+
 def series(case, observer, file):
-    """Rows of an observer. A restarted run adds a folder named by its start, which replaces later rows of earlier folders."""
-    rows = []
-    folders = glob.glob(os.path.join(case, "postProcessing", observer, "*", file))
-    for name in sorted(folders, key=lambda path: float(path.split(os.sep)[-2])):
-        start = float(name.split(os.sep)[-2])
-        rows = [row for row in rows if row["time_s"] < start]
-        with open(name) as text:
-            rows += [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
-    if not rows:
+    """Rows of an observer; file: may hold wildcards that fit one file."""
+    found = glob.glob(os.path.join(case, "postProcessing", observer, file))
+    if len(found) > 1:
+        raise SystemExit(f"{case}: several tables {file} under postProcessing/{observer}: {', '.join(map(os.path.basename, sorted(found)))}")
+    table = rows(found[0]) if found else []
+    if not table:
         raise SystemExit(f"{case}: no {file} under postProcessing/{observer}: run the case, with this observer in system/observers.yaml")
-    return rows
+    return table
 
 
 def axisTurned(shape):

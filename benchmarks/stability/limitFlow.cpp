@@ -42,16 +42,17 @@ int main(int argc, char* argv[]) {
     Application app("limitFlow", "A case stepped by a multiple of one limit of the explicit step.", argc, argv,
                     usage());
     return app.run([&] {
-        app.openLog();
+        app.announce();
         const simulation::Case input = simulation::Case::read(app);
         const std::string name = app.value("limit").value_or("least");
         const double times = numberOf(app.value("times").value_or("1"));
         simulation::StartingPoint start = simulation::prepare(app, input);
+        if (start.isFinished) return ExitCode::done;
         coupling::Scene& scene = start.scene;
         Time& time = start.time;
         simulation::Integrator integrator(input, scene);
         simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, scene, integrator, time, start.state);
+        simulation::Schedule after(app, input, start, integrator);
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);

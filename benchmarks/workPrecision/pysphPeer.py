@@ -143,7 +143,7 @@ def main():
         peer.solver.solve(show_progress=False)
         seconds = time.process_time() - began
     name, columns = ("profile", ("time_s", "position_m", "u_m_s")) if flow.plates else ("conservation", ("time_s", "kineticEnergy_J"))
-    folder = given.folder / "postProcessing" / ("profile" if flow.plates else "balance") / "0"
+    folder = given.folder / "postProcessing" / ("profile" if flow.plates else "balance")
     folder.mkdir(parents=True, exist_ok=True)
     with open(folder / f"{name}.csv", "w") as text:
         writer = csv.writer(text, lineterminator="\n")

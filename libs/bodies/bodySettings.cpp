@@ -8,7 +8,9 @@ const Schema<BodySettings>& BodySettings::schema() {
             .quantityOr("fluid", "density", &BodySettings::density, unit::kilogramPerMetre3,
                         "mass of the solid over the volume of its mesh; fluid: as the fluid around",
                         {.fallback = "fluid", .range = positive})
-            .model("motion", &BodySettings::motion, "what it does under force and torque");
+            .model("motion", &BodySettings::motion, "what it does under force and torque")
+            .atRestart(AtRestart::fixed, {"density"})
+            .atRestart(AtRestart::noted, {"motion"});
     return s;
 }
 

@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
+#include "core/dictionaryText.hpp"
+#include "core/runRecord.hpp"
 #include "core/startMpi.hpp"
+#include "core/together.hpp"
+#include "core/writeFailure.hpp"
 
 namespace corpuscle {
 namespace {
@@ -39,13 +45,16 @@ bool isNumber(const std::string& text) {
 }  // namespace
 
 std::vector<Option> solverOptions() {
-    return {{"dry-run", "", "Check the case, print its numbers and limits, run nothing."},
-            {"steps", "N", "Stop after N steps."},
-            {"restart", "TIME", "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom."}};
+    return {
+        {"dry-run", "", "Check the case, print its numbers and limits, run nothing."},
+        {"steps", "N", "Stop after N steps."},
+        {"restart", "TIME",
+         "Start from the checkpoint nearest before TIME (\"1.5 ms\"), instead of startFrom; later output is removed."}};
 }
 
 Application::Application(std::string name, std::string text, int argc, char** argv, Usage usage)
     : name_(std::move(name)), text_(std::move(text)), usage_(std::move(usage)) {
+    prepareOutput();
     ownsMpi_ = startMpi(argc, argv);
     communicator_.emplace();
     MPI_Comm_dup(MPI_COMM_WORLD, &meeting_);
@@ -58,6 +67,7 @@ Application::Application(std::string name, std::string text, int argc, char** ar
 }
 
 Application::~Application() {
+    lock_.reset();
     MPI_Comm_free(&meeting_);
     if (ownsMpi_) MPI_Finalize();
 }
@@ -160,12 +170,20 @@ Node Application::dictionary(const std::string& inCase, Problems& problems) cons
     Node root;
     if (hasDictionary(inCase)) {
         std::string text, reason;
+        ExitCode code = ExitCode::done;
         if (communicator_->isRoot()) try {
+                const std::size_t bytes = std::filesystem::file_size(path(inCase));
+                if (bytes > largestDictionary) throw Failure(ExitCode::invalidCase, tooLarge(bytes));
                 text = readFile(path(inCase));
             } catch (const Failure& failure) {
                 reason = failure.what();
+                code = failure.code();
             }
-        if (reason = communicator_->broadcast(reason); !reason.empty()) throw Failure(ExitCode::io, reason);
+        reason = communicator_->broadcast(reason);
+        if (communicator_->broadcast(static_cast<long>(code)) == static_cast<long>(ExitCode::invalidCase))
+            problems.add({inCase, 0, 0}, "", reason);
+        else if (!reason.empty())
+            throw Failure(ExitCode::io, reason);
         root = parseDictionary(communicator_->broadcast(text), inCase, problems);
     } else {
         root = readDictionary(path(inCase), inCase, problems);
@@ -204,12 +222,19 @@ void Application::checkOverrides() const {
     problems.throwIfAny();
 }
 
-void Application::openLog() {
-    if (std::filesystem::is_directory(caseDirectory())) log_->open(path("log." + name_));
-    log_->info("{} {} ({})", name_, buildInfo().version, commandLine_);
+void Application::announce() { log_->info("{} {} ({})", name_, buildInfo().version, commandLine_); }
+
+void Application::lockCase() {
+    if (!lock_) lock_.emplace(caseDirectory(), name_, *communicator_, *log_);
 }
 
-void Application::printFailure(const std::exception& error, bool named) const {
+void Application::openLog(LogStart start) {
+    const std::string continuation =
+        start == LogStart::anew ? "" : fmt::format("==== continued {} by: {}", timestamp(), commandLine_);
+    if (std::filesystem::is_directory(caseDirectory())) log_->open(path("log." + name_), continuation);
+}
+
+void Application::reportFailure(ExitCode code, const std::exception& error, bool named) {
     const auto* caseError = dynamic_cast<const CaseError*>(&error);
     if (has("json")) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -222,7 +247,9 @@ void Application::printFailure(const std::exception& error, bool named) const {
                                 {"message", p.message}});
         else
             list.push_back({{"message", error.what()}});
-        const std::string text = nlohmann::ordered_json{{"problems", list}}.dump(
+        nlohmann::ordered_json json{{"problems", list}};
+        if (caseError && caseError->more()) json["more"] = caseError->more();
+        const std::string text = json.dump(
             2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         std::fputs((text + "\n").c_str(), stdout);
         std::fflush(stdout);
@@ -230,19 +257,23 @@ void Application::printFailure(const std::exception& error, bool named) const {
     std::string text;
     if (caseError) {
         for (const Problem& p : caseError->problems()) text += p.text() + "\n";
-        text += fmt::format("{}: {} problem{} in the case {}\n", name_, caseError->problems().size(),
-                            caseError->problems().size() == 1 ? "" : "s", caseDirectory().string());
+        if (caseError->more()) text += fmt::format("and {} more\n", caseError->more());
+        text += fmt::format("{}: {} problem{} in the case {}\n", name_, caseError->total(),
+                            caseError->total() == 1 ? "" : "s", caseDirectory().string());
     } else {
         text = fmt::format("{}: {}\n", name_, error.what());
     }
-    std::fputs((named ? fmt::format("[rank {}] {}", communicator_->rank(), text) : text).c_str(), stderr);
+    if (named) text = fmt::format("[rank {}] {}", communicator_->rank(), text);
+    std::fputs(text.c_str(), stderr);
+    log_->note(text);
+    if (record_) record_->fail(code, error.what());
 }
 
 // All ranks meet here. A rank that failed alone waits a little for the others, who may be on their way with the same
 // failure, and then ends them, since they wait for it inside the body.
 int Application::endTogether(ExitCode code, const std::exception* error) {
     const int own = static_cast<int>(code);
-    if (error && communicator_->isRoot()) printFailure(*error, false);
+    if (error && communicator_->isRoot()) reportFailure(code, *error, false);
     if (communicator_->size() == 1) return own;
 
     const int none = communicator_->size();
@@ -257,14 +288,22 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
         MPI_Test(&request, &met, MPI_STATUS_IGNORE);
         if (met) break;
         if (error && std::chrono::steady_clock::now() - start > patience) {
-            if (!communicator_->isRoot()) printFailure(*error, true);
+            if (!communicator_->isRoot()) reportFailure(code, *error, true);
             std::fflush(nullptr);
+            if (lock_) lock_->abandon();
             MPI_Abort(communicator_->handle(), own);
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    if (error && receive[1] == communicator_->rank() && !communicator_->isRoot()) printFailure(*error, true);
+    if (error && receive[1] == communicator_->rank() && !communicator_->isRoot()) reportFailure(code, *error, true);
     return -receive[0];
+}
+
+// JSON on standard output is a result: one that could not be written is a failure, unless the reader has closed its pipe.
+void Application::requireOutput() const {
+    if (!has("json") || !communicator_->isRoot()) return;
+    errno = 0;
+    if (std::fflush(stdout) != 0 && errno != EPIPE) throw writeFailure("standard output", errno);
 }
 
 int Application::run(const std::function<ExitCode()>& body) {
@@ -281,11 +320,17 @@ int Application::run(const std::function<ExitCode()>& body) {
             return endTogether(ExitCode::done, nullptr);
         }
         checkOverrides();
-        return endTogether(body(), nullptr);
+        const ExitCode code = body();
+        requireOutput();
+        return endTogether(code, nullptr);
     } catch (const Failure& failure) {
         return endTogether(failure.code(), &failure);
     } catch (const std::filesystem::filesystem_error& error) {
-        return endTogether(ExitCode::io, &error);
+        const Failure failure = fileFailure(error);
+        return endTogether(failure.code(), &failure);
+    } catch (const std::bad_alloc&) {
+        const Failure failure = memoryFailure();
+        return endTogether(failure.code(), &failure);
     } catch (const std::exception& error) {
         return endTogether(ExitCode::numerics, &error);
     }

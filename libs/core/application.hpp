@@ -12,18 +12,21 @@
 //
 // A wrong command line, -help and -version are dealt with in run(), which then does not enter the body. Whatever the
 // body throws is printed once and becomes the exit code; when one rank fails while others wait for it, all are ended
-// with that code.
+// with that code. A closed pipe (dmpFlow | head) does not end a program: its log file has what the terminal misses.
 #pragma once
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/caseLock.hpp"
 #include "core/communicator.hpp"
 #include "core/dictionary.hpp"
 #include "core/log.hpp"
+#include "core/runRecord.hpp"
 
 namespace corpuscle {
 
@@ -71,8 +74,18 @@ class Application {
     // Whether the case has this file. Collective.
     bool hasDictionary(const std::string& inCase) const;
 
-    // Starts log.<application> in the case directory.
-    void openLog();
+    // Name, version and command on the terminal, and later in the log.
+    void announce();
+    // From here until the end of the program, no other program writes in the case (caseLock.hpp). Before a program changes any file.
+    // Collective.
+    void lockCase();
+    // log.<application> in the case directory: a new one, or, of a run that continues an earlier one, the old one after a line that
+    // says so. Not before it is certain that the program does what it was asked for: a refused command changes no file.
+    enum class LogStart { anew, continued };
+    void openLog(LogStart start = LogStart::anew);
+
+    // Where an error that ends the program is to be recorded, as well as on the terminal and in the log.
+    void keepRecord(std::shared_ptr<RunRecord> record) { record_ = std::move(record); }
 
     int run(const std::function<ExitCode()>& body);
 
@@ -81,7 +94,8 @@ class Application {
     std::vector<Option> allOptions() const;
     std::string helpText() const;
     void checkOverrides() const;
-    void printFailure(const std::exception& error, bool named) const;
+    void reportFailure(ExitCode code, const std::exception& error, bool named);
+    void requireOutput() const;
     int endTogether(ExitCode code, const std::exception* error);
 
     std::string name_, text_, commandLine_;
@@ -94,6 +108,8 @@ class Application {
     MPI_Comm meeting_ = MPI_COMM_NULL;  // only for the end, so that nothing else can be mistaken for it
     std::optional<Communicator> communicator_;
     std::optional<Log> log_;
+    std::optional<CaseLock> lock_;
+    std::shared_ptr<RunRecord> record_;
 };
 
 }  // namespace corpuscle

@@ -1,6 +1,8 @@
 #include "core/atomicFile.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,31 +11,29 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "core/error.hpp"
+#include "core/writeFailure.hpp"
 
 namespace corpuscle {
-namespace {
 
-[[noreturn]] void fail(const char* action, const std::filesystem::path& file, int reason) {
-    throw Failure(ExitCode::io, fmt::format("cannot {} {}: {}", action, file.string(), std::strerror(reason)));
-}
-
-}  // namespace
-
-void writeFileAtomically(const std::filesystem::path& file, const std::string& text) {
+void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room) {
     if (file.has_parent_path()) {
         std::error_code error;
         std::filesystem::create_directories(file.parent_path(), error);
-        if (error) fail("make the directory of", file, error.value());
+        if (error) throw writeFailure(file, error.value());
     }
     std::filesystem::path temporary = file;
     temporary += fmt::format(".{}.tmp", getpid());
     std::FILE* stream = std::fopen(temporary.c_str(), "wb");
-    if (!stream) fail("write", file, errno);
+    if (!stream) throw writeFailure(file, errno);
     bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
     written = written && std::fflush(stream) == 0 && fsync(fileno(stream)) == 0;
     int reason = errno;
+    // Where the system cannot reserve room, the file does without.
+    if (written && room > 0) [[maybe_unused]]
+        const int reserved = fallocate(fileno(stream), FALLOC_FL_KEEP_SIZE, 0, room);
     if (std::fclose(stream) != 0 && written) {
         written = false;
         reason = errno;
@@ -41,16 +41,31 @@ void writeFileAtomically(const std::filesystem::path& file, const std::string& t
     if (written && std::rename(temporary.c_str(), file.c_str()) == 0) return;
     if (written) reason = errno;
     std::remove(temporary.c_str());
-    fail("write", file, reason);
+    throw writeFailure(file, reason);
+}
+
+bool overwriteFile(const std::filesystem::path& file, const std::string& text) {
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return false;
+    struct stat status {};
+    constexpr blkcnt_t blockSize = 512;
+    bool done = ::fstat(descriptor, &status) == 0 && std::cmp_less_equal(text.size(), status.st_blocks * blockSize);
+    done = done && ::pwrite(descriptor, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
+    done = done && ::ftruncate(descriptor, static_cast<off_t>(text.size())) == 0;
+    ::close(descriptor);
+    return done;
 }
 
 std::string readFile(const std::filesystem::path& file) {
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
-    if (!stream || std::filesystem::is_directory(file)) fail("read", file, errno ? errno : EISDIR);
+    const auto fail = [&](int reason) {
+        throw Failure(ExitCode::io, fmt::format("cannot read {}: {}", file.string(), std::strerror(reason)));
+    };
+    if (!stream || std::filesystem::is_directory(file)) fail(errno ? errno : EISDIR);
     if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-    if (stream.bad()) fail("read", file, errno ? errno : EIO);
+    if (stream.bad()) fail(errno ? errno : EIO);
     return text.str();
 }
 

@@ -1,11 +1,14 @@
 // How single values are read and written. Every message says what was found and what is allowed.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <stdexcept>
 #include <utility>
 
+#include "core/quantityForms.hpp"
 #include "core/settings.hpp"
 
 namespace corpuscle::codec {
@@ -14,6 +17,8 @@ namespace {
 void complain(const Node& node, Problems& problems, const std::string& message) {
     problems.add(node.isNothing() ? node.place() : node.mark, node.path, message);
 }
+
+std::string shown(const std::string& text) { return shortened(text, 80); }
 
 bool isScalar(const Node& node, const std::string& expected, Problems& problems) {
     if (node.kind == Node::Kind::scalar && !node.isNothing()) return true;
@@ -35,8 +40,46 @@ std::string exactText(double value, Dimension dimension) {
 
 bool inRange(const Node& node, double value, Dimension dimension, const Range& range, Problems& problems) {
     if (range.contains(value)) return true;
-    complain(node, problems, fmt::format("'{}' is out of range: it must be {}", node.scalar, range.text(dimension)));
+    complain(node, problems,
+             fmt::format("'{}' is out of range: it must be {}", shown(node.scalar), range.text(dimension)));
     return false;
+}
+
+// Why a text that people write for a number is not one; "" where there is nothing to say about it in particular.
+std::string whyNoNumber(const std::string& text) {
+    static const std::regex notFinite("[+-]?[.]?(?:nan|inf|infinity)(?: .*)?", std::regex::icase),
+        hexadecimal("[+-]?0[xX].*"), octal("0o[0-7]+.*"), comma("([+-]?[0-9]+),([0-9]+)(.*)"), grouped("[+-]?[0-9]+(?:_[0-9]+)+.*"),
+        variable("[$%#@]\\{?[A-Za-z].*|\\{\\{.*"), expression("[+-]?[0-9.]+ ?(?:[*/x+]|\xC3\x97|\\*\\*) ?[0-9].*|sqrt.*|pi.*"),
+        percent("[+-]?[0-9.]+ ?%"), ending("(.*[^ ]) *[;,]"), minus("(?:\xE2\x88\x92|\xE2\x80\x93).*");
+    std::smatch part;
+    if (text.size() > 200) return "it is too long for one";
+    if (std::regex_match(text, notFinite)) return "it is not a finite number";
+    if (std::regex_match(text, hexadecimal) || std::regex_match(text, octal)) return "only decimal numbers are read";
+    if (std::regex_match(text, part, ending)) return fmt::format("nothing ends with '{}' here: remove it", text.back());
+    if (std::regex_match(text, part, comma))
+        return fmt::format("decimals are written with a point, '{}.{}{}'", part[1].str(), part[2].str(), part[3].str());
+    if (std::regex_match(text, percent)) return "percentages are not read: divide by 100";
+    if (std::regex_match(text, grouped)) return "digits are not grouped with '_'";
+    if (std::regex_match(text, variable)) return "there are no variables in a dictionary: write the value out, or give it with -set";
+    if (std::regex_match(text, expression)) return "expressions are not evaluated: write their value";
+    if (std::regex_match(text, minus)) return "its first sign is a dash, write '-'";
+    return "";
+}
+
+// Whether the number at the start of the text is too large or too small for anything that it could stand for.
+bool isBeyond(const std::string& text) {
+    const char* first = text.data() + (!text.empty() && text[0] == '+');
+    double number = 0;
+    const auto [end, error] = std::from_chars(first, text.data() + text.size(), number);
+    const double size = std::abs(number);
+    return error == std::errc::result_out_of_range || (error == std::errc() && size != 0 && !(size >= leastNumber && size < largestNumber));
+}
+
+std::string unitsOf(Dimension dimension) {
+    std::vector<std::string> usual = usualUnits(dimension);
+    constexpr std::size_t most = 8;
+    if (usual.size() > most) usual.resize(most);
+    return joinWords(usual);
 }
 
 // One number with its unit.
@@ -45,29 +88,43 @@ std::optional<double> readNumber(const Node& node, Dimension dimension, const Ra
     const std::string expected =
         si.empty() ? "a number" : fmt::format("a quantity in {} (like '{}')", si, exampleOf(dimension));
     if (!isScalar(node, expected, problems)) return std::nullopt;
+    const std::string& text = node.scalar;
+    const std::string found = shown(text);
+    const auto wrong = [&](const std::string& message) {
+        complain(node, problems, message);
+        return std::nullopt;
+    };
+    if (const std::string why = whyNoNumber(text); !why.empty())
+        return wrong(fmt::format("'{}' is not a number: {}; {} is expected", found, why, expected));
+    if (isBeyond(text))
+        return wrong(fmt::format("'{}' is beyond what can be computed with: numbers lie between {} and {} in size", found,
+                                 leastNumber, largestNumber));
     Quantity q;
     try {
-        q = parseQuantity(node.scalar);
-    } catch (const std::invalid_argument& e) {
-        complain(node, problems, fmt::format("{}; {} is expected", e.what(), expected));
-        return std::nullopt;
+        q = parseQuantity(text);
+    } catch (const std::invalid_argument&) {
+        const std::string unit = unitOf(text);
+        if (unit == text) return wrong(fmt::format("'{}' does not start with a number; {} is expected", found, expected));
+        if (si.empty()) return wrong(fmt::format("'{}' has something after the number; a number without unit is expected", found));
+        const std::string nearest = nearestUnit(unit, dimension);
+        return wrong(fmt::format("unknown unit '{}'.{} Known for {}: {}", shown(unit),
+                                 nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest), si, unitsOf(dimension)));
     }
-    const std::string& found = node.scalar;
-    if (q.inSpacings) {
-        complain(
-            node, problems,
-            fmt::format("'{}' is in particle spacings, which are not allowed here; {} is expected", found, expected));
-    } else if (!q.hasUnit && !si.empty()) {
-        complain(node, problems, fmt::format("'{}' has no unit; {} is expected", node.scalar, expected));
-    } else if (q.dimension != dimension) {
-        complain(node, problems,
-                 si.empty() ? fmt::format("'{}' has a unit, but this is a number without one", found)
-                            : fmt::format("'{}' is in {}; {} is expected", found,
-                                          q.dimension.isDimensionless() ? "radians" : q.dimension.si(), expected));
-    } else if (inRange(node, q.value, dimension, range, problems)) {
-        return q.value;
+    if (q.inSpacings)
+        return wrong(fmt::format("'{}' is in particle spacings, which are not allowed here; {} is expected", found, expected));
+    if (!q.hasUnit && !si.empty()) return wrong(fmt::format("'{}' has no unit; {} is expected", found, expected));
+    if (si.empty() && q.hasUnit) return wrong(fmt::format("'{}' has a unit, but this is a number without one", found));
+    if (q.dimension != dimension)
+        return wrong(fmt::format("'{}' is in {}; {} is expected", found,
+                                 q.dimension.isDimensionless() ? "radians" : q.dimension.si(), expected));
+    if (!inRange(node, q.value, dimension, range, problems)) return std::nullopt;
+    if (!matches(plainUnits(text), quantityPattern(dimension, range))) {
+        const std::string nearest = nearestUnit(unitOf(text), dimension);
+        return wrong(fmt::format("'{}' is written in a way that is not read.{} Units of {}: {}", found,
+                                 nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest),
+                                 si.empty() ? "numbers: none" : si, unitsOf(dimension)));
     }
-    return std::nullopt;
+    return q.value;
 }
 
 bool isListOf(const Node& node, std::size_t n, const std::string& expected, Problems& problems) {
@@ -95,15 +152,29 @@ bool isAllowed(const Node& node, const std::vector<std::string>& allowed, Proble
     for (const std::string& a : allowed)
         if (a == node.scalar) return true;
     complain(node, problems,
-             fmt::format("'{}' is not allowed.{} Allowed: {}", node.scalar, didYouMean(node.scalar, allowed),
+             fmt::format("'{}' is not allowed.{} Allowed: {}", shown(node.scalar), didYouMean(node.scalar, allowed),
                          joinWords(allowed)));
     return false;
 }
 
 // The text without a final "<unit>", if it ends so.
 std::optional<std::string> without(const std::string& text, const std::string& unit) {
-    if (text.size() <= unit.size() + 1 || !text.ends_with(" " + unit)) return std::nullopt;
-    return text.substr(0, text.size() - unit.size() - 1);
+    if (text.size() <= unit.size() || !text.ends_with(unit)) return std::nullopt;
+    std::string number = text.substr(0, text.size() - unit.size());
+    number.erase(number.find_last_not_of(' ') + 1);
+    return number;
+}
+
+bool isNameOf(const Node& node, const std::string& text, Problems& problems) {
+    if (!isName(text))
+        complain(node, problems,
+                 fmt::format("'{}' is not a name: a letter, then letters, digits, '-' and '_'", shown(text)));
+    else if (matches(text, reservedWords))
+        complain(node, problems,
+                 fmt::format("'{}' is not a name: YAML reads it as true, false or nothing; take another", text));
+    else
+        return true;
+    return false;
 }
 
 }  // namespace
@@ -117,7 +188,10 @@ Codec<double> quantity(Dimension dimension, Range range) {
 
 Codec<std::vector<double>> quantities(Dimension dimension, Range range) {
     return {[=](const Node& node, std::vector<double>& values, Problems& problems) {
-                if (!isListOf(node, 0, "a list of numbers, each with its unit", problems) ||
+                FieldInfo info;
+                info.type = "quantities";
+                info.dimension = dimension;
+                if (!isListOf(node, 0, fmt::format("a list like '{}'", info.example()), problems) ||
                     !hasNoUnit(node, problems))
                     return;
                 values.clear();
@@ -139,29 +213,34 @@ Codec<long> integer(Range range) {
     return {[=](const Node& node, long& value, Problems& problems) {
                 if (!isScalar(node, "a whole number", problems)) return;
                 const std::string& text = node.scalar;
-                long read = 0;
-                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
-                if (error != std::errc() || end != text.data() + text.size()) {
-                    double real = 0.5;  // "1e6" is a whole number too
-                    const auto [e, err] = std::from_chars(text.data(), text.data() + text.size(), real);
-                    if (err != std::errc() || e != text.data() + text.size() || real != std::floor(real) ||
-                        std::abs(real) > 9e15) {
-                        complain(node, problems, fmt::format("'{}' is no whole number", text));
-                        return;
-                    }
-                    read = static_cast<long>(real);
-                }
-                if (inRange(node, static_cast<double>(read), unit::none, range, problems)) value = read;
+                const auto wrong = [&](const std::string& why) {
+                    complain(node, problems, fmt::format("'{}' is not a whole number{}", shown(text), why));
+                };
+                if (const std::string why = whyNoNumber(text); !why.empty()) return wrong(": " + why);
+                const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
+                const char* const last = text.data() + text.size();
+                double real = 0;  // "1e6" is a whole number too
+                const auto [end, error] = std::from_chars(first, last, real);
+                constexpr double largest = 9e15;
+                if (error != std::errc() || end != last || real != std::floor(real)) return wrong("");
+                if (std::abs(real) > largest) return wrong(fmt::format(" that can be counted to; at most {}", largest));
+                if (!inRange(node, real, unit::none, range, problems)) return;
+                if (!matches(text, integerPattern(range))) return wrong(": write its digits");
+                value = static_cast<long>(real);
             },
             [](const long& value) { return Node::word(fmt::format("{}", value)); }};
 }
 
 Codec<bool> boolean() {
     return {[](const Node& node, bool& value, Problems& problems) {
-                if (node.kind == Node::Kind::scalar && (node.scalar == "true" || node.scalar == "false"))
-                    value = node.scalar == "true";
+                const bool isWord = node.kind == Node::Kind::scalar && !node.quoted;
+                if (isWord && matches(node.scalar, "true|True|TRUE"))
+                    value = true;
+                else if (isWord && matches(node.scalar, "false|False|FALSE"))
+                    value = false;
                 else
-                    complain(node, problems, fmt::format("found {}; true or false is expected", node.kindText()));
+                    complain(node, problems,
+                             fmt::format("found {}; true or false is expected{}", node.kindText(), node.quoted ? ", without quotation marks" : ""));
             },
             [](const bool& value) { return Node::word(value ? "true" : "false"); }};
 }
@@ -177,29 +256,21 @@ Codec<std::string> word(std::vector<std::string> allowed) {
 
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed) {
     return {[allowed = std::move(allowed)](const Node& node, std::vector<std::string>& values, Problems& problems) {
-                if (!isListOf(node, 0, "a list of words", problems) || !hasNoUnit(node, problems)) return;
+                if (!isListOf(node, 0, fmt::format("a list like '[{}]'", joinWords(allowed.empty() ? std::vector<std::string>{"one", "two"} : allowed)), problems) || !hasNoUnit(node, problems)) return;
                 values.clear();
                 for (const Node& item : node.items)
                     if (!isScalar(item, "a word", problems))
                         continue;
-                    else if (!allowed.empty() ? isAllowed(item, allowed, problems) : isName(item.scalar))
+                    else if (!allowed.empty() ? isAllowed(item, allowed, problems)
+                                              : isNameOf(item, item.scalar, problems))
                         values.push_back(item.scalar);
-                    else if (allowed.empty())
-                        complain(
-                            item, problems,
-                            fmt::format("'{}' is no name: a letter, then letters, digits, '-' and '_'", item.scalar));
             },
             [](const std::vector<std::string>& values) { return Node::list(values); }};
 }
 
 Codec<std::string> name() {
     return {[](const Node& node, std::string& value, Problems& problems) {
-                if (!isScalar(node, "a name", problems)) return;
-                if (isName(node.scalar))
-                    value = node.scalar;
-                else
-                    complain(node, problems,
-                             fmt::format("'{}' is no name: a letter, then letters, digits, '-' and '_'", node.scalar));
+                if (isScalar(node, "a name", problems) && isNameOf(node, node.scalar, problems)) value = node.scalar;
             },
             [](const std::string& value) { return Node::word(value); }};
 }
@@ -215,6 +286,25 @@ Codec<std::string> text() {
             }};
 }
 
+Codec<std::string> wordOrQuantity(std::vector<std::string> allowed, Dimension dimension, Range range) {
+    return {[=](const Node& node, std::string& value, Problems& problems) {
+                const std::string expected = fmt::format("{}, or a quantity in {} (like '{}')", joinWords(allowed),
+                                                         dimension.si(), exampleOf(dimension));
+                if (!isScalar(node, expected, problems)) return;
+                Problems own;
+                const bool isWord = std::find(allowed.begin(), allowed.end(), node.scalar) != allowed.end();
+                const std::string& text = node.scalar;
+                if (isWord || readNumber(node, dimension, range, own))
+                    value = text;
+                else if (unitOf(text) == text)
+                    complain(node, problems, fmt::format("'{}' is not allowed.{} Allowed: {}", shown(text),
+                                                         didYouMean(text, allowed), expected));
+                else
+                    readNumber(node, dimension, range, problems);
+            },
+            [](const std::string& value) { return Node::word(value); }};
+}
+
 Codec<Vec3> vector(Dimension dimension, Range range) {
     return {[=](const Node& node, Vec3& value, Problems& problems) {
                 FieldInfo info;
@@ -225,8 +315,7 @@ Codec<Vec3> vector(Dimension dimension, Range range) {
                     return;
                 Vec3 components;
                 for (int k = 0; k < 3; ++k) {
-                    const auto read =
-                        readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
+                    const auto read = readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
                     if (!read) return;  // one message for a unit that all three lack
                     components[k] = *read;
                 }
@@ -284,9 +373,9 @@ Codec<Length> length(Range range) {
             }};
 }
 
-Codec<Interval> interval(Range range) {
+Codec<Interval> interval(Range) {
     return {
-        [=](const Node& node, Interval& value, Problems& problems) {
+        [](const Node& node, Interval& value, Problems& problems) {
             if (!isScalar(node, "an interval like '0.1 strain', '1e-5 s' or '100 steps', or never,", problems)) return;
             if (node.scalar == "never") {
                 value = {};
@@ -301,16 +390,13 @@ Codec<Interval> interval(Range range) {
                     number.scalar = *text;
                     kind = its;
                 }
-            Range limits = range;
-            if (limits.low < 0 || (limits.low == 0 && !limits.lowOpen)) limits.low = 0, limits.lowOpen = true;
             Problems own;
-            const auto read = readNumber(number, kind == Kind::time ? unit::second : unit::none, limits, own);
-            if (!read || (kind == Kind::steps && *read != std::floor(*read)))
+            const auto read = readNumber(number, kind == Kind::time ? unit::second : unit::none, positive, own);
+            if (!read || !matches(plainUnits(node.scalar), intervalPattern()))
                 complain(node, problems,
-                         fmt::format(
-                             "'{}' is no interval: write '0.1 strain', '1e-5 s', '5 min' or '100 steps' (all greater "
-                             "than 0, steps whole), or never",
-                             node.scalar));
+                         fmt::format("'{}' is not an interval: write '0.1 strain', '1e-5 s', '5 min' or '100 steps' "
+                                     "(all greater than 0, steps whole), or never",
+                                     shown(node.scalar)));
             else
                 value = {kind, *read};
         },

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <map>
 #include <sstream>
+#include <unordered_map>
+
+#include "core/dictionaryText.hpp"
 
 namespace corpuscle {
 
@@ -36,7 +38,7 @@ std::string Node::kindText() const {
     double number = 0;
     const auto [end, error] = std::from_chars(scalar.data(), scalar.data() + scalar.size(), number);
     const bool isNumber = error == std::errc() && end == scalar.data() + scalar.size();
-    return fmt::format("the {} '{}'", isNumber ? "number" : isName(scalar) ? "word" : "text", scalar);
+    return fmt::format("the {} '{}'", isNumber ? "number" : isName(scalar) ? "word" : "text", shortened(scalar, 80));
 }
 
 void Node::setPath(const std::string& newPath) {
@@ -69,89 +71,15 @@ bool isName(const std::string& text) {
 
 namespace {
 
-struct Opened {
-    char character;  // a bracket or a quotation mark
-    int line, column;
+// Deeper than any dictionary; recursion over nodes stays far from the end of the stack.
+constexpr std::size_t deepest = 64;
+struct TooDeep {
+    Mark mark;
 };
-
-// "[20, 16, 16] um" is not YAML. The unit is replaced by blanks before parsing, so that every column stays right, and
-// found again by the place of its bracket: the reader then shows how to write it.
-struct ListUnits {
-    std::string text;
-    std::map<std::pair<int, int>, std::string> unitAt;  // (line, column) of '[', from 0, in bytes as yaml-cpp counts
-    std::optional<Opened> unclosed;                     // the bracket that is to blame if YAML cannot read the text
-};
-
-ListUnits takeListUnits(std::string text, const std::string& shownAs, Problems& problems) {
-    ListUnits result;
-    std::vector<Opened> open;
-    Opened quotation{};
-    int line = 0, column = 0;
-    char quote = 0, previous = '\n';  // previous: last character of this line that is not blank
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '\n') {
-            ++line;
-            column = 0;
-            previous = '\n';
-            continue;
-        }
-        const int here = column++;
-        if (c == '\t') {
-            problems.add({shownAs, line + 1, here + 1}, "", "a tab; use blanks, two for each level");
-            text[i] = ' ';
-            continue;
-        }
-        if (quote) {
-            if (c == '\\' && quote == '"' && i + 1 < text.size() && text[i + 1] != '\n') {
-                ++i;
-                ++column;
-            } else if (c == quote) {
-                quote = 0;
-            }
-            previous = c;
-            continue;
-        }
-        if (c == '#' && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\n')) {
-            while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
-            continue;
-        }
-        const bool startsToken = previous == '\n' || (text[i - 1] == ' ' && (previous == ':' || previous == '-')) ||
-                                 (!open.empty() && std::string_view(",[{:").find(previous) != std::string_view::npos);
-        if ((c == '"' || c == '\'') && startsToken) {
-            quote = c;
-            quotation = {c, line, here};
-        }
-        if ((c == '[' || c == '{') && (startsToken || !open.empty())) open.push_back({c, line, here});
-        if ((c == ']' || c == '}') && !open.empty()) {
-            const Opened opened = open.back();
-            open.pop_back();
-            if ((opened.character == '[') != (c == ']') && !result.unclosed) result.unclosed = opened;
-            std::size_t end = i + 1;
-            while (end < text.size() && std::string_view(",]}\n").find(text[end]) == std::string_view::npos &&
-                   !(text[end] == '#' && text[end - 1] == ' '))
-                ++end;
-            std::string unit = text.substr(i + 1, end - i - 1);
-            unit.erase(0, unit.find_first_not_of(' '));
-            unit.erase(unit.find_last_not_of(" \r") + 1);
-            if (opened.character == '[' && c == ']' && !unit.empty() && unit.front() != ':') {
-                result.unitAt[{opened.line, opened.column}] = unit;
-                std::fill(text.begin() + static_cast<long>(i) + 1, text.begin() + static_cast<long>(end), ' ');
-            }
-        }
-        if (c != ' ' && c != '\r') previous = c;
-    }
-    if (quote)
-        problems.add({shownAs, quotation.line + 1, quotation.column + 1}, "",
-                     fmt::format("this quotation mark is not closed; a {} is missing", quote));
-    if (!open.empty() && !result.unclosed) result.unclosed = open.front();
-    result.text = std::move(text);
-    return result;
-}
 
 class TreeBuilder : public YAML::EventHandler {
   public:
-    TreeBuilder(const std::string& shownAs, const ListUnits& units, Problems& problems)
+    TreeBuilder(const std::string& shownAs, const DictionaryText& units, Problems& problems)
         : shownAs_(shownAs), units_(units), problems_(problems) {}
 
     bool hasRoot() const { return hasRoot_; }
@@ -181,7 +109,7 @@ class TreeBuilder : public YAML::EventHandler {
         node.mark = place(mark);
         if (const auto unit = units_.unitAt.find({mark.line, mark.column}); unit != units_.unitAt.end())
             node.unit = unit->second;
-        open_.push_back({std::move(node), {}, {}, false});
+        open(std::move(node));
     }
     void OnSequenceEnd() override { close(); }
     void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -189,17 +117,23 @@ class TreeBuilder : public YAML::EventHandler {
         refuse(mark, tag, anchor);
         Node node;
         node.mark = place(mark);
-        open_.push_back({std::move(node), {}, {}, false});
+        open(std::move(node));
     }
     void OnMapEnd() override { close(); }
 
   private:
     struct Level {
         Node node;
-        std::string key;
-        Mark keyMark;
-        bool hasKey;
+        std::string key{};
+        Mark keyMark{};
+        bool hasKey = false;
+        std::unordered_map<std::string, int> lineOf{};  // of the keys so far
     };
+
+    void open(Node node) {
+        if (open_.size() == deepest) throw TooDeep{node.mark};
+        open_.push_back({.node = std::move(node)});
+    }
 
     Mark place(const YAML::Mark& mark) const { return {shownAs_, mark.line + 1, mark.column + 1}; }
 
@@ -244,16 +178,22 @@ class TreeBuilder : public YAML::EventHandler {
         } else {
             level.hasKey = false;
             node.keyMark = level.keyMark;
-            if (const Node* earlier = level.node.find(level.key))
+            const auto [earlier, isNew] = level.lineOf.emplace(level.key, node.keyMark.line);
+            if (!isNew) {
                 problems_.add(level.keyMark, level.key,
-                              fmt::format("this key stands twice, first in line {}; keep one", earlier->keyMark.line));
-            else
+                              fmt::format("this key stands twice, first in line {}; keep one", earlier->second));
+            } else {
+                if (const std::size_t colon = level.key.find(':'); node.isNothing() && colon != std::string::npos)
+                    problems_.add(level.keyMark, "",
+                                  fmt::format("a blank is missing after the ':': write '{}: {}'",
+                                              level.key.substr(0, colon), level.key.substr(colon + 1)));
                 level.node.entries.emplace_back(level.key, std::move(node));
+            }
         }
     }
 
     std::string shownAs_;
-    const ListUnits& units_;
+    const DictionaryText& units_;
     Problems& problems_;
     std::vector<Level> open_;
     Node root_;
@@ -271,10 +211,17 @@ std::string hint(const std::string& message) {
 
 Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, Problems& problems) {
     const std::size_t before = problems.count();
-    const ListUnits units = takeListUnits(text, shownAs, problems);
+    const DictionaryText units = dictionaryText(text, shownAs, problems);
     Node root;
     root.mark = {shownAs, 1, 1};
     if (problems.count() != before) return root;  // YAML would stumble over the same place once more
+    // What another format would write there says more than YAML's complaint. Lines are from 1, 0 for all.
+    const auto complain = [&](const Mark& mark, const std::string& message, int line) {
+        if (const auto habit = foreignHabit(units.text, shownAs, line))
+            problems.add(habit->mark, "", habit->message);
+        else
+            problems.add(mark, "", message);
+    };
     try {
         std::istringstream stream(units.text);
         YAML::Parser parser(stream);
@@ -282,21 +229,22 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
         if (parser.HandleNextDocument(tree) && tree.hasRoot()) {
             Node read = tree.root();
             if (tableOnly && read.kind != Node::Kind::table && !read.isNothing())
-                problems.add(read.mark, "",
-                             fmt::format("found {}; a dictionary is a table of 'key: value' lines", read.kindText()));
+                complain(read.mark, fmt::format("found {}; a dictionary is a table of 'key: value' lines", read.kindText()), 0);
             else if (!(tableOnly && read.isNothing()))
                 root = std::move(read);
             TreeBuilder second(shownAs, units, problems);
             if (parser.HandleNextDocument(second))
                 problems.add(root.mark, "", "more than one document ('---'); one file holds one dictionary");
         }
+    } catch (const TooDeep& there) {
+        problems.add(there.mark, "", fmt::format("nested more than {} levels deep; no dictionary needs that", deepest));
     } catch (const YAML::Exception& e) {
         if (const auto& opened = units.unclosed)
             problems.add({shownAs, opened->line + 1, opened->column + 1}, "",
                          fmt::format("this '{}' is not closed; a '{}' is missing", opened->character,
                                      opened->character == '[' ? ']' : '}'));
         else
-            problems.add({shownAs, e.mark.line + 1, e.mark.column + 1}, "", hint(e.msg));
+            complain({shownAs, e.mark.line + 1, e.mark.column + 1}, hint(e.msg), e.mark.line + 1);
     }
     root.setPath("");
     return root;
@@ -351,7 +299,7 @@ Node* child(Node& node, const std::string& name, const std::string& shown, Probl
         std::size_t i = 0;
         const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), i);
         if (error != std::errc() || end != name.data() + name.size() || i >= node.items.size())
-            return complain(fmt::format("'{}' is no item of this list; it has the items 0 to {}", name,
+            return complain(fmt::format("'{}' is not an item of this list; it has the items 0 to {}", name,
                                         static_cast<long>(node.items.size()) - 1));
         return &node.items[i];
     }

@@ -1,8 +1,10 @@
 // One YAML file of a case, read strictly.
 //
 // The subset: no anchors, aliases, tags, merges or tabs; duplicate keys are errors; every scalar is kept as text, so
-// that "012" and "no" mean what they say. A Node knows its place (file:line:column) and its full key. Overrides (-set)
-// are laid over the file before anything is read and have the place "-set".
+// that "012" and "no" mean what they say. UTF-8, with or without a byte-order mark, lines ended by \n or \r\n, at most
+// 4 MiB, nested at most 64 deep; reading takes time in proportion to the file. A Node knows its place
+// (file:line:column) and its full key. Overrides (-set) are laid over the file before anything is read and have the
+// place "-set".
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -26,9 +28,9 @@ class Node {
     std::string path;    // "cells[0].shape.d"; empty for the whole file
     std::string scalar;  // kind scalar: the text as written (quotes removed)
     bool quoted = false;
-    std::vector<Node> items;     // kind list
-    std::string unit;            // kind list: found after it, as in "[20, 16, 16] um": not YAML, every reader refuses it
-    struct Entry;                // a key and its value
+    std::vector<Node> items;  // kind list
+    std::string unit;         // kind list: found after it, as in "[20, 16, 16] um": not YAML, every reader refuses it
+    struct Entry;             // a key and its value
     std::vector<Entry> entries;  // kind table, in the order of the file
 
     Node();

@@ -17,27 +17,51 @@ std::string Problem::text() const {
 }
 
 namespace {
-std::string joined(const std::vector<Problem>& problems) {
+constexpr std::size_t longestKey = 160, longestMessage = 1200;
+constexpr std::size_t mostKept = 10000;  // of which those reported are the first by file and line
+
+std::string joined(const std::vector<Problem>& problems, std::size_t more) {
     std::string text;
     for (const Problem& p : problems) text += (text.empty() ? "" : "\n") + p.text();
-    return text;
+    return more ? text + "\nand " + std::to_string(more) + " more" : text;
 }
 }  // namespace
 
-CaseError::CaseError(std::vector<Problem> problems)
-    : Failure(ExitCode::invalidCase, joined(problems)), problems_(std::move(problems)) {}
+std::string shortened(const std::string& text, std::size_t longest) {
+    if (text.size() <= longest) return text;
+    const auto isInside = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80; };
+    std::size_t head = longest / 2, tail = text.size() - longest / 2;
+    while (head > 0 && isInside(head)) --head;
+    while (tail < text.size() && isInside(tail)) ++tail;
+    return text.substr(0, head) + " ... " + text.substr(tail);
+}
+
+CaseError::CaseError(std::vector<Problem> problems, std::size_t more)
+    : Failure(ExitCode::invalidCase, joined(problems, more)), problems_(std::move(problems)), more_(more) {}
 
 void Problems::add(Mark mark, std::string key, std::string message) {
-    list_.push_back({std::move(mark), std::move(key), std::move(message)});
+    if (list_.size() == mostKept) {
+        ++more_;
+        return;
+    }
+    const auto oneLine = [](std::string text) {
+        for (char& c : text)
+            if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+        return text;
+    };
+    list_.push_back({std::move(mark), oneLine(shortened(key, longestKey)), oneLine(shortened(message, longestMessage))});
 }
 
 void Problems::throwIfAny() const {
-    if (list_.empty()) return;
+    if (empty()) return;
     std::vector<Problem> sorted = list_;
     std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
         return std::tie(a.mark.file, a.mark.line) < std::tie(b.mark.file, b.mark.line);
     });
-    throw CaseError(std::move(sorted));
+    const std::size_t shown = std::min(sorted.size(), mostShown);
+    const std::size_t more = sorted.size() - shown + more_;
+    sorted.resize(shown);
+    throw CaseError(std::move(sorted), more);
 }
 
 namespace {
@@ -64,6 +88,8 @@ std::string lowered(std::string text) {
 }  // namespace
 
 std::string nearestWord(const std::string& word, const std::vector<std::string>& allowed) {
+    constexpr std::size_t longestWord = 64;
+    if (word.size() > longestWord) return "";
     std::string best;
     std::size_t bestDistance = 2 + word.size() / 3;
     for (const std::string& candidate : allowed) {

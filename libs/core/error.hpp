@@ -45,24 +45,36 @@ struct Problem {
 
 class CaseError : public Failure {
   public:
-    explicit CaseError(std::vector<Problem> problems);
+    // `more`: how many there are beyond those listed.
+    explicit CaseError(std::vector<Problem> problems, std::size_t more = 0);
     const std::vector<Problem>& problems() const { return problems_; }
+    std::size_t more() const { return more_; }
+    std::size_t total() const { return problems_.size() + more_; }
 
   private:
     std::vector<Problem> problems_;
+    std::size_t more_;
 };
 
+// A file of another kind can hold any number of faults, and any length of them: keys and messages are shortened in the
+// middle, the first mostShown problems are reported, and the others are counted.
 class Problems {
   public:
+    static constexpr std::size_t mostShown = 50;
     void add(Mark mark, std::string key, std::string message);
-    bool empty() const { return list_.empty(); }
-    std::size_t count() const { return list_.size(); }
+    void addUncounted(std::size_t more) { more_ += more; }  // of another collection, which has left out so many
+    bool empty() const { return count() == 0; }
+    std::size_t count() const { return list_.size() + more_; }
     // Throws CaseError with everything collected so far, sorted by file and line, if there is anything.
     void throwIfAny() const;
 
   private:
     std::vector<Problem> list_;
+    std::size_t more_ = 0;  // not kept
 };
+
+// The text, or its beginning and end with "..." between them, never cutting a character of several bytes.
+std::string shortened(const std::string& text, std::size_t longest);
 
 // The word of `allowed` nearest to `word` by edit distance (Damerau), empty when none is near (distance above 1 +
 // length/3).

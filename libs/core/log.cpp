@@ -3,26 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+
+#include "core/writeFailure.hpp"
 
 namespace corpuscle {
 
-void Log::open(const std::filesystem::path& file) {
+void Log::open(const std::filesystem::path& file, const std::string& continuation) {
     if (!isRoot_) return;
-    file_.open(file);
+    if (file_.is_open()) file_.close();
+    path_ = file;
+    errno = 0;
+    file_.open(file, continuation.empty() ? std::ios::trunc : std::ios::app);
     if (!file_) {
-        warningLine(fmt::format("cannot write {}; the log goes to the terminal only", file.string()));
+        warningLine(fmt::format("{}; the log goes to the terminal only", writeFailure(path_, errno).what()));
         return;
     }
+    if (!continuation.empty()) file_ << (file_.tellp() > 0 ? "\n" : "") << continuation << '\n';
     file_ << beforeFile_ << std::flush;
     beforeFile_.clear();
 }
 
 void Log::keep(const std::string& line) {
     if (file_.is_open())
-        file_ << line << std::endl;
-    else
+        note(line + '\n');
+    else if (path_.empty())
         beforeFile_ += line + '\n';
+}
+
+void Log::note(const std::string& text) {
+    if (!file_.is_open()) return;
+    errno = 0;
+    file_ << text << std::flush;
+    if (file_) return;
+    const int reason = errno;
+    file_.close();
+    file_.clear();
+    warningLine(fmt::format("{}; from here on the log goes to the terminal only", writeFailure(path_, reason).what()));
 }
 
 void Log::infoLine(const std::string& line) {

@@ -1,5 +1,6 @@
 // What a program tells its user: on the terminal and, when opened, in the file log.<application> of the case. Only the
-// root speaks. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr.
+// root speaks. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr. A log that can no longer be written
+// does not end a run: it is a warning, once.
 #pragma once
 #include <fmt/core.h>
 
@@ -14,8 +15,11 @@ class Log {
   public:
     Log(bool isRoot, bool quiet) : isRoot_(isRoot), quiet_(quiet) {}
 
-    // Starts the file; what was said before is in it too. A file that cannot be written is a warning.
-    void open(const std::filesystem::path& file);
+    // Starts the file, or goes on at its end after the line `continuation`; what was said before is in it too. A file that cannot be
+    // written is a warning.
+    void open(const std::filesystem::path& file, const std::string& continuation = {});
+    // In the file only, once it is open: what the terminal has been told in another way.
+    void note(const std::string& text);
 
     template <class... A>
     void info(fmt::format_string<A...> format, A&&... values) {
@@ -41,6 +45,7 @@ class Log {
     void keep(const std::string& line);
 
     bool isRoot_, quiet_;
+    std::filesystem::path path_;
     std::ofstream file_;
     std::string beforeFile_;
     std::vector<std::string> warnings_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace corpuscle {
 
 std::map<std::string, FamilyInfo>& families() {
@@ -16,8 +18,12 @@ std::optional<std::string> modelName(const Node& node, const std::string& family
     if (node.kind == Node::Kind::table) {
         name = node.find("type");
         if (!name) {
+            std::string cure;
+            for (const auto& [key, value] : node.entries)
+                if (std::find(known.begin(), known.end(), key) != known.end())
+                    cure = fmt::format(" Write 'type: {}', with its settings beside it.", key);
             problems.add(node.place(), node.path,
-                         fmt::format("'type' is missing: the {} to use. Known: {}", family, list));
+                         fmt::format("'type' is missing: the {} to use.{} Known: {}", family, cure, list));
             return std::nullopt;
         }
     }
@@ -30,7 +36,7 @@ std::optional<std::string> modelName(const Node& node, const std::string& family
         if (k == name->scalar) return k;
     problems.add(
         name->mark, name->path,
-        fmt::format("unknown {} '{}'.{} Known: {}", family, name->scalar, didYouMean(name->scalar, known), list));
+        fmt::format("unknown {} '{}'.{} Known: {}", family, shortened(name->scalar, 80), didYouMean(name->scalar, known), list));
     return std::nullopt;
 }
 

@@ -11,6 +11,10 @@
 
 namespace corpuscle {
 
+namespace {
+constexpr long roomToEnd = 1 << 15;  // for the end of a run whose disk is full [bytes]
+}
+
 std::string timestamp() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
@@ -63,20 +67,37 @@ std::string RunRecord::text() const {
 }
 
 void RunRecord::write() const {
-    if (isRoot_) writeFileAtomically(file_, text());
+    if (isRoot_) writeFileAtomically(file_, text(), roomToEnd);
 }
 
 void RunRecord::print() const {
     if (isRoot_) fmt::print("{}", text());
 }
 
-void RunRecord::finish(ExitCode code, const std::string& reason) {
+void RunRecord::close(ExitCode code, const std::string& reason) {
     set("", "status", code == ExitCode::done ? "done" : code == ExitCode::stopped ? "stopped" : "failed");
     set("", "reason", reason);
     set("", "end", timestamp());
     set("", "wallClock_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
     finished_ = true;
+}
+
+void RunRecord::finish(ExitCode code, const std::string& reason) {
+    close(code, reason);
     write();
+}
+
+void RunRecord::fail(ExitCode code, const std::string& reason) noexcept {
+    try {
+        close(code, reason);
+        try {
+            writeFileAtomically(file_, text());
+        } catch (const Failure&) {
+            overwriteFile(file_, text());
+        }
+    } catch (const std::exception&) {
+        return;  // the reason stands on the terminal
+    }
 }
 
 void writeUsed(const std::filesystem::path& file, const std::vector<Node::Entry>& dictionaries,

@@ -44,10 +44,14 @@ class RunRecord {
     void print() const;  // on standard output
     // Fills in status, reason and end, and writes.
     void finish(ExitCode code, const std::string& reason);
+    // The same for a run that ends by an error, from any rank that knows of it: the root may be waiting for the others. Never throws; writes on a full
+    // disk too.
+    void fail(ExitCode code, const std::string& reason) noexcept;
     bool finished() const { return finished_; }
 
   private:
     std::string text() const;
+    void close(ExitCode code, const std::string& reason);
     void put(const std::string& section, const std::string& key, const Value& value);
 
     std::filesystem::path file_;

@@ -1,10 +1,13 @@
 #include "core/schemaJson.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <string_view>
 
+#include "core/quantityForms.hpp"
 #include "core/registry.hpp"
 
 namespace corpuscle {
@@ -12,16 +15,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* numberPattern = "[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)?";
-constexpr const char* namePattern = "^[A-Za-z][A-Za-z0-9_-]*$";
+// The whole text; '$' alone would let a newline follow.
+std::string whole(const std::string& pattern) { return "^(?:" + withUnicode(pattern) + ")$(?!\\n)"; }
 
-Json pattern(const std::string& regex) { return {{"type", "string"}, {"pattern", "^" + regex + "$"}}; }
-
-Json numberIn(const Range& range) {
-    Json json{{"type", "number"}};
-    if (std::isfinite(range.low)) json[range.lowOpen ? "exclusiveMinimum" : "minimum"] = range.low;
-    if (std::isfinite(range.high)) json[range.highOpen ? "exclusiveMaximum" : "maximum"] = range.high;
+Json text(const std::string& pattern, const std::string& expected = "") {
+    Json json{{"type", "string"}, {"pattern", whole(pattern)}};
+    if (!expected.empty()) json["patternErrorMessage"] = expected;  // shown by editors
     return json;
+}
+
+std::string nameText() { return std::string("(?!(?:") + reservedWords + ")$)" + namePattern; }
+
+std::string escaped(const std::string& word) {
+    std::string pattern;
+    for (const char c : word) {
+        if (std::string_view(".+*?()[]{}|^$\\/").find(c) != std::string_view::npos) pattern += '\\';
+        pattern += c;
+    }
+    return pattern;
+}
+
+std::string orWords(const std::vector<std::string>& words, const std::string& pattern) {
+    std::string all;
+    for (const std::string& w : words) all += escaped(w) + "|";
+    return all + pattern;
 }
 
 class Writer {
@@ -34,29 +51,50 @@ class Writer {
                 others = item(f);
                 continue;
             }
-            Json property = value(f);
-            if (!f.alternative.empty()) property = {{"anyOf", {property, {{"const", f.alternative}}}}};
-            property["description"] = f.text;
+            Json property{{"description", f.text}};
             if (!f.fallback.empty()) property["default"] = defaultValue(f.fallback);
+            property.update(value(f));
             properties[f.key] = std::move(property);
             if (f.required) required.push_back(f.key);
         }
         Json json{{"type", "object"}, {"description", info.text}, {"properties", properties}};
         json["additionalProperties"] = others;
-        if (others != false) json["propertyNames"] = {{"pattern", namePattern}};
+        if (others != false) json["propertyNames"] = {{"pattern", whole(nameText())}};
         if (!required.empty()) json["required"] = required;
         Json rules = Json::array();
         for (const auto& keys : info.exactlyOne) {
-            Json choices = Json::array();
-            for (const std::string& k : keys) choices.push_back({{"required", {k}}});
-            rules.push_back({{"oneOf", choices}});
+            // Where none of the others is there, the first is required: a message then names a key.
+            Json given = Json::array();
+            for (std::size_t i = 1; i < keys.size(); ++i) given.push_back({{"required", {keys[i]}}});
+            rules.push_back({{"if", {{"not", {{"anyOf", given}}}}}, {"then", {{"required", {keys[0]}}}}});
+            exclude(keys, rules);
         }
-        for (const auto& keys : info.atMostOne)
-            for (std::size_t i = 0; i < keys.size(); ++i)
-                for (std::size_t j = i + 1; j < keys.size(); ++j)
-                    rules.push_back({{"not", {{"required", {keys[i], keys[j]}}}}});
+        for (const auto& keys : info.atMostOne) exclude(keys, rules);
         if (!rules.empty()) json["allOf"] = rules;
         return json;
+    }
+
+    // A table with `type` and the settings of the model of that name beside it.
+    Json reference(const std::string& family) {
+        if (!definitions_.contains(family)) {
+            definitions_[family] = Json::object();  // stands while the models are written: a family may contain itself
+            Json names = Json::array(), branches = Json::array();
+            for (const ModelInfo& model : families()[family].models()) {
+                names.push_back(model.name);
+                Json withSettings = table(model.settings);
+                withSettings["description"] = model.text;
+                withSettings["properties"]["type"] = {{"const", model.name}};
+                const Json isThis{{"required", {"type"}}, {"properties", {{"type", {{"const", model.name}}}}}};
+                branches.push_back({{"if", isThis}, {"then", std::move(withSettings)}});
+            }
+            definitions_[family] = {{"type", "object"},
+                                    {"required", {"type"}},
+                                    {"properties", {{"type", {{"enum", names}}}}},
+                                    {"allOf", std::move(branches)}};
+        }
+        std::string pointer = family;
+        for (auto at = pointer.find(' '); at != std::string::npos; at = pointer.find(' ')) pointer.replace(at, 1, "%20");
+        return {{"$ref", "#/definitions/" + pointer}};
     }
 
     const Json& definitions() const { return definitions_; }
@@ -67,69 +105,86 @@ class Writer {
         return toJson(parseValue(fallback, "", ignored));
     }
 
-    static Json quantity(Dimension dimension, const Range& range) {
-        return dimension.isDimensionless() ? numberIn(range) : pattern(std::string(numberPattern) + " ?[A-Za-z1].*");
+    static void exclude(const std::vector<std::string>& keys, Json& rules) {
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            for (std::size_t j = i + 1; j < keys.size(); ++j)
+                rules.push_back({{"not", {{"required", {keys[i], keys[j]}}}}});
+    }
+
+    // A bare number in its range. As a text (in quotes, or 1e-3 for readers of YAML 1.1) only its form is checked.
+    static Json number(const char* type, Range range, const std::string& pattern, const FieldInfo& f) {
+        Json json{{"type", {type, "string"}}};
+        if (!std::isfinite(range.low)) range.low = -largestNumber, range.lowOpen = true;
+        if (!std::isfinite(range.high)) range.high = largestNumber, range.highOpen = true;
+        if (range.low == 0 && range.lowOpen) range = {leastNumber, range.high, false, range.highOpen};
+        json[range.lowOpen ? "exclusiveMinimum" : "minimum"] = range.low;
+        json[range.highOpen ? "exclusiveMaximum" : "maximum"] = range.high;
+        json["pattern"] = whole(pattern);
+        json["patternErrorMessage"] = f.description();
+        return json;
+    }
+
+    static Json quantity(const FieldInfo& f, const std::vector<std::string>& words) {
+        const std::string pattern = orWords(words, quantityPattern(f.dimension, f.range));
+        if (f.dimension.isDimensionless()) return number("number", f.range, pattern, f);
+        return text(pattern, fmt::format("{}, such as {}", f.description(), f.example()));
     }
     static Json three(Json of) {
         return {{"type", "array"}, {"items", std::move(of)}, {"minItems", 3}, {"maxItems", 3}};
     }
+    // Of a text only these words, else what is given: with a message for the one that was meant.
+    static Json wordsOr(const std::vector<std::string>& words, Json other) {
+        if (words.empty()) return other;
+        return {{"if", {{"type", "string"}}}, {"then", {{"enum", words}}}, {"else", std::move(other)}};
+    }
 
+    // Simple values carry their alternative word in their pattern.
     Json value(const FieldInfo& f) {
-        if (f.type == "quantity") return quantity(f.dimension, f.range);
-        if (f.type == "quantities")
-            return {{"type", "array"}, {"items", quantity(f.dimension, f.range)}};
-        if (f.type == "vector") return three(quantity(f.dimension, f.range));
-        if (f.type == "integer" || f.type == "integers") {
-            Json whole = numberIn(f.range);
-            whole["type"] = "integer";
-            return f.type == "integer" ? whole : three(whole);
-        }
-        if (f.type == "boolean") return {{"type", "boolean"}};
-        if (f.type == "booleans") return three({{"type", "boolean"}});
+        std::vector<std::string> words;
+        if (!f.alternative.empty()) words.push_back(f.alternative);
+        if (f.type == "quantity") return quantity(f, words);
+        if (f.type == "length") return text(orWords(words, lengthPattern(f.range)), f.description() + ", such as 3.0 dx");
+        if (f.type == "integer") return number("integer", f.range, orWords(words, integerPattern(f.range)), f);
+        if (f.type == "word or quantity")
+            return text(orWords(f.words, quantityPattern(f.dimension, f.range)), f.description());
         if (f.type == "word") return {{"enum", f.words}};
-        if (f.type == "words") {
-            const Json words =
-                f.words.empty() ? Json{{"type", "string"}, {"pattern", namePattern}} : Json{{"enum", f.words}};
-            return {{"type", "array"}, {"items", words}};
-        }
-        if (f.type == "name") return {{"type", "string"}, {"pattern", namePattern}};
+        if (f.type == "name") return text(nameText(), "a letter, then letters, digits, '-' and '_'");
+        if (f.type == "interval") return text(intervalPattern(), "such as 0.1 strain, 1e-5 s or 100 steps, or never");
         if (f.type == "text") return {{"type", {"string", "number", "boolean"}}};
-        if (f.type == "length") return pattern(std::string(numberPattern) + " ?[a-zA-Z].*");
-        if (f.type == "interval") return pattern("(never|" + std::string(numberPattern) + " ?[a-z]+)");
+        if (f.type == "boolean") return {{"type", "boolean"}};
+        if (f.type == "model") {
+            for (const ModelInfo& model : families()[f.family].models())
+                if (!needsSettings(model.settings)) words.push_back(model.name);
+            return wordsOr(words, reference(f.family));
+        }
+        return wordsOr(words, composed(f));
+    }
+
+    Json composed(const FieldInfo& f) {
+        if (f.type == "quantities") return {{"type", "array"}, {"items", quantity(f, {})}};
+        if (f.type == "vector") return three(quantity(f, {}));
+        if (f.type == "integers") return three(number("integer", f.range, integerPattern(f.range), f));
+        if (f.type == "booleans") return three({{"type", "boolean"}});
+        if (f.type == "words")
+            return {{"type", "array"}, {"items", f.words.empty() ? text(nameText()) : Json{{"enum", f.words}}}};
         if (f.type == "list") return {{"type", "array"}, {"items", item(f)}};
         if (f.type == "map" || f.type == "models")
-            return {
-                {"type", "object"}, {"propertyNames", {{"pattern", namePattern}}}, {"additionalProperties", item(f)}};
+            return {{"type", "object"}, {"propertyNames", {{"pattern", whole(nameText())}}}, {"additionalProperties", item(f)}};
         return item(f);
     }
 
-    Json item(const FieldInfo& f) { return f.family.empty() ? table(f.table()) : reference(f.family); }
-
-    Json reference(const std::string& family) {
-        if (!definitions_.contains(family)) {
-            definitions_[family] = Json::object();  // stands while the models are written: a family may contain itself
-            Json choices = Json::array();
-            for (const ModelInfo& model : families()[family].models()) {
-                Json withSettings = table(model.settings);
-                withSettings["description"] = model.text;
-                withSettings["properties"]["type"] = {{"const", model.name}};
-                withSettings["required"].push_back("type");
-                choices.push_back(std::move(withSettings));
-                if (!needsSettings(model.settings)) choices.push_back({{"const", model.name}});
-            }
-            definitions_[family] = {{"anyOf", std::move(choices)}};
-        }
-        return {{"$ref", "#/definitions/" + escaped(family)}};
+    // Of a list or a map.
+    Json item(const FieldInfo& f) {
+        if (f.family.empty()) return table(f.table());
+        FieldInfo model = f;
+        model.type = "model";
+        return value(model);
     }
 
     static bool needsSettings(const SchemaInfo& info) {
         for (const FieldInfo& f : info.fields)
             if (f.required) return true;
         return !info.exactlyOne.empty();
-    }
-    static std::string escaped(std::string name) {
-        for (auto at = name.find(' '); at != std::string::npos; at = name.find(' ')) name.replace(at, 1, "%20");
-        return name;
     }
 
     Json definitions_ = Json::object();
@@ -143,6 +198,16 @@ nlohmann::ordered_json jsonSchema(const SchemaInfo& info) {
     json.update(writer.table(info));
     if (!writer.definitions().empty()) json["definitions"] = writer.definitions();
     return json;
+}
+
+nlohmann::ordered_json jsonSchemaOfModel(const std::string& title, const std::string& description, const std::string& family) {
+    Writer writer;
+    const Json model = writer.reference(family);
+    return {{"$schema", "http://json-schema.org/draft-07/schema#"},
+            {"title", title},
+            {"description", description},
+            {"allOf", {model}},
+            {"definitions", writer.definitions()}};
 }
 
 nlohmann::ordered_json toJson(const Node& node) {

@@ -1,5 +1,9 @@
-// JSON Schema (draft 7) of declared settings, for editors and for checks outside of Corpuscle. It is looser than the
-// reader: units are a pattern, rules over several keys beyond exactlyOneOf are not expressed.
+// JSON Schema (draft 7) of declared settings, for editors and for checks outside of Corpuscle. It accepts what the reader
+// accepts, with units and signs (quantityForms.hpp), the range of bare numbers, one branch for each model, exactlyOneOf
+// and atMostOneOf. It does not know the range of a number with a unit beyond its sign, nor of a number in quotes, nor
+// the rules that a check function holds or that lie between files.
+//
+// Beside standard words there is "patternErrorMessage", with which editors explain a pattern in plain words.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,8 +14,11 @@ namespace corpuscle {
 // Families that are named stand under "definitions" (from the registry of this program).
 nlohmann::ordered_json jsonSchema(const SchemaInfo& info);
 
-// A dictionary as JSON: plain numbers and true/false as such, every other scalar as text, a list with a unit after it
-// as the text that stands in the file ("[1 um, 2 um, 3 um]").
+// Of a file that is one model: `type` with its settings beside it.
+nlohmann::ordered_json jsonSchemaOfModel(const std::string& title, const std::string& description,
+                                         const std::string& family);
+
+// A dictionary as JSON: plain numbers and true/false as such, every other scalar as text.
 nlohmann::ordered_json toJson(const Node& node);
 
 }  // namespace corpuscle

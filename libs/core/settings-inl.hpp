@@ -23,6 +23,7 @@ Codec<std::string> word(std::vector<std::string> allowed);
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed);  // empty: any names
 Codec<std::string> name();
 Codec<std::string> text();
+Codec<std::string> wordOrQuantity(std::vector<std::string> allowed, Dimension dimension, Range range);
 Codec<Vec3> vector(Dimension dimension, Range range);
 Codec<Index3> integers(Range range);
 Codec<std::array<bool, 3>> booleans();
@@ -46,6 +47,7 @@ class SchemaBase {
     };
     using Check = std::function<void(const void*, const Node&, Problems&)>;
 
+    void declareAtRestart(AtRestart policy, const std::vector<std::string>& keys);
     static FieldInfo describe(std::string type, std::string key, std::string text, const FieldOptions& options,
                               Dimension dimension = {});
     static std::optional<Node> writeOptional(std::optional<Node> node, const std::string& alternative);
@@ -144,6 +146,13 @@ class Schema : public SchemaBase {
     }
     Schema& text(const Str& key, Maybe<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("text", key, text, o), m, codec::text());
+    }
+
+    // One of the allowed words, or a quantity, kept as it is written.
+    Schema& wordOrQuantity(const Str& key, Str T::*m, const std::vector<Str>& allowed, Dimension d, const Str& text,
+                           const Options& o = {}) {
+        return add(withWords(describe("word or quantity", key, text, o, d), allowed), m,
+                   codec::wordOrQuantity(allowed, d, o.range));
     }
 
     // "[1 um, 2 um, 3 um]"; the range holds for each component.
@@ -259,6 +268,11 @@ class Schema : public SchemaBase {
     }
     Schema& atMostOneOf(std::vector<Str> keys) {
         atMostOne_.push_back(std::move(keys));
+        return *this;
+    }
+    // For the fields declared so far.
+    Schema& atRestart(AtRestart policy, const std::vector<Str>& keys) {
+        declareAtRestart(policy, keys);
         return *this;
     }
     // A rule over several fields; runs only when the table itself has no problem.

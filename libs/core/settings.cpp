@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "core/quantityForms.hpp"
 
 namespace corpuscle {
 
@@ -54,6 +57,7 @@ std::string FieldInfo::example() const {
     if (type == "booleans") return "[true, true, false]";
     if (type == "integers") return "[1, 2, 3]";
     if (type == "interval") return "0.1 strain";
+    if (type == "word or quantity" && !words.empty()) return words.front();
     if (type == "word" && !words.empty()) return words.front();
     if (type == "words") return fmt::format("[{}]", joinWords(words));
     return "";
@@ -73,6 +77,8 @@ std::string FieldInfo::description() const {
         what = "true or false";
     else if (type == "word")
         what = fmt::format("one of {}", joinWords(words));
+    else if (type == "word or quantity")
+        what = fmt::format("{}, or a quantity in {}", joinWords(words), si);
     else if (type == "words")
         what = words.empty() ? "a list of names" : fmt::format("a list of {}", joinWords(words));
     else if (type == "name")
@@ -100,6 +106,31 @@ std::string FieldInfo::description() const {
     else
         what = "a table of named models, each a " + family;
     return what + limits + (alternative.empty() ? "" : ", or " + alternative);
+}
+
+const char* nameOf(AtRestart policy) {
+    switch (policy) {
+        case AtRestart::free:
+            return "free";
+        case AtRestart::noted:
+            return "noted";
+        case AtRestart::resolved:
+            return "resolved";
+        case AtRestart::fixed:
+        case AtRestart::undeclared:
+            break;
+    }
+    return "fixed";
+}
+
+void SchemaBase::declareAtRestart(AtRestart policy, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        const auto field =
+            std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.info.key == key; });
+        if (field == fields_.end())
+            throw std::logic_error("atRestart of '" + name_ + "' names '" + key + "', which is not declared before it");
+        field->info.atRestart = policy;
+    }
 }
 
 SchemaBase::SchemaBase(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
@@ -140,11 +171,14 @@ void SchemaBase::eachEntry(const Node& node, Problems& problems,
         return;
     }
     for (const auto& [key, value] : node.entries)
-        if (isName(key))
-            entry(key, value);
-        else
+        if (!isName(key))
             problems.add(value.place(), value.path,
-                         fmt::format("'{}' is no name: a letter, then letters, digits, '-' and '_'", key));
+                         fmt::format("'{}' is not a name: a letter, then letters, digits, '-' and '_'", shortened(key, 80)));
+        else if (matches(key, reservedWords))
+            problems.add(value.place(), value.path,
+                         fmt::format("'{}' is not a name: YAML reads it as true, false or nothing; take another", key));
+        else
+            entry(key, value);
 }
 
 void SchemaBase::eachItem(const Node& node, Problems& problems, const std::function<void(const Node&)>& item) {
@@ -159,9 +193,33 @@ void SchemaBase::eachItem(const Node& node, Problems& problems, const std::funct
 
 namespace {
 
-bool has(const Node& node, const std::string& key) { return node.find(key) != nullptr; }
-
 std::string quotedList(const std::vector<std::string>& keys) { return fmt::format("'{}'", joinWords(keys, "', '")); }
+
+// What is wrong with a scalar is said together with the word that may stand in its place.
+void readOr(const std::string& word, const Node& value, Problems& problems, const std::function<void(Problems&)>& read) {
+    if (word.empty() || value.kind != Node::Kind::scalar) return read(problems);
+    Problems own;
+    read(own);
+    try {
+        own.throwIfAny();
+    } catch (const CaseError& error) {
+        for (const Problem& p : error.problems()) problems.add(p.mark, p.key, fmt::format("{}, or {}", p.message, word));
+    }
+}
+
+// The keys of one entry in place of the entries' names: "type: shape" for "deformation: {type: shape}". Returns the key
+// that tells, or "".
+std::string withoutName(const Node& table, const FieldInfo& entries) {
+    if (table.entries.empty()) return "";
+    if (!entries.family.empty()) {
+        const Node* type = table.find("type");
+        return type && type->kind == Node::Kind::scalar ? "type" : "";
+    }
+    const std::vector<FieldInfo> fields = entries.table().fields;
+    for (const auto& [key, value] : table.entries)
+        if (std::none_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == key; })) return "";
+    return table.entries.front().key;
+}
 
 // The keys present, in the order of the file.
 std::vector<const Node*> present(const Node& node, const std::vector<std::string>& keys) {
@@ -180,41 +238,52 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
         return;
     }
     const std::size_t before = problems.count();
-    std::vector<std::string> known;
+    std::vector<std::string> known, absent;  // keys
     const Field* rest = nullptr;
     for (const Field& f : fields_)
         if (f.info.key == "*")
             rest = &f;
         else
             known.push_back(f.info.key);
+    for (const std::string& k : known)
+        if (!node.find(k)) absent.push_back(k);
 
-    Node others = node;
-    others.entries.clear();
+    Node others;
+    others.mark = node.mark;
+    others.keyMark = node.keyMark;
+    others.path = node.path;
     std::vector<std::string> misspelt;  // known keys that an unknown one is near to: not reported as missing as well
+    const std::string allowed = known.empty() ? "No key is allowed here" : fmt::format("Allowed: {}", joinWords(known));
     for (const auto& [key, value] : node.entries) {
         if (key == ignored || std::find(known.begin(), known.end(), key) != known.end()) continue;
         if (rest) {
             others.entries.emplace_back(key, value);
             continue;
         }
-        std::vector<std::string> absent;
-        for (const std::string& k : known)
-            if (!has(node, k)) absent.push_back(k);
-        std::string nearest = nearestWord(key, absent);
-        if (nearest.empty()) nearest = nearestWord(key, known);
+        std::string nearest, advice;
+        if (misspelt.size() < 2 * Problems::mostShown) {
+            nearest = nearestWord(key, absent);
+            if (!nearest.empty()) {
+                advice = fmt::format(" Did you mean '{}'?", nearest);
+            } else if (nearest = nearestWord(key, known); !nearest.empty()) {
+                const Mark& there = node.find(nearest)->place();
+                advice = fmt::format(" '{}' is given already{}: keep one.", nearest, there.line ? fmt::format(" in line {}", there.line) : "");
+            }
+        }
         misspelt.push_back(nearest);
-        problems.add(
-            value.place(), value.path,
-            fmt::format("unknown key '{}'.{} {}", key,
-                        nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest),
-                        known.empty() ? "No key is allowed here" : fmt::format("Allowed: {}", joinWords(known))));
+        problems.add(value.place(), value.path, fmt::format("unknown key '{}'.{} {}", shortened(key, 80), advice, allowed));
     }
 
     for (const Field& f : fields_) {
         if (&f == rest) {
-            f.read(object, others, problems);
+            if (const std::string key = withoutName(others, f.info); !key.empty())
+                problems.add(others.find(key)->place(), node.path,
+                             fmt::format("'{0}' stands without the name that it belongs to: each entry has a name of its "
+                                         "own, 'NAME: {{{0}: ...}}'. An entry is {1}", key, f.info.text));
+            else
+                f.read(object, others, problems);
         } else if (const Node* value = node.find(f.info.key)) {
-            f.read(object, *value, problems);
+            readOr(f.info.alternative, *value, problems, [&](Problems& own) { f.read(object, *value, own); });
         } else if (!f.info.fallback.empty()) {
             Node fallback = parseValue(f.info.fallback, node.mark.file, problems);
             fallback.keyMark = node.place();

@@ -19,11 +19,11 @@
 //     Fluid fluid = read<Fluid>(node, problems);
 //
 // Kinds of fields (each: key, &T::member, ..., one sentence, {.fallback, .range}); settings-inl.hpp declares them:
-//     quantity quantityOr quantities integer boolean word words name text vector vectorOr integers booleans length
-//     lengthOr interval table tableOr list map model modelOr models
+//     quantity quantityOr quantities integer boolean word words wordOrQuantity name text vector vectorOr integers
+//     booleans length lengthOr interval table tableOr list map model modelOr models
 // The key "*" of map and models takes every key that is not declared otherwise (a file that is a table of free names).
 // Rules over several keys: exactlyOneOf({"Ca", "shearRate"}), atMostOneOf(...), check(function); include<Base>() adds
-// the fields of a base struct.
+// the fields of a base struct; atRestart(AtRestart::fixed, {"spacing"}) says what a change means to a continued run.
 //
 // A field is required unless it has a fallback, or its member is a std::optional (then it stays empty).
 // `fallback` is written as a user would write it, and goes through the same parser and checks.
@@ -56,6 +56,17 @@ inline constexpr Range nonNegative{0};
 constexpr Range between(double low, double high) { return {low, high, false, false}; }
 constexpr Range atLeast(double low) { return {low}; }
 
+// What a changed value means to a run that continues from a checkpoint (settingsChange.hpp). A setting that declares nothing
+// takes what the table or model around it declares; where nothing does, it is fixed.
+enum class AtRestart {
+    undeclared,
+    fixed,     // the state depends on it: the restart is refused
+    free,      // only says when to stop, what to write or to measure
+    noted,     // the continued run is another one from there on: both values are reported
+    resolved,  // it acts through a value that the case derives from it and from other settings, and that value is fixed
+};
+const char* nameOf(AtRestart policy);
+
 struct FieldOptions {
     std::string fallback = {};  // as written in a case; empty: none
     Range range = {};
@@ -78,8 +89,8 @@ struct Interval {
 // What a field is, for the reference page, the JSON schema and help.
 struct FieldInfo {
     std::string key;
-    std::string type;  // "quantity", "quantities", "integer", "boolean", "word", "words", "name", "text", "vector",
-                       // "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
+    std::string type;  // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text",
+                       // "vector", "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
     Dimension dimension;
     std::string text;      // one sentence
     std::string fallback;  // "" when required
@@ -89,6 +100,7 @@ struct FieldInfo {
     std::function<struct SchemaInfo()> table;  // of a nested table, list item, map item
     std::string family;                        // of a model: registry name
     std::string alternative;                   // word allowed instead of the value ("auto", "none", "physical")
+    AtRestart atRestart = AtRestart::undeclared;
 
     std::string example() const;      // a value as a user would write it
     std::string description() const;  // "a quantity in Pa s, greater than 0", "one of noSlip, freeSlip"

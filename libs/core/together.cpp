@@ -1,6 +1,40 @@
 #include "core/together.hpp"
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <new>
+
+#include "core/machineMemory.hpp"
+
 namespace corpuscle {
+
+Failure memoryFailure() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    constexpr double kibibyte = 1024;
+    const AvailableMemory memory = availableMemory();
+    const MemoryLimit& least = memory.own.bytes < memory.shared.bytes ? memory.own : memory.shared;
+    return {ExitCode::io,
+            fmt::format("no memory is left: this process had up to {}, asked for more, and was refused ({} left: {}). "
+                        "Take a larger "
+                        "spacing or a smaller box, more machines, or raise the limit; checkCase says what a run needs",
+                        formatBytes(kibibyte * static_cast<double>(usage.ru_maxrss)), formatBytes(least.bytes),
+                        least.name)};
+}
+
+Failure fileFailure(const std::filesystem::filesystem_error& error) {
+    std::string files = error.path1().string();
+    if (!error.path2().empty()) files += " and " + error.path2().string();
+    return {ExitCode::io, fmt::format("{}: {}", files, error.code().message())};
+}
+
+std::string wordsFor(const std::exception& error) {
+    if (dynamic_cast<const std::bad_alloc*>(&error)) return memoryFailure().what();
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+        return fileFailure(*file).what();
+    return error.what();
+}
 
 int firstFailed(MPI_Comm comm, bool failed, std::string& text) {
     int rank = 0, size = 1;

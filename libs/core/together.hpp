@@ -2,12 +2,20 @@
 #pragma once
 #include <mpi.h>
 
+#include <exception>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace corpuscle {
+
+// What std::bad_alloc and errors of std::filesystem mean to a user.
+Failure memoryFailure();
+Failure fileFailure(const std::filesystem::filesystem_error& error);
+// The text of any error, by these where it is one of theirs.
+std::string wordsFor(const std::exception& error);
 
 // Collective. The lowest rank that has failed, -1: none; then `text` is that rank's on all.
 int firstFailed(MPI_Comm comm, bool failed, std::string& text);
@@ -24,7 +32,7 @@ void together(MPI_Comm comm, Work&& work) {
         std::forward<Work>(work)();
     } catch (const std::exception& error) {
         failed = true;
-        text = error.what();
+        text = wordsFor(error);
     }
     throwTogether(comm, failed, text);
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/quantityForms.hpp"
 
 namespace corpuscle {
 namespace {
@@ -30,16 +31,24 @@ struct Symbol {
     bool prefixable;
 };
 
-constexpr std::array<Symbol, 14> symbols{{{"m", {unit::metre}, true},
+constexpr std::array<Symbol, 22> symbols{{{"m", {unit::metre}, true},
                                           {"s", {unit::second}, true},
                                           {"kg", {{1, 0, 0}}, false},
                                           {"g", {{1, 0, 0}, -3}, true},
                                           {"N", {unit::newton}, true},
+                                          {"dyn", {unit::newton, -5}, true},
                                           {"Pa", {unit::pascal}, true},
+                                          {"bar", {unit::pascal, 5}, true},
+                                          {"mmHg", {unit::pascal, 0, 133.322387415}, false},
+                                          {"mmH2O", {unit::pascal, 0, 9.80665}, false},
+                                          {"cmH2O", {unit::pascal, 0, 98.0665}, false},
+                                          {"P", {unit::pascalSecond, -1}, true},
                                           {"J", {unit::joule}, true},
+                                          {"erg", {unit::joule, -7}, true},
                                           {"Hz", {unit::perSecond}, true},
                                           {"W", {{1, 2, -3}}, true},
                                           {"L", {{0, 3, 0}, -3}, true},
+                                          {"l", {{0, 3, 0}, -3}, true},
                                           {"min", {unit::second, 0, 60}, false},
                                           {"h", {unit::second, 0, 3600}, false},
                                           {"rad", {unit::none}, false},
@@ -49,8 +58,8 @@ struct Prefix {
     char letter;
     int decimal;
 };
-constexpr std::array<Prefix, 9> prefixes{
-    {{'f', -15}, {'p', -12}, {'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'k', 3}, {'M', 6}, {'G', 9}}};
+constexpr std::array<Prefix, 10> prefixes{
+    {{'a', -18}, {'f', -15}, {'p', -12}, {'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'k', 3}, {'M', 6}, {'G', 9}}};
 
 std::optional<UnitValue> lookUp(std::string_view name) {
     for (const Symbol& s : symbols)
@@ -72,13 +81,6 @@ const std::vector<std::string>& commonUnits() {
     return units;
 }
 
-std::string withoutMicroSign(std::string text) {
-    for (const std::string micro : {"\xC2\xB5", "\xCE\xBC"})
-        for (auto at = text.find(micro); at != std::string::npos; at = text.find(micro))
-            text.replace(at, micro.size(), "u");
-    return text;
-}
-
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -94,6 +96,7 @@ UnitValue parseUnit(std::string_view text) {
         skipBlanks();
         const std::size_t begin = i;
         while (i < text.size() && isLetter(text[i])) ++i;
+        if (i > begin && text[i - 1] == 'H' && text.substr(i, 2) == "2O") i += 2;
         const std::string_view name = text.substr(begin, i - begin);
         if (first && name.empty() && i < text.size() && text[i] == '1') {  // "1/s"
             ++i;
@@ -113,7 +116,7 @@ UnitValue parseUnit(std::string_view text) {
         } else {
             const std::string wrong = name.empty() ? std::string(text.substr(begin)) : std::string(name);
             throw std::invalid_argument(fmt::format(
-                "unknown unit '{}'.{} Known: m s kg g N Pa J Hz W L min h rad deg with the prefixes f p n u m c k M G, "
+                "unknown unit '{}'.{} Known: m s g N dyn Pa bar P J Hz L min h with the prefixes a f p n u m c k M G, "
                 "combined like 'kg/m^3', 'Pa s', 'N/m'",
                 wrong, didYouMean(wrong, commonUnits())));
         }
@@ -121,7 +124,7 @@ UnitValue parseUnit(std::string_view text) {
         skipBlanks();
         if (i == text.size()) return total;
         sign = text[i] == '/' ? -1 : 1;
-        if (text[i] == '/' || text[i] == '*')
+        if (text[i] == '/' || text[i] == '*' || text[i] == '.')
             ++i;
         else if (!isLetter(text[i]) || text[i - 1] != ' ')
             throw std::invalid_argument(fmt::format("cannot read the unit '{}' at '{}'", text, text.substr(i)));
@@ -162,7 +165,7 @@ double scaledNumber(std::string_view number, int decimal) {
     text += fmt::format("e{}", exponent);
     double value = 0;
     if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc() || !std::isfinite(value))
-        throw std::invalid_argument(fmt::format("the number {} is beyond double precision", number));
+        throw std::invalid_argument(fmt::format("the number '{}' is beyond double precision", number));
     return value;
 }
 
@@ -213,7 +216,7 @@ std::string Dimension::si() const {
 }
 
 Quantity parseQuantity(const std::string& written) {
-    std::string text = withoutMicroSign(written);
+    std::string text = plainUnits(written);
     const auto blank = [](char c) { return c == ' ' || c == '\n'; };
     while (!text.empty() && blank(text.back())) text.pop_back();
     while (!text.empty() && blank(text.front())) text.erase(0, 1);
@@ -251,7 +254,7 @@ std::string formatQuantity(double si, Dimension dimension, int digits) {
     const double size = std::abs(si) * (1 + 0.5 * std::pow(10.0, -digits));
     if (size < 1) {
         for (const Prefix& p : prefixes) {
-            if (p.letter == 'c' || p.decimal > 0) continue;
+            if (p.letter == 'c' || p.letter == 'a' || p.decimal > 0) continue;
             const double candidate = std::pow(10.0, p.decimal * n->leadingPower);
             if (size >= candidate || p.letter == 'f') {
                 prefix = p.letter;

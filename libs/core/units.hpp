@@ -1,12 +1,14 @@
 // Units at the border of the program: "8 um" -> 8e-6 m. Inside, every number is SI.
 //
 //   text      := number unit | number            (the second form only for dimensionless settings)
-//   unit      := factor { ("*" | " " | "/") factor }   e.g. "kg/m^3", "Pa s", "N/m", "m/s^2", "J"
+//   unit      := factor { ("*" | "." | " " | "/") factor }   e.g. "kg/m^3", "Pa s", "N/m", "m/s^2", "J"
 //   factor    := [prefix] symbol ["^" integer]; the first may be "1" as in "1/s"
-//   prefix    := f p n u m c k M G  (u = micro)
-//   symbols   := m s kg g N Pa J Hz W L (litre) min h rad deg; prefixes on all but kg, min, h, rad, deg
+//   prefix    := a f p n u m c k M G  (u = micro)
+//   symbols   := m s kg g N dyn Pa bar P (poise) J erg Hz W L l (litre) mmHg mmH2O cmH2O min h rad deg; prefixes on all
+//                but kg, mmHg, mmH2O, cmH2O, min, h, rad, deg
 //
-// Angles are dimensionless ("rad" = 1, "deg" = pi/180).
+// Angles are dimensionless ("rad" = 1, "deg" = pi/180). Which of these a dictionary takes for a dimension is set by
+// quantityForms.hpp.
 #pragma once
 #include <string>
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <iterator>
 
 namespace corpuscle {
 namespace {
@@ -12,10 +13,18 @@ namespace {
 volatile std::sig_atomic_t caught = 0;
 
 constexpr int handled[] = {SIGTERM, SIGINT, SIGUSR1};
+using Handler = void (*)(int);
+Handler before[std::size(handled)] =
+    {};  // what a second signal does: the handler that was there (caseLock.cpp), or the end
+
+void giveBack(int number) {
+    for (std::size_t k = 0; k < std::size(handled); ++k)
+        if (handled[k] == number) std::signal(number, before[k]);
+}
 
 void onSignal(int number) {
     caught = number;
-    std::signal(number, SIG_DFL);
+    giveBack(number);
 }
 
 const char* nameOf(long number) { return number == SIGTERM ? "SIGTERM" : number == SIGINT ? "SIGINT" : "SIGUSR1"; }
@@ -29,11 +38,14 @@ double since(std::chrono::steady_clock::time_point start) {
 StopControl::StopControl(Settings settings, const Communicator& communicator)
     : settings_(std::move(settings)), communicator_(communicator), start_(Clock::now()) {
     caught = 0;
-    for (int number : handled) std::signal(number, onSignal);
+    for (std::size_t k = 0; k < std::size(handled); ++k) {
+        const Handler was = std::signal(handled[k], onSignal);
+        if (was != onSignal) before[k] = was == SIG_ERR ? SIG_DFL : was;
+    }
 }
 
 StopControl::~StopControl() {
-    for (int number : handled) std::signal(number, SIG_DFL);
+    for (int number : handled) giveBack(number);
 }
 
 bool StopControl::requested(long step) {

@@ -4,6 +4,8 @@
 // symbol | meaning                                                       | unit | default
 // file   | STL, OFF, PLY or VTP, relative to the case                    |      | required
 // scale  | length of one unit of the file                                | m    | 1 um
+// A longest side below 50 nm or above 1 cm is refused: the file's unit is another than `scale` says.
+//
 // F is the signed distance; the surface is the file's own triangulation, so that its nodes, after remeshing, lie on its
 // triangles.
 #pragma once
@@ -31,13 +33,18 @@ struct FileShape : Shape {
     double area() const override { return surface().mesh.area(); }
     double volume() const override { return surface().mesh.volume(); }
     const TriangleMesh* triangulation() const override { return &surface().mesh; }
+    std::vector<std::string> remarks() const override { return surface().remarks; }
+    std::string cureForSize(double least, double most) const override;
 
   private:
     struct Surface {
         TriangleMesh mesh;
         SurfaceTree tree;
         InsideTest test;
-        explicit Surface(const TriangleMesh& m) : mesh(m), tree(m), test(m) {}
+        double size;  // longest side [units of the file]
+        std::vector<std::string> remarks;
+        Surface(const TriangleMesh& m, double s, std::vector<std::string> r)
+            : mesh(m), tree(m), test(m), size(s), remarks(std::move(r)) {}
     };
     const Surface& surface() const;
     mutable std::shared_ptr<const Surface> surface_;  // read by prepare()

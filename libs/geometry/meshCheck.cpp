@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "geometry/triangleMesh.hpp"
+#include "geometry/surfaceAlgorithms.hpp"
 
 namespace corpuscle::geometry {
 namespace {
@@ -22,7 +22,13 @@ struct Fault {
     }
 };
 
-std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x.x(), x.y(), x.z()); }
+// A place for messages.
+struct At {
+    const std::string& unit;
+    std::string operator()(const Vec3& x) const {
+        return fmt::format("({:.6g}, {:.6g}, {:.6g}){}", x.x(), x.y(), x.z(), unit);
+    }
+};
 
 struct UnionFind {
     std::vector<int> parent;
@@ -40,7 +46,7 @@ struct UnionFind {
 };
 
 // True when the indices can be used at all.
-bool checkIndices(const TriangleMesh& mesh, std::vector<std::string>& faults) {
+bool checkIndices(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     if (mesh.triangles.empty()) {
         faults.emplace_back("the mesh has no triangles");
         return false;
@@ -65,7 +71,7 @@ bool checkIndices(const TriangleMesh& mesh, std::vector<std::string>& faults) {
     return missing.count == 0 && notFinite.count == 0;
 }
 
-void checkTriangles(const TriangleMesh& mesh, std::vector<std::string>& faults) {
+void checkTriangles(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     Fault degenerate;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& [i, j, k] = mesh.triangles[t];
@@ -78,7 +84,7 @@ void checkTriangles(const TriangleMesh& mesh, std::vector<std::string>& faults) 
 }
 
 // Edges with one, two, or more triangles, and the direction in which they are run through.
-void checkEdges(const TriangleMesh& mesh, std::vector<std::string>& faults) {
+void checkEdges(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     std::map<std::pair<int, int>, std::pair<int, int>> runs;  // (a < b) -> times a->b, times b->a
     for (const Index3& t : mesh.triangles)
         for (int s = 0; s < 3; ++s) {
@@ -103,21 +109,19 @@ void checkEdges(const TriangleMesh& mesh, std::vector<std::string>& faults) {
 }
 
 // The triangles around a node must form one fan; two fans that touch in one node are a pinched surface.
-void checkNodes(const TriangleMesh& mesh, std::vector<std::string>& faults) {
+void checkNodes(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     std::vector<std::vector<int>> around(mesh.nodes.size());
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-        for (int n : mesh.triangles[t]) around[n].push_back(t);
+        for (int n : mesh.triangles[t])
+            if (around[n].empty() || around[n].back() != t) around[n].push_back(t);
     Fault pinched;
     for (int n = 0; n < static_cast<int>(around.size()); ++n) {
         const std::vector<int>& fan = around[n];
         UnionFind groups(fan.size());
+        std::map<int, int> firstWith;  // other node -> the first triangle of the fan that has it
         for (int p = 0; p < static_cast<int>(fan.size()); ++p)
-            for (int q = 0; q < p; ++q) {
-                int shared = 0;
-                for (int i : mesh.triangles[fan[p]])
-                    for (int j : mesh.triangles[fan[q]]) shared += i == j;
-                if (shared >= 2) groups.join(p, q);
-            }
+            for (const int other : mesh.triangles[fan[p]])
+                if (other != n) groups.join(p, firstWith.try_emplace(other, p).first->second);
         if (groups.groups() > 1) pinched.add(fmt::format("node {} at {}", n, at(mesh.nodes[n])));
     }
     pinched.report(faults, "nodes where the surface touches itself in a point");
@@ -138,20 +142,24 @@ int components(const TriangleMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh) {
+std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh, const std::string& unit) {
+    const At at{unit};
     std::vector<std::string> faults;
-    if (!checkIndices(mesh, faults)) return faults;
-    checkTriangles(mesh, faults);
-    checkEdges(mesh, faults);
-    checkNodes(mesh, faults);
+    if (!checkIndices(mesh, at, faults)) return faults;
+    checkTriangles(mesh, at, faults);
+    checkEdges(mesh, at, faults);
+    checkNodes(mesh, at, faults);
     if (const int n = components(mesh); n > 1)
         faults.push_back(fmt::format("{} separate surfaces; one cell is one closed surface", n));
     if (faults.empty() && mesh.volume() < 0)
         faults.emplace_back("the triangles point inwards (negative volume): reverse their orientation");
+    if (!faults.empty()) return faults;
     Fault cuts;
     for (const auto& [s, t] : selfIntersections(mesh))
         cuts.add(fmt::format("triangles {} and {} at {}", s, t, at(mesh.nodes[mesh.triangles[s][0]])));
-    cuts.report(faults, "pairs of triangles that cut each other");
+    cuts.report(faults, cuts.count < static_cast<int>(mostSelfIntersections)
+                            ? "pairs of triangles that cut each other"
+                            : "pairs of triangles, or more, that cut each other");
     return faults;
 }
 

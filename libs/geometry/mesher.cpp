@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "geometry/surfaceAlgorithms.hpp"
@@ -22,7 +23,32 @@ TriangleMesh firstMesh(const Shape& shape, double a) {
     return starSurface([&](const Vec3& x) { return shape.implicit(a * x); }, shape.box().max() / a, baseRefinements);
 }
 
+// Of the surface: that of a triangulation, or of an ellipsoid in the shape's box.
+double estimatedArea(const Shape& shape) {
+    const Vec3 sides = shape.box().sizes();
+    const double ofBox = 2 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]) * std::numbers::pi / 6;
+    return shape.triangulation() ? std::max(ofBox, shape.triangulation()->area()) : ofBox;
+}
+
+bool everyEdgeHasTwoTriangles(const TriangleMesh& mesh) {
+    const std::vector<MeshEdge> edges = mesh.edges();
+    return 2 * edges.size() == 3 * mesh.triangles.size() &&
+           std::all_of(edges.begin(), edges.end(), [](const MeshEdge& e) { return e.left >= 0 && e.right >= 0; });
+}
+
 }  // namespace
+
+std::string tooManyTriangles(const Shape& shape, double edge) {
+    const double ofEdge = std::numbers::sqrt3 / 4 * edge * edge, triangles = estimatedArea(shape) / ofEdge;
+    if (triangles <= mostTriangles) return {};
+    // The bound with two digits, rounded up.
+    const double least = 1e6 * edge * std::sqrt(triangles / mostTriangles),
+                 digit = std::pow(10, std::floor(std::log10(least)) - 1);
+    return fmt::format(
+        "edge = {:.4g} um would make {:.2g} triangles, at most {:g} are meshed: take an edge of {:.4g} um or "
+        "more",
+        edge * 1e6, triangles, mostTriangles, std::ceil(least / digit) * digit);
+}
 
 TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& options) {
     const double a = shape.radius();
@@ -33,10 +59,19 @@ TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& o
                 "edge = {:.4g} um does not suit a cell of radius {:.4g} um: take more than 0 and at most half the "
                 "radius, {:.4g} um",
                 edge * 1e6, a * 1e6, a * 0.5e6));
+    if (const std::string why = tooManyTriangles(shape, edge); !why.empty()) throw Failure(ExitCode::invalidCase, why);
     const double target = edge / a;
     const Projection project = [&](const Vec3& x) -> Vec3 { return shape.project(a * x) / a; };
 
     TriangleMesh mesh = firstMesh(shape, a);
+    const double halvings = std::ceil(std::log2(std::max(1.0, meanEdge(mesh) / (1.5 * target))));
+    if (static_cast<double>(mesh.triangles.size()) * std::exp2(2 * halvings) > 10 * mostTriangles)
+        throw Failure(ExitCode::invalidCase,
+                      fmt::format("edge = {:.4g} um is too fine for a surface whose {} triangles are so long and thin: "
+                                  "they would have to be cut into {:.2g}; take a larger edge, or a surface of rounder "
+                                  "triangles",
+                                  edge * 1e6, mesh.triangles.size(),
+                                  static_cast<double>(mesh.triangles.size()) * std::exp2(2 * halvings)));
     for (Vec3& x : mesh.nodes) x = project(x);
     while (meanEdge(mesh) > 1.5 * target) mesh = refineOnce(mesh, project);
 
@@ -44,7 +79,7 @@ TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& o
     double length = 1.05 * target, angle = 0, mean = 0;
     for (int round = 0; round < options.rounds; ++round) {
         mesh = remeshIsotropic(mesh, length, 3, project);
-        if (mesh.triangles.empty())
+        if (mesh.triangles.empty() || !everyEdgeHasTwoTriangles(mesh))
             throw Failure(ExitCode::invalidCase,
                           fmt::format("edge = {:.4g} um is too coarse for where the shape is thin or sharply curved: "
                                       "the mesher cannot keep its two sides apart; take a smaller one",

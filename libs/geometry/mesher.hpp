@@ -24,6 +24,11 @@ struct MesherOptions {
 // Failure(numerics) when the quality is not reached.
 TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& options = {});
 
+// Why a surface of this shape is not meshed with edges of this length, in plain words; empty: it can be. Predicted from
+// the area: more than `mostTriangles` take minutes and gigabytes.
+constexpr double mostTriangles = 2e6;
+std::string tooManyTriangles(const Shape& shape, double edge);
+
 struct MeshQuality {
     int nodes = 0, triangles = 0, edges = 0;
     double edgeMin = 0, edgeMean = 0, edgeMax = 0;  // m

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/triangleMesh.hpp"
+#include "geometry/surfaceAlgorithms.hpp"
 
 namespace corpuscle::geometry {
 namespace {
@@ -44,10 +44,16 @@ std::vector<std::pair<int, int>> selfIntersections(const TriangleMesh& mesh) {
         boxes.emplace_back(p(i).bbox() + p(j).bbox() + p(k).bbox(), t);
     }
     std::vector<std::pair<int, int>> pairs;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        const int s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
-        if (cut(mesh, mesh.triangles[s], mesh.triangles[t])) pairs.emplace_back(s, t);
-    });
+    struct Enough {};
+    try {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+            const int s = std::min(a.info(), b.info()), t = std::max(a.info(), b.info());
+            if (!cut(mesh, mesh.triangles[s], mesh.triangles[t])) return;
+            pairs.emplace_back(s, t);
+            if (pairs.size() == mostSelfIntersections) throw Enough{};
+        });
+    } catch (const Enough&) {
+    }
     std::sort(pairs.begin(), pairs.end());
     return pairs;
 }

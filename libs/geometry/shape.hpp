@@ -5,6 +5,8 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "core/vec.hpp"
 #include "geometry/triangleMesh.hpp"
@@ -34,6 +36,13 @@ class Shape {
 
     // A triangulation that the mesher must start from, for shapes that are themselves triangulations; null otherwise.
     virtual const TriangleMesh* triangulation() const { return nullptr; }
+
+    // What prepare() changed in what it read, in whole sentences.
+    virtual std::vector<std::string> remarks() const { return {}; }
+
+    // For a size that cannot be meant: which setting would give a longest side between `least` and `most`, and how long
+    // it would be then. Empty where there is no such setting.
+    virtual std::string cureForSize(double /*least*/, double /*most*/) const { return {}; }
 };
 
 // Surface of revolution that is even in z, given by its upper half profile (rho, z)(t), t = 0 at the pole, pi/2 at the

@@ -25,6 +25,9 @@ TriangleMesh refineOnce(const TriangleMesh& mesh, const Projection& project);
 // neighbours and is projected, the later ones with flips towards Delaunay. Keeps the numbers of nodes and triangles.
 void smooth(TriangleMesh& mesh, int rounds, const Projection& project);
 
+// selfIntersections stops at so many: a crumpled surface has as many pairs as it has triangles, squared.
+constexpr std::size_t mostSelfIntersections = 10000;
+
 // Smallest corner angle, degrees.
 double smallestAngle(const TriangleMesh& mesh);
 double meanEdge(const TriangleMesh& mesh);

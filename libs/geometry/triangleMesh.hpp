@@ -47,8 +47,9 @@ double cornerAngle(const Vec3& at, const Vec3& next, const Vec3& previous);
 Mat3 rotationFromZ(const Vec3& axis);
 
 // Every way in which the mesh is not one closed, outward oriented, non-degenerate surface without self-intersection, in
-// plain words; empty: sound.
-std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh);
+// plain words; empty: sound. `unit` stands behind the coordinates of a place. Only a surface without another fault is
+// searched for triangles that cut each other.
+std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh, const std::string& unit = " m");
 
 // Pairs of triangles that cut each other (exact predicates).
 std::vector<std::pair<int, int>> selfIntersections(const TriangleMesh& mesh);

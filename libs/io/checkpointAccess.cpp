@@ -47,6 +47,51 @@ CheckpointAccess::CheckpointAccess(const std::filesystem::path& path) : path_(pa
     ranksWritten_ = readAttribute<std::int64_t>(file_, checkpoint::ranksName, what);
     names_ = namesBelow(checkpoint::dataGroup);
     distributed_ = namesBelow(checkpoint::rowsGroup);
+    if (H5Aexists(file_, checkpoint::contentsName) <= 0)
+        throw Failure(
+            ExitCode::io,
+            fmt::format(
+                "{}: the file has no checksum of its contents: it is damaged, or was written by an earlier version.",
+                path_.string()));
+    if (contents().sum() != readAttribute<std::uint64_t>(file_, checkpoint::contentsName, what))
+        throw Failure(
+            ExitCode::io,
+            fmt::format("{}: the file is corrupt: its attributes and datasets do not agree with their checksum.",
+                        path_.string()));
+}
+
+Contents CheckpointAccess::contents() const {
+    Contents all;
+    all.ranks(ranksWritten_);
+    const std::string what = fmt::format("{}: the attributes are corrupt.", path_.string());
+    const Handle group(H5Gopen2(file_, checkpoint::attributeGroup, H5P_DEFAULT), H5Gclose, what);
+    std::vector<std::string> names;
+    const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
+        static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    checked(H5Aiterate2(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names), what);
+    for (const std::string& name : names) {
+        const Handle attribute(H5Aopen(group, name.c_str(), H5P_DEFAULT), H5Aclose, what);
+        const Handle type(H5Aget_type(attribute), H5Tclose, what);
+        const H5T_class_t kind = H5Tget_class(type);
+        if (kind == H5T_STRING)
+            all.attribute(name, readAttribute<std::string>(group, name, what));
+        else if (kind == H5T_FLOAT)
+            all.attribute(name, readAttribute<double>(group, name, what));
+        else
+            all.attribute(name, readAttribute<std::int64_t>(group, name, what));
+    }
+    const auto add = [&](const char* of, const std::vector<std::string>& datasets) {
+        for (const std::string& name : datasets) {
+            const std::string full = fmt::format("{}/{}", of, name);
+            const Dataset dataset = openFull(full, name);
+            all.dataset(full, dataset.isDouble, dataset.rows, dataset.components, dataset.sum);
+        }
+    };
+    add(checkpoint::dataGroup, names_);
+    add(checkpoint::rowsGroup, distributed_);
+    return all;
 }
 
 Failure CheckpointAccess::corrupt(const std::string& dataset) const {

@@ -1,11 +1,13 @@
 // One rank's view of a checkpoint file, without MPI: reading needs no coordination at this level, so a corrupt file
-// cannot leave ranks waiting for each other. Everything throws Failure(ExitCode::io) naming file and dataset.
+// cannot leave ranks waiting for each other. Opening a file verifies all but the numbers in its datasets, which are verified as they are read.
+// Everything throws Failure(ExitCode::io) naming file and dataset.
 #pragma once
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "io/checksum.hpp"
+#include "io/contents.hpp"
 #include "io/hdf5Handle.hpp"
 
 namespace corpuscle::io {
@@ -48,6 +50,7 @@ class CheckpointAccess {
 
   private:
     Dataset openFull(const std::string& fullName, const std::string& name) const;
+    Contents contents() const;
     std::vector<std::string> namesBelow(const char* group) const;
 
     std::filesystem::path path_;

@@ -5,6 +5,7 @@
 
 #include "core/communicator.hpp"
 #include "core/together.hpp"
+#include "core/units.hpp"
 #include "io/checkpointAccess.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/publish.hpp"
@@ -86,6 +87,12 @@ CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& ca
             else
                 search.warnings.push_back(problem + " It is passed over.");
         }
+        if (!files.empty() && search.path.empty())
+            throw Failure(ExitCode::io,
+                          fmt::format("{}: none of the {} checkpoint{} is intact:\n{}\nStart from the beginning with "
+                                      "'startFrom: firstTime' in system/control.yaml, or bring back a copy.",
+                                      folderOf(caseDir).string(), files.size(), files.size() == 1 ? "" : "s",
+                                      joinWords(search.warnings, "\n")));
     });
     search.path = Communicator(comm).broadcast(search.path.string());
     int count = static_cast<int>(search.warnings.size());
@@ -95,18 +102,36 @@ CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& ca
     return search;
 }
 
-std::filesystem::path findCheckpoint(const std::filesystem::path& caseDir, double time) {
+CheckpointInfo findCheckpoint(const std::filesystem::path& caseDir, double time) {
+    constexpr double slack = 1e-6;
     const auto all = listCheckpoints(caseDir);
-    const auto found = std::find_if(all.rbegin(), all.rend(), [&](const CheckpointInfo& info) {
-        return std::abs(info.time - time) <= 1e-6 * std::max(std::abs(time), std::abs(info.time));
-    });
-    if (found != all.rend()) return found->path;
+    const CheckpointInfo* nearest = nullptr;
+    for (const CheckpointInfo& info : all)
+        if (info.time <= time * (1 + slack) && (!nearest || info.time >= nearest->time)) nearest = &info;
+    if (nearest) return *nearest;
     std::vector<std::string> times;
     times.reserve(all.size());
-    for (const auto& info : all) times.push_back(fmt::format("{:.9g}", info.time));
+    for (const auto& info : all) times.push_back(formatQuantity(info.time, unit::second, 9));
     throw Failure(ExitCode::io,
-                  fmt::format("{}: there is no checkpoint at time {:.9g} s; there {}.", folderOf(caseDir).string(),
-                              time, times.empty() ? "are none" : fmt::format("are: {} s", joinWords(times))));
+                  fmt::format("{}: there is no checkpoint at {} or before; {}", folderOf(caseDir).string(),
+                              formatQuantity(time, unit::second, 9),
+                              times.empty() ? "there is none at all. Start from firstTime"
+                                            : fmt::format("there are: {}. Give one of these times, or start from "
+                                                          "firstTime",
+                                                          joinWords(times))));
+}
+
+long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<double> last) {
+    std::vector<std::filesystem::path> gone;
+    if (last) {
+        for (const CheckpointInfo& info : listCheckpoints(caseDir))
+            if (info.time > *last) gone.push_back(info.path);
+    } else {
+        for (const auto& [number, path] : numberedFiles(caseDir)) gone.push_back(path);
+        for (const auto& path : leftovers(caseDir)) std::filesystem::remove(path);
+    }
+    for (const auto& path : gone) std::filesystem::remove(path);
+    return static_cast<long>(gone.size());
 }
 
 void keepCheckpoints(MPI_Comm comm, const std::filesystem::path& caseDir, int keep) {

@@ -7,6 +7,7 @@
 #include "core/together.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/checksum.hpp"
+#include "io/contents.hpp"
 #include "io/hdf5Handle.hpp"
 #include "io/publish.hpp"
 
@@ -29,6 +30,7 @@ struct CheckpointWriter::File {
     std::filesystem::path path, temporary;
     QuietHdf5 quiet;
     Handle file, attributes;
+    Contents contents;
 
     File(MPI_Comm c, const std::filesystem::path& p) : comm(c), path(p), temporary(temporaryName(p)) {
         MPI_Comm_rank(comm, &rank);
@@ -36,16 +38,16 @@ struct CheckpointWriter::File {
         onRoot(comm, [&] {
             if (path.has_parent_path()) makeFolder(path.parent_path());
         });
-        together(comm, [&] {
+        attempt([&] {
             const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file access");
             checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "parallel file access");
             // The file format of 1.10 has checksums in all its own structures.
             checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file format");
-            file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose,
-                          fmt::format("cannot write {}; check permissions and free space", path.string()));
+            file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "new file");
             attributes = Handle(H5Gcreate2(file, checkpoint::attributeGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                                 H5Gclose, "attribute group");
             writeAttribute(file, checkpoint::ranksName, static_cast<std::int64_t>(size));
+            contents.ranks(size);
         });
     }
 
@@ -55,18 +57,31 @@ struct CheckpointWriter::File {
         if (rank == 0) std::filesystem::remove(temporary, ignored);
     }
 
+    // Runs work() on all ranks. What fails is named by the system where it can be: HDF5 knows no limits and no full disks.
+    template <class Work>
+    void attempt(Work&& work) {
+        together(comm, [&] {
+            try {
+                std::forward<Work>(work)();
+            } catch (const Failure& failure) {
+                throw notWritten(path, temporary, failure.what());
+            }
+        });
+    }
+
     // Rows [first, first + rows.size()/components) of `total` from this rank.
     template <class T>
     void write(const std::string& name, std::span<const T> values, int components, hsize_t first, hsize_t total) {
-        const std::string what = fmt::format("{}: cannot write dataset '{}'", path.string(), name);
+        const std::string what = fmt::format("dataset '{}'", name);
         const std::uint64_t mine = checksum(values, first * static_cast<hsize_t>(components));
         std::uint64_t sum = 0;
         MPI_Allreduce(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, comm);
+        contents.dataset(name, std::is_same_v<T, double>, total, static_cast<std::uint64_t>(components), sum);
 
         Handle dataset, fileSpace, memorySpace, transfer;
         const hsize_t count[2] = {values.size() / static_cast<std::size_t>(components),
                                   static_cast<hsize_t>(components)};
-        together(comm, [&] {
+        attempt([&] {
             const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
             checked(H5Pset_create_intermediate_group(links, 1), what);
             const hsize_t shape[2] = {total, static_cast<hsize_t>(components)};
@@ -86,7 +101,7 @@ struct CheckpointWriter::File {
             }
         });
         if (total == 0) return;
-        together(comm, [&] {
+        attempt([&] {
             checked(H5Dwrite(dataset, memoryType<T>(), memorySpace, fileSpace, transfer, values.data()), what);
         });
     }
@@ -136,16 +151,19 @@ void CheckpointWriter::writeReplicated(const std::string& name, std::span<const 
 
 void CheckpointWriter::attribute(const std::string& name, double value) {
     MPI_Bcast(&value, 1, MPI_DOUBLE, 0, file_->comm);
-    together(file_->comm, [&] { writeAttribute(file_->attributes, name, value); });
+    file_->contents.attribute(name, value);
+    file_->attempt([&] { writeAttribute(file_->attributes, name, value); });
 }
 void CheckpointWriter::attribute(const std::string& name, std::int64_t value) {
     MPI_Bcast(&value, 1, MPI_INT64_T, 0, file_->comm);
-    together(file_->comm, [&] { writeAttribute(file_->attributes, name, value); });
+    file_->contents.attribute(name, value);
+    file_->attempt([&] { writeAttribute(file_->attributes, name, value); });
 }
 void CheckpointWriter::attribute(const std::string& name, const std::string& value) {
     const std::string text = Communicator(file_->comm).broadcast(value);
+    file_->contents.attribute(name, text);
     const std::string what = fmt::format("attribute '{}'", name);
-    together(file_->comm, [&] {
+    file_->attempt([&] {
         const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);
         checked(H5Tset_size(type, text.size() + 1), what);
         const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
@@ -156,8 +174,9 @@ void CheckpointWriter::attribute(const std::string& name, const std::string& val
 }
 
 void CheckpointWriter::finish() {
-    const std::string what = fmt::format("{}: cannot bring the file to disk; check free space", file_->path.string());
-    together(file_->comm, [&] {
+    const std::string what = "end of the file";
+    file_->attempt([&] {
+        writeAttribute(file_->file, checkpoint::contentsName, file_->contents.sum());
         checked(H5Fflush(file_->file, H5F_SCOPE_GLOBAL), what);
         file_->attributes.close();
         checked(file_->file.close(), what);

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,21 +15,231 @@
 
 namespace corpuscle::io {
 
-CsvSeries::CsvSeries(MPI_Comm comm, const std::filesystem::path& caseDir, const std::string& observer, double startTime,
-                     const std::string& file, const std::vector<Column>& columns)
-    : path_(caseDir / "postProcessing" / observer / fmt::format("{:.9g}", startTime) / (file + ".csv")),
-      columns_(columns.size()) {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* signature = " of Corpuscle, ";
+
+std::string firstLine(const CsvHead& head) {
+    return fmt::format("# {}/{}.csv{}{}: {}", head.observer, head.file, signature, head.writer, head.text);
+}
+
+std::string headOf(const CsvHead& head) {
+    std::string comments = firstLine(head) + '\n', header;
+    for (const Column& column : head.columns) {
+        const std::string unit = column.unitText();
+        comments += fmt::format("# {}: {}{}\n", column.header(), column.meaning, unit.empty() ? "" : " [" + unit + "]");
+        header += (header.empty() ? "" : ",") + column.header();
+    }
+    return comments + header + '\n';
+}
+
+// Whole lines only, without their ends: what follows the last line end was being written.
+bool nextLine(std::istream& file, std::string& line) {
+    if (!std::getline(file, line) || file.eof()) return false;
+    if (line.ends_with('\r')) line.pop_back();
+    return true;
+}
+
+std::vector<std::string> words(const std::string& line) {
+    std::vector<std::string> all;
+    std::string word;
+    for (std::istringstream stream(line); std::getline(stream, word, ',');) all.push_back(word);
+    return all;
+}
+
+// Numbers of a row; or what is wrong with it.
+std::string parseRow(const std::string& line, std::size_t columns, std::vector<double>& row) {
+    row.clear();
+    for (const std::string& word : words(line)) {
+        char* end = nullptr;
+        row.push_back(std::strtod(word.c_str(), &end));
+        if (word.empty() || *end) return fmt::format("'{}' is no number", word);
+    }
+    return row.size() == columns ? "" : fmt::format("{} numbers for {} columns", row.size(), columns);
+}
+
+// What is there of a table, for one that goes on from `time`.
+struct Earlier {
+    std::string comments, header;  // with line ends; header: without
+    std::string rows;              // up to that time
+    int badLine = 0;               // the first that is no row; 0: all are
+};
+
+Earlier readUntil(const fs::path& path, double time) {
+    std::ifstream file(path);
+    Earlier found;
+    std::string line;
+    std::size_t columns = 0;
+    std::vector<double> row;
+    for (int number = 1; nextLine(file, line); ++number) {
+        if (line.starts_with('#')) {
+            if (found.header.empty()) found.comments += line + '\n';
+        } else if (found.header.empty()) {
+            found.header = line;
+            columns = words(line).size();
+        } else if (!parseRow(line, columns, row).empty()) {
+            if (found.badLine == 0) found.badLine = number;
+        } else if (row[0] <= time) {
+            found.rows += line + '\n';
+        }
+    }
+    if (!fs::exists(path) || file.bad())
+        throw Failure(ExitCode::io,
+                      fmt::format("cannot read {}, which this run has written: was it moved?", path.string()));
+    return found;
+}
+
+// Which columns came and went, for people.
+std::string columnChanges(const std::string& before, const std::string& now) {
+    const std::vector<std::string> had = words(before), has = words(now);
+    const auto only = [](const std::vector<std::string>& all, const std::vector<std::string>& others) {
+        std::vector<std::string> list;
+        for (const std::string& one : all)
+            if (std::find(others.begin(), others.end(), one) == others.end()) list.push_back(one);
+        return list;
+    };
+    const std::vector<std::string> added = only(has, had), gone = only(had, has);
+    if (added.empty() && gone.empty()) return "its columns stand in another order than before";
+    std::string text;
+    if (!added.empty()) text = "it now has the columns " + joinWords(added);
+    if (!gone.empty()) text += (text.empty() ? "it" : ", and") + (" no longer has " + joinWords(gone));
+    return text;
+}
+
+// A name beside the table that does not end with .csv, so that nothing takes it for one.
+fs::path nameAside(const fs::path& path, double time) {
+    const std::string base = fmt::format("{}.until_{:.9g}", path.string(), time);
+    fs::path aside = base;
+    for (int n = 2; fs::exists(aside); ++n) aside = fmt::format("{}_{}", base, n);
+    return aside;
+}
+
+bool isNumber(const std::string& name) {
+    char* end = nullptr;
+    std::strtod(name.c_str(), &end);
+    return !name.empty() && *end == 0;
+}
+
+// <file>.csv.<process>.tmp (core/atomicFile), left by a program that was killed while it wrote a table.
+bool isLeftover(const fs::path& path) {
+    const fs::path process = path.stem().extension();
+    return path.extension() == ".tmp" && path.stem().stem().extension() == ".csv" && !process.empty() &&
+           isNumber(process.string().substr(1));
+}
+
+std::string firstLineOf(const fs::path& path) {
+    std::ifstream file(path);
+    std::string line;
+    nextLine(file, line);
+    return line;
+}
+
+// Whether the first line names this place as that of a table of this kind.
+bool isOwn(const fs::path& path, const std::string& kind) {
+    const std::string place = path.parent_path().filename().string() + "/" + path.filename().string();
+    return firstLineOf(path).starts_with(fmt::format("# {}{}{} ", place, signature, kind));
+}
+
+// postProcessing/<observer>/<start time>/<file>.csv, as versions before 2026-11 wrote them.
+bool isOfEarlierVersion(const fs::path& path, const std::string& kind) {
+    return isNumber(path.parent_path().filename().string()) &&
+           firstLineOf(path).starts_with(kind == "observer" ? "time_s,strain" : "stage,");
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::vector<fs::path> list;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none)) list.push_back(entry.path());
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+void removeFile(const fs::path& path) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error)
+        throw Failure(ExitCode::io,
+                      fmt::format("cannot remove {}, a table of an earlier run: {}", path.string(), error.message()));
+}
+
+// Folders that hold something stay.
+void removeIfEmpty(const fs::path& folder) {
+    std::error_code notEmpty;
+    fs::remove(folder, notEmpty);
+}
+
+void clearFolder(const fs::path& folder, const std::string& kind, std::optional<double> restart) {
+    for (const fs::path& path : entries(folder)) {
+        if (isLeftover(path))
+            removeFile(path);
+        else if (fs::is_directory(path) && !restart) {
+            for (const fs::path& old : entries(path))
+                if (old.extension() == ".csv" && isOfEarlierVersion(old, kind)) removeFile(old);
+            if (isNumber(path.filename().string())) removeIfEmpty(path);
+        } else if (path.extension() == ".csv" && isOwn(path, kind)) {
+            if (!restart)
+                removeFile(path);
+            else if (const Earlier found = readUntil(path, *restart); found.badLine == 0) {
+                const std::string text = found.comments + found.header + '\n' + found.rows;
+                if (text.size() != fs::file_size(path)) writeFileAtomically(path, text);
+            }
+        }
+    }
+    if (!restart) removeIfEmpty(folder);
+}
+
+}  // namespace
+
+std::string Column::unitText() const {
+    if (unit == "percent") return "%";
+    for (const char* product : {"Nm", "Ns", "Js"})
+        if (unit == product) return fmt::format("{} {}", product[0], product[1]);
+    std::string text;
+    for (const char c : unit) {
+        if (std::isdigit(static_cast<unsigned char>(c)) && !text.empty()) text += '^';
+        text += c == '_' ? '/' : c;
+    }
+    return text;
+}
+
+CsvSeries::CsvSeries(MPI_Comm comm, const fs::path& caseDir, const CsvHead& head, std::optional<double> restart)
+    : path_(caseDir / "postProcessing" / head.observer / (head.file + ".csv")),
+      head_(headOf(head)),
+      columns_(head.columns.size()) {
     onRoot(comm, [&] {
         root_ = true;
         makeFolder(path_.parent_path());
-        file_.open(path_, std::ios::trunc);
-        std::string header;
-        for (const auto& column : columns) header += (header.empty() ? "" : ",") + column.header();
-        file_ << header << '\n' << std::flush;
-        if (!file_)
-            throw Failure(ExitCode::io,
-                          fmt::format("cannot write {}; check permissions and free space", path_.string()));
+        if (restart && fs::exists(path_))
+            resume(*restart);
+        else
+            writeFileAtomically(path_, head_);
+        file_ = AppendedFile(path_);
     });
+}
+
+void CsvSeries::resume(double time) {
+    const Earlier found = readUntil(path_, time);
+    const std::string comments = head_.substr(0, head_.rfind('\n', head_.size() - 2) + 1),
+                      header = head_.substr(comments.size(), head_.size() - comments.size() - 1);
+    const bool others = !found.header.empty() && found.header != header;
+    if (others || found.badLine > 0) {
+        const fs::path aside = nameAside(path_, time);
+        std::error_code error;
+        fs::copy_file(path_, aside, error);
+        if (error)
+            throw Failure(ExitCode::io,
+                          fmt::format("cannot copy {} to {}: {}", path_.string(), aside.string(), error.message()));
+        note_ = others
+                    ? fmt::format("{}: {}; the rows until t = {:.9g} s are kept in {}, the table begins anew",
+                                  path_.string(), columnChanges(found.header, header), time, aside.filename().string())
+                    : fmt::format(
+                          "{}:{} is no row of this table; the file is kept as it is in {}, the table goes on "
+                          "without such lines",
+                          path_.string(), found.badLine, aside.filename().string());
+    }
+    writeFileAtomically(path_, head_ + (others ? "" : found.rows));
 }
 
 void CsvSeries::row(std::span<const double> values) {
@@ -39,26 +250,24 @@ void CsvSeries::row(std::span<const double> values) {
     }
     std::string line;
     for (const double value : values) line += fmt::format("{}{:.17g}", line.empty() ? "" : ",", value);
-    file_ << line << '\n' << std::flush;
-    if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check free space", path_.string()));
+    file_.add(line + '\n');
 }
 
 void CsvSeries::cutAfter(double time) {
     if (!root_) return;
-    std::string kept, line;
-    {
-        std::ifstream written(path_);
-        std::getline(written, line);
-        kept = line + '\n';
-        while (std::getline(written, line) && std::strtod(line.c_str(), nullptr) <= time) kept += line + '\n';
-        if (written.bad() || kept == "\n")
-            throw Failure(ExitCode::io,
-                          fmt::format("cannot read {}, which this run has written: was it moved?", path_.string()));
-    }
+    const Earlier found = readUntil(path_, time);
     file_.close();
-    writeFileAtomically(path_, kept);
-    file_.open(path_, std::ios::app);
-    if (!file_) throw Failure(ExitCode::io, fmt::format("cannot write {}; check permissions", path_.string()));
+    writeFileAtomically(path_, head_ + found.rows);
+    file_ = AppendedFile(path_);
+}
+
+void clearTables(MPI_Comm comm, const fs::path& caseDir, const std::string& kind, std::optional<double> restart) {
+    onRoot(comm, [&] {
+        const fs::path all = caseDir / "postProcessing";
+        for (const fs::path& folder : entries(all))
+            if (fs::is_directory(folder)) clearFolder(folder, kind, restart);
+        if (!restart) removeIfEmpty(all);
+    });
 }
 
 std::vector<double> CsvTable::column(const std::string& name) const {
@@ -73,59 +282,34 @@ std::vector<double> CsvTable::column(const std::string& name) const {
     return values;
 }
 
-CsvTable readCsv(const std::filesystem::path& path) {
+CsvTable readCsv(const fs::path& path) {
     std::ifstream file(path);
     std::string line;
-    if (!file || !std::getline(file, line))
-        throw Failure(ExitCode::io, fmt::format("{}: the file is missing or empty", path.string()));
     CsvTable table;
-    std::string word;
-    for (std::istringstream header(line); std::getline(header, word, ',');) table.columns.push_back(word);
-    for (int number = 2; std::getline(file, line) && !file.eof(); ++number) {
+    for (int number = 1; nextLine(file, line); ++number) {
+        if (line.starts_with('#')) continue;
+        if (table.columns.empty()) {
+            table.columns = words(line);
+            continue;
+        }
         std::vector<double> row;
-        for (std::istringstream words(line); std::getline(words, word, ',');) {
-            char* end = nullptr;
-            row.push_back(std::strtod(word.c_str(), &end));
-            if (word.empty() || *end)
-                throw Failure(ExitCode::io, fmt::format("{}:{}: '{}' is no number", path.string(), number, word));
-        }
-        if (row.size() != table.columns.size()) {
-            throw Failure(ExitCode::io, fmt::format("{}:{}: {} numbers for {} columns", path.string(), number,
-                                                    row.size(), table.columns.size()));
-        }
+        if (const std::string fault = parseRow(line, table.columns.size(), row); !fault.empty())
+            throw Failure(ExitCode::io, fmt::format("{}:{}: {}", path.string(), number, fault));
         table.rows.push_back(std::move(row));
     }
+    if (table.columns.empty())
+        throw Failure(ExitCode::io, fmt::format("{}: the file is missing or empty", path.string()));
     return table;
 }
 
-CsvTable readCsvSeries(const std::filesystem::path& caseDir, const std::string& observer, const std::string& file) {
-    const auto folder = caseDir / "postProcessing" / observer;
-    std::vector<std::pair<double, std::filesystem::path>> runs;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-        const auto path = entry.path() / (file + ".csv");
-        if (!std::filesystem::exists(path)) continue;
-        const std::string name = entry.path().filename().string();
-        char* end = nullptr;
-        const double start = std::strtod(name.c_str(), &end);
-        if (!*end) runs.emplace_back(start, path);
-    }
-    if (runs.empty())
-        throw Failure(ExitCode::io, fmt::format("{}: no start-time folder holds {}.csv", folder.string(), file));
-    std::sort(runs.begin(), runs.end());
-    CsvTable all;
-    for (const auto& [start, path] : runs) {
-        CsvTable run = readCsv(path);
-        if (all.columns.empty()) all.columns = run.columns;
-        if (run.columns != all.columns)
-            throw Failure(ExitCode::io, fmt::format("{}: other columns than in the runs before", path.string()));
-        // A restarted run begins after its start, where the earlier one has a row; one that begins there takes its place.
-        const double slack = 1e-8 * std::abs(start), last = start + slack;
-        const double first = run.rows.empty() ? last : run.rows.front()[0] - slack;
-        std::erase_if(all.rows, [&](const auto& row) { return row[0] > last || row[0] >= first; });
-        all.rows.insert(all.rows.end(), run.rows.begin(), run.rows.end());
-    }
-    return all;
+CsvTable readCsvSeries(const fs::path& caseDir, const std::string& observer, const std::string& file) {
+    const fs::path folder = caseDir / "postProcessing" / observer, path = folder / (file + ".csv");
+    if (fs::exists(path)) return readCsv(path);
+    std::vector<std::string> known;
+    for (const fs::path& there : entries(folder))
+        if (there.extension() == ".csv") known.push_back(there.stem().string());
+    throw Failure(ExitCode::io, fmt::format("{} is not there; this folder has {}.{}", path.string(),
+                                            known.empty() ? "no table" : joinWords(known), didYouMean(file, known)));
 }
 
 }  // namespace corpuscle::io

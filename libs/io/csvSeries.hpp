@@ -1,30 +1,52 @@
-// Rows of numbers in time: postProcessing/<observer>/<start time>/<file>.csv
+// Tables of numbers in time: postProcessing/<observer>/<file>.csv, one for a whole history, however often it was continued
 //
-// One header row of name_unit (time_s, strain, D12_extent, area_m2), then full double precision (%.17g), flushed with
-// every row, so that a running case can be watched. A restart writes into the folder of its own start time and leaves
-// the earlier rows alone; readCsvSeries joins the folders. Times in folder names have nine digits.
+//     # deformation/rbc.csv of Corpuscle, observer shape: deformation, orientation, tumbling and tank-treading of each cell
+//     # time_s: time since the start of the flow [s]
+//     # D12_extent: |L - H|/(L + H)
+//     time_s,D12_extent
+//     0,0.58100000000000002
+//
+// The head is comment lines, of which the first names the table and the others each column with meaning and unit, and one header row of
+// name_unit. Rows follow in full double precision (%.17g), flushed one by one, so that a running case can be watched.
+//
+// A run that starts afresh writes its tables anew and removes what runs before it left (clearTables). A restart takes out the rows after its
+// time, and a last row that was not written to its end, and goes on in the same file. Every such change is a whole new file that takes
+// the name by a rename, so that a program killed at any moment leaves a table that can be read, with all rows up to the last checkpoint.
 #pragma once
 #include <mpi.h>
 
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/appendedFile.hpp"
+
 namespace corpuscle::io {
 
 struct Column {
-    std::string name;  // "area"
-    std::string unit;  // "m2"; empty: dimensionless
+    std::string name;     // "area"
+    std::string unit;     // "m2"; empty: dimensionless
+    std::string meaning;  // "of the whole triangles"
     std::string header() const { return unit.empty() ? name : name + "_" + unit; }
+    std::string unitText()
+        const;  // as people write it: "m^2" for m2, "kg/m^3" for kg_m3, "N m" for Nm; empty: dimensionless
+};
+
+struct CsvHead {
+    std::string observer, file;  // postProcessing/<observer>/<file>.csv
+    std::string writer;          // "observer shape"; its first word is the kind of table that clearTables() looks for
+    std::string text;            // one line: what the table holds
+    std::vector<Column> columns;
 };
 
 class CsvSeries {
   public:
-    // Collective in `comm`. Replaces a file that an earlier run with the same start time left.
-    CsvSeries(MPI_Comm comm, const std::filesystem::path& caseDir, const std::string& observer, double startTime,
-              const std::string& file, const std::vector<Column>& columns);
+    // Collective in `comm`. restart: the time, the first column, up to which earlier rows are kept; none: the table is written anew.
+    // Throws Failure(ExitCode::io).
+    CsvSeries(MPI_Comm comm, const std::filesystem::path& caseDir, const CsvHead& head,
+              std::optional<double> restart = std::nullopt);
 
     // Rank 0 writes, the others do nothing. Throws Failure(ExitCode::io) on rank 0, std::invalid_argument for a row of
     // the wrong length.
@@ -32,13 +54,26 @@ class CsvSeries {
     // Takes out the rows whose first number, the time, is greater. Throws as row().
     void cutAfter(double time);
     const std::filesystem::path& path() const { return path_; }
+    // On rank 0, why the table of an earlier run was kept under another name; empty: it was not.
+    const std::string& note() const { return note_; }
 
   private:
+    void resume(double time);
+
     std::filesystem::path path_;
+    std::string head_;  // comments and header row
     std::size_t columns_;
     bool root_ = false;
-    std::ofstream file_;
+    AppendedFile file_;
+    std::string note_;
 };
+
+// Collective. Tables of this kind ("observer") that earlier runs have left anywhere under postProcessing, by the first line of each, which
+// has its own place in it: a copy that somebody has made under another name stays. restart: of these tables too, also of observers that the
+// case no longer has, only rows up to this time stay; none: they are removed, with those of versions before 2026-11 in folders named by
+// the time of the start, and folders that are then empty.
+void clearTables(MPI_Comm comm, const std::filesystem::path& caseDir, const std::string& kind,
+                 std::optional<double> restart = std::nullopt);
 
 struct CsvTable {
     std::vector<std::string> columns;
@@ -47,12 +82,11 @@ struct CsvTable {
     std::vector<double> column(const std::string& name) const;
 };
 
-// Throws Failure(ExitCode::io) with the line when a row has another length than the header or holds no number. A last
-// row without its line end (being written) is left out.
+// Lines that open with # are left out, and a last row without its line end (being written). Throws Failure(ExitCode::io) with the line
+// when a row has another length than the header or holds no number.
 CsvTable readCsv(const std::filesystem::path& path);
 
-// All start-time folders in order; the first column is the time, and rows of an earlier run after the next run's start,
-// or at or after its first row, are left out. Throws Failure(ExitCode::io) when there is none or the columns differ.
+// postProcessing/<observer>/<file>.csv. Throws Failure(ExitCode::io), naming the tables there are.
 CsvTable readCsvSeries(const std::filesystem::path& caseDir, const std::string& observer, const std::string& file);
 
 }  // namespace corpuscle::io

@@ -67,6 +67,7 @@ inline constexpr const char* rowsGroup = "rows";  // of every distributed datase
 inline constexpr const char* checksumName = "checksum";
 inline constexpr const char* ranksName = "ranks";
 inline constexpr const char* attributeGroup = "attributes";
+inline constexpr const char* contentsName = "contents";  // checksum of the list of everything (io/contents.hpp)
 }  // namespace checkpoint
 
 }  // namespace corpuscle::io

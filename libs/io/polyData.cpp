@@ -18,6 +18,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "io/dataChecksum.hpp"
 #include "io/publish.hpp"
 #include "io/vtkMessages.hpp"
 
@@ -165,7 +166,9 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cel
         number->InsertNextValue(value);
         poly->GetFieldData()->AddArray(number);
     }
-    for (const auto& [name, value] : data.texts) {
+    auto texts = data.texts;
+    if (!texts.empty()) texts[checksumText] = dataChecksum(data, allFields);
+    for (const auto& [name, value] : texts) {
         vtkNew<vtkStringArray> text;
         text->SetName(name.c_str());
         text->InsertNextValue(value);
@@ -181,12 +184,7 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cel
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToLZ4();
     writer->SetHeaderTypeToUInt64();
-    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || messages.any()) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw Failure(ExitCode::io, fmt::format("cannot write {}: {}", path.string(),
-                                                messages.any() ? messages.first() : "no space left or no permission"));
-    }
+    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || messages.any()) throw notWritten(path, temporary);
     publish(temporary, path, Sync::none);
 }
 

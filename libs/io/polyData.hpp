@@ -2,7 +2,8 @@
 //
 // A fluid is points alone; a membrane is points and triangles; rims of holes are points and lines. Everything SI. A file written here holds appended raw
 // data, compressed with lz4, with 64-bit headers; doubles keep all their bits. Points alone get one vertex
-// cell each, so that ParaView shows them. Files are written under a temporary name and renamed (io/publish.hpp).
+// cell each, so that ParaView shows them. Files are written under a temporary name and renamed (io/publish.hpp). A file with texts (those of 0/) also
+// gets the text "checksum" (io/dataChecksum.hpp), which is verified wherever it is read.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -41,6 +42,7 @@ struct PolyData {
     Arrays point, cell;
     std::map<std::string, double> field;       // one number each: TimeValue [s], strain
     std::map<std::string, std::string> texts;  // field data too, one text each
+    bool verified = false;                     // by readVtp: the file has a checksum, which is right
 };
 
 enum class Cells { vertices, triangles, lines };
@@ -52,7 +54,7 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data);
 void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cells,
               const std::map<std::string, double>& field);
 
-// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, has cells other than vertices,
+// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, does not agree with its checksum, has cells other than vertices,
 // triangles and lines, or both of these. Numbers of any width are read: floating point with 1 or 3 components as scalars or vectors, integers with
 // 1 as integers.
 PolyData readVtp(const std::filesystem::path& path);

@@ -5,9 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 
-#include "core/error.hpp"
+#include "core/writeFailure.hpp"
 
 namespace corpuscle::io {
 namespace {
@@ -17,8 +16,7 @@ void syncToDisk(const std::filesystem::path& path) {
     const bool done = file >= 0 && ::fsync(file) == 0;
     const int reason = errno;
     if (file >= 0) ::close(file);
-    if (!done)
-        throw Failure(ExitCode::io, fmt::format("cannot write {} to disk: {}", path.string(), std::strerror(reason)));
+    if (!done) throw writeFailure(path, reason);
 }
 
 }  // namespace
@@ -35,18 +33,22 @@ void publish(const std::filesystem::path& temporary, const std::filesystem::path
     if (sync == Sync::disk) syncToDisk(temporary);
     std::error_code error;
     std::filesystem::rename(temporary, path, error);
-    if (error) {
-        throw Failure(ExitCode::io,
-                      fmt::format("cannot rename {} to {}: {}", temporary.string(), path.string(), error.message()));
-    }
+    if (error) throw writeFailure(path, error.value());
     if (sync == Sync::disk) syncToDisk(path.has_parent_path() ? path.parent_path() : ".");
+}
+
+Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary, const std::string& said) {
+    const int reason = tryWriting(temporary);
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    if (reason != 0 || said.empty()) return writeFailure(path, reason);
+    return {ExitCode::io, fmt::format("cannot write {}: {}; check permissions and free space", path.string(), said)};
 }
 
 void makeFolder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error)
-        throw Failure(ExitCode::io, fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    if (error) throw writeFailure(folder, error.value());
 }
 
 }  // namespace corpuscle::io

@@ -2,6 +2,9 @@
 // Text files: core/atomicFile.hpp.
 #pragma once
 #include <filesystem>
+#include <string>
+
+#include "core/error.hpp"
 
 namespace corpuscle::io {
 
@@ -16,6 +19,11 @@ enum class Sync {
 
 // Renames `temporary` to `path`, replacing what was there. Throws Failure(ExitCode::io).
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync);
+
+// Why a library could not write `path`, found by writing to `temporary`, which is then removed (core/writeFailure.hpp). `said`: what the library gave as
+// its reason, shown where the system has none.
+Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary,
+                   const std::string& said = "");
 
 // Makes the folder with its parents. Throws Failure(ExitCode::io).
 void makeFolder(const std::filesystem::path& folder);

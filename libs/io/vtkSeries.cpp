@@ -65,6 +65,15 @@ std::vector<SeriesEntry> readPvd(const std::filesystem::path& path) {
     return entries;
 }
 
+void writePvd(const std::filesystem::path& path, const std::vector<SeriesEntry>& entries) {
+    std::string text = fmt::format(headerText, "Collection") + "  <Collection>\n";
+    for (const auto& entry : entries) {
+        text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}/{}\"/>\n", entry.time,
+                            path.stem().string(), entry.file.filename().string());
+    }
+    writeFileAtomically(path, text + "  </Collection>\n</VTKFile>\n");
+}
+
 bool isReservedStream(std::string_view name) {
     return name == "fluid" || name == "walls" || name == "bodies" || name == "holes" || name == "fault" ||
            name.starts_with("fault_");
@@ -125,14 +134,7 @@ Cells VtkSeries::agreeOnCells(const PolyData& piece) const {
     return static_cast<Cells>(agreed);
 }
 
-void VtkSeries::writeIndex() const {
-    std::string text = fmt::format(headerText, "Collection") + "  <Collection>\n";
-    for (const auto& entry : entries_) {
-        text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}/{}\"/>\n", entry.time, stream_,
-                            entry.file.filename().string());
-    }
-    writeFileAtomically(results_ / (stream_ + ".pvd"), text + "  </Collection>\n</VTKFile>\n");
-}
+void VtkSeries::writeIndex() const { writePvd(results_ / (stream_ + ".pvd"), entries_); }
 
 void VtkSeries::write(double time, std::optional<double> strain, const PolyData& piece) {
     std::map<std::string, double> field{{"TimeValue", time}};
@@ -145,7 +147,14 @@ void VtkSeries::write(double time, std::optional<double> strain, const PolyData&
     const Cells cells = agreeOnCells(piece);
 
     onRoot(comm_, [&] { makeFolder(folder / name); });
-    together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
+    try {
+        together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
+    } catch (const Failure&) {
+        // Nothing names the pieces, and a full disk needs the room.
+        std::error_code ignored;
+        if (rank_ == 0) std::filesystem::remove_all(folder / name, ignored);
+        throw;
+    }
 
     const std::string rootArrays = Communicator(comm_).broadcast(arrays);
     throwTogether(comm_, arrays != rootArrays,

@@ -32,6 +32,9 @@ bool isReservedStream(std::string_view name);
 // The entries of a .pvd in their order. Throws Failure(ExitCode::io) when it is missing or no .pvd.
 std::vector<SeriesEntry> readPvd(const std::filesystem::path& path);
 
+// Writes a .pvd anew, atomically. The entries' files lie in the folder of its name.
+void writePvd(const std::filesystem::path& path, const std::vector<SeriesEntry>& entries);
+
 class VtkSeries {
   public:
     // keep: the number of times that stay, 0 for all. startTime: the earliest that this run may write [s].

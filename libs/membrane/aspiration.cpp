@@ -75,7 +75,11 @@ std::string Aspiration::describe(int stage) const {
     return formatQuantity(pressures[static_cast<std::size_t>(stage)], unit::pascal);
 }
 
-std::vector<std::string> Aspiration::columns() const { return {"suction_Pa", "length_m", "lengthOverRadius"}; }
+std::vector<Protocol::Column> Aspiration::columns() const {
+    return {{"suction", "Pa", "pressure outside less that in the pipette"},
+            {"length", "m", "length of the tongue, from the mouth of the pipette to its tip"},
+            {"lengthOverRadius", "", "this length over the inner radius of the pipette"}};
+}
 
 std::vector<double> Aspiration::measure(int stage, const Membrane& membrane) const {
     const Pipette glass = pipette(membrane);

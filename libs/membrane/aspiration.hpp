@@ -28,7 +28,7 @@ struct Aspiration : Protocol {
     int stages() const override { return static_cast<int>(pressures.size()); }
     Loads apply(int stage, Membrane& membrane) const override;
     std::string describe(int stage) const override;
-    std::vector<std::string> columns() const override;
+    std::vector<Column> columns() const override;
     // Throws Failure(numerics) where the membrane has gone through the glass.
     std::vector<double> measure(int stage, const Membrane& membrane) const override;
     static const Schema<Aspiration>& schema();

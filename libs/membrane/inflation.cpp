@@ -28,7 +28,11 @@ std::string Inflation::describe(int stage) const {
     return formatQuantity(pressures[static_cast<std::size_t>(stage)], unit::pascal);
 }
 
-std::vector<std::string> Inflation::columns() const { return {"pressure_Pa", "radius_m", "stretch"}; }
+std::vector<Protocol::Column> Inflation::columns() const {
+    return {{"pressure", "Pa", "pressure inside less that outside"},
+            {"radius", "m", "radius of the sphere of the enclosed volume"},
+            {"stretch", "", "this radius over that of the stress-free volume"}};
+}
 
 std::vector<double> Inflation::measure(int stage, const Membrane& membrane) const {
     const double radius = radiusOfSphere(membrane.volume());

@@ -13,7 +13,7 @@ struct Inflation : Protocol {
     int stages() const override { return static_cast<int>(pressures.size()); }
     Loads apply(int stage, Membrane& membrane) const override;
     std::string describe(int stage) const override;
-    std::vector<std::string> columns() const override;
+    std::vector<Column> columns() const override;
     std::vector<double> measure(int stage, const Membrane& membrane) const override;
     static const Schema<Inflation>& schema();
 };

@@ -35,7 +35,10 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
                                      joinWords(Registry<BondLaw>::instance().names()) + "), triangles (" +
                                      joinWords(Registry<TriangleLaw>::instance().names()) + ") or both");
                 }
-            });
+            })
+            .atRestart(AtRestart::fixed, {"interior", "stressFree"})
+            .atRestart(AtRestart::noted,
+                       {"bonds", "triangles", "angles", "bending", "area", "volume", "viscosity", "rupture"});
     return s;
 }
 

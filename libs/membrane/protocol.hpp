@@ -18,8 +18,23 @@ class Protocol {
     // Of stage 0, 1, ...; may displace nodes beforehand. Throws Failure(invalidCase) where the membrane does not suit.
     virtual Loads apply(int stage, Membrane& membrane) const = 0;
     virtual std::string describe(int stage) const = 0;  // "60 pN"
-    // Columns beside those of every protocol (area, volume, energy), as name_unit, and their values in equilibrium.
-    virtual std::vector<std::string> columns() const = 0;
+    // Columns beside those of every protocol (area, volume, energy), and their values in equilibrium.
+    struct Column {
+        std::string name, unit, meaning;  // unit: "m2"; empty: dimensionless
+        std::string header() const { return unit.empty() ? name : name + "_" + unit; }
+    };
+    virtual std::vector<Column> columns() const = 0;
+    // Those of every protocol: before and after its own.
+    static std::vector<Column> columnsBefore() { return {{"stage", "", "number of the stage, 0 and up"}}; }
+    static std::vector<Column> columnsAfter() {
+        return {{"area", "m2", "area of the membrane"},
+                {"volume", "m3", "enclosed volume; 0: the membrane is open"},
+                {"areaStrain", "", "area over that of the mesh, less 1"},
+                {"volumeStrain", "", "volume over that of the mesh, less 1"},
+                {"energy", "J", "elastic energy of the membrane"},
+                {"iterations", "", "iterations until equilibrium"},
+                {"residual", "N", "largest force on a node that is left"}};
+    }
     virtual std::vector<double> measure(int stage, const Membrane& membrane) const = 0;
 };
 

@@ -30,7 +30,12 @@ Loads Resting::apply(int, Membrane& membrane) const {
 
 std::string Resting::describe(int) const { return "no load"; }
 
-std::vector<std::string> Resting::columns() const { return {"extentX_m", "extentY_m", "extentZ_m", "reducedVolume"}; }
+std::vector<Protocol::Column> Resting::columns() const {
+    return {{"extentX", "m", "extent along x"},
+            {"extentY", "m", "extent along y"},
+            {"extentZ", "m", "extent along z"},
+            {"reducedVolume", "", "volume over that of a sphere with the same area"}};
+}
 
 std::vector<double> Resting::measure(int, const Membrane& membrane) const {
     Vec3 low = membrane.position.front(), high = low;

@@ -17,7 +17,7 @@ struct Resting : Protocol {
     int stages() const override { return 1; }
     Loads apply(int stage, Membrane& membrane) const override;
     std::string describe(int stage) const override;
-    std::vector<std::string> columns() const override;
+    std::vector<Column> columns() const override;
     std::vector<double> measure(int stage, const Membrane& membrane) const override;
     static const Schema<Resting>& schema();
 };

@@ -64,8 +64,13 @@ Loads SheetTest::apply(int stage, Membrane& membrane) const {
 
 std::string SheetTest::describe(int stage) const { return formatQuantity(value(stage), unit::none); }
 
-std::vector<std::string> SheetTest::columns() const {
-    return {"applied", "stretchX", "stretchY", "tensionXX_N/m", "tensionYY_N/m", "tensionXY_N/m"};
+std::vector<Protocol::Column> SheetTest::columns() const {
+    return {{"applied", "", "value of the stage: stretch, or amount of shear"},
+            {"stretchX", "", "length along x over that of the stress-free sheet"},
+            {"stretchY", "", "length along y over that of the stress-free sheet"},
+            {"tensionXX", "N_m", "mean Cauchy tension of the sheet, component xx"},
+            {"tensionYY", "N_m", "mean Cauchy tension of the sheet, component yy"},
+            {"tensionXY", "N_m", "mean Cauchy tension of the sheet, component xy"}};
 }
 
 std::vector<double> SheetTest::measure(int stage, const Membrane& membrane) const {

@@ -22,7 +22,7 @@ class SheetTest : public Protocol {
     int stages() const override { return static_cast<int>(values.size()); }
     Loads apply(int stage, Membrane& membrane) const override;
     std::string describe(int stage) const override;
-    std::vector<std::string> columns() const override;
+    std::vector<Column> columns() const override;
     std::vector<double> measure(int stage, const Membrane& membrane) const override;
 
   protected:

@@ -67,7 +67,11 @@ std::string Tweezers::describe(int stage) const {
     return formatQuantity(forces[static_cast<std::size_t>(stage)], unit::newton);
 }
 
-std::vector<std::string> Tweezers::columns() const { return {"force_N", "axialDiameter_m", "transverseDiameter_m"}; }
+std::vector<Protocol::Column> Tweezers::columns() const {
+    return {{"force", "N", "force on each bead"},
+            {"axialDiameter", "m", "extent along x, in which the beads are pulled"},
+            {"transverseDiameter", "m", "extent along y, across it"}};
+}
 
 std::vector<double> Tweezers::measure(int stage, const Membrane& membrane) const {
     return {forces[static_cast<std::size_t>(stage)], extent(membrane.position, 0), extent(membrane.position, 1)};

@@ -21,7 +21,7 @@ struct Tweezers : Protocol {
     int stages() const override { return static_cast<int>(forces.size()); }
     Loads apply(int stage, Membrane& membrane) const override;
     std::string describe(int stage) const override;
-    std::vector<std::string> columns() const override;
+    std::vector<Column> columns() const override;
     std::vector<double> measure(int stage, const Membrane& membrane) const override;
     static const Schema<Tweezers>& schema();
 };

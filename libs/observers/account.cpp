@@ -16,20 +16,6 @@ using sph::Account;
 
 namespace {
 
-bool anyViscous(const Scene& scene) {
-    return std::any_of(scene.cells.begin(), scene.cells.end(),
-                       [](const coupling::Cell& cell) { return cell.membrane.isViscous(); });
-}
-bool anyRupture(const Scene& scene) {
-    return std::any_of(scene.cells.begin(), scene.cells.end(),
-                       [](const coupling::Cell& cell) { return cell.membrane.canRupture(); });
-}
-bool anyGivenBody(const Scene& scene) {
-    return scene.bodies && std::any_of(scene.bodies->all().begin(), scene.bodies->all().end(),
-                                       [](const bodies::Body& body) { return !body.behaviour->yields(); });
-}
-bool hasBodyForce(const Scene& scene) { return !scene.model().bodyForce.isZero(); }
-
 Account::Values summed(const Scene& scene) {
     const Account::Values& own = scene.account.total;
     const std::vector<double> all = Communicator(scene.system->comm()).sum(std::vector<double>(own.begin(), own.end()));
@@ -38,15 +24,13 @@ Account::Values summed(const Scene& scene) {
     return values;
 }
 
-void addVector(std::vector<io::Column>& columns, const std::string& name, const std::string& unit) {
-    for (const char* component : {"_x", "_y", "_z"}) columns.push_back({name + component, unit});
-}
 void add(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); }
 std::vector<double> numbers(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-AccountBook::AccountBook(const Scene& scene) : start_(contentOf(scene)), before_(summed(scene)) {}
+AccountBook::AccountBook(const Scene& scene)
+    : parts_(SceneParts::of(scene)), start_(contentOf(scene)), before_(summed(scene)) {}
 
 AccountBook::Content AccountBook::contentOf(const Scene& scene) {
     const Communicator ranks(scene.system->comm());
@@ -123,47 +107,64 @@ AccountBook::Balance AccountBook::balance(const Scene& scene) const {
     return b;
 }
 
-std::vector<io::Column> AccountBook::columns(const Scene& scene) {
+std::vector<io::Column> AccountBook::columns(const SceneParts& parts) {
     std::vector<io::Column> columns;
-    if (scene.flow.walls.exist()) columns.push_back({"workOfWalls", "J"});
-    if (hasBodyForce(scene)) columns.push_back({"workOfBodyForce", "J"});
-    if (anyGivenBody(scene)) columns.push_back({"workOfBodies", "J"});
-    columns.push_back({"dissipated", "J"});
-    if (anyViscous(scene)) columns.push_back({"dissipatedInMembranes", "J"});
-    if (!scene.cells.empty()) columns.push_back({"stored", "J"});
-    if (anyRupture(scene)) columns.push_back({"released", "J"});
-    for (const char* name : {"compressed", "kineticEnergy", "residual"}) columns.push_back({name, "J"});
-    columns.push_back({"residualShare", ""});
-    columns.push_back({"residualOfInertia", "J"});
-    if (!scene.cells.empty()) columns.push_back({"residualOfMembranes", "J"});
-    columns.push_back({"residualOfCompression", "J"}), columns.push_back({"residualOfSolver", "J"});
-    addVector(columns, "momentum", "Ns");
-    if (scene.flow.walls.exist())
-        addVector(columns, "impulseOfLowerWall", "Ns"), addVector(columns, "impulseOfUpperWall", "Ns");
-    if (hasBodyForce(scene)) addVector(columns, "impulseOfBodyForce", "Ns");
-    if (anyGivenBody(scene)) addVector(columns, "impulseOfBodies", "Ns");
-    addVector(columns, "momentumDrift", "Ns");
-    addVector(columns, "angularMomentum", "Js");
-    if (scene.flow.walls.exist()) addVector(columns, "angularImpulseOfWalls", "Js");
-    if (hasBodyForce(scene)) addVector(columns, "angularImpulseOfBodyForce", "Js");
-    columns.push_back({"massChange", ""}), columns.push_back({"volumeChange", ""});
+    const auto joules = [&](const std::string& name, const std::string& meaning) {
+        columns.push_back({name, "J", meaning});
+    };
+    const bool cells = !parts.cells.empty();
+    if (parts.walls) joules("workOfWalls", "energy put in by the walls since the start");
+    if (parts.bodyForce) joules("workOfBodyForce", "energy put in by the body force since the start");
+    if (parts.givenBodies) joules("workOfBodies", "energy put in by bodies whose motion is given, since the start");
+    joules("dissipated", "energy dissipated by viscosity since the start, all of it");
+    if (parts.viscousMembranes)
+        joules("dissipatedInMembranes", "of that, by the viscosity of the membranes themselves");
+    if (cells) joules("stored", "change of the membranes' elastic energy");
+    if (parts.rupture) joules("released", "elastic energy that was in bonds and triangles as they broke");
+    joules("compressed", "change of the energy of compression");
+    joules("kineticEnergy", "change of the kinetic energy");
+    joules("residual", "put in - dissipated - stored - released - compressed - kinetic");
+    columns.push_back({"residualShare", "", "the residual's size over that of the largest entry"});
+    joules("residualOfInertia", "part of the residual: kinetic energy as the steps change it less that of the state");
+    if (cells) joules("residualOfMembranes", "part of the residual: the same of the elastic energy");
+    joules("residualOfCompression", "part of the residual: the same of the energy of compression");
+    joules("residualOfSolver", "part of the residual: what the linear solver leaves");
+    addVector(columns, "momentum", "Ns", "component of the change of momentum");
+    if (parts.walls) {
+        addVector(columns, "impulseOfLowerWall", "Ns", "component of the time integral of the lower wall's force");
+        addVector(columns, "impulseOfUpperWall", "Ns", "component of the time integral of the upper wall's force");
+    }
+    if (parts.bodyForce)
+        addVector(columns, "impulseOfBodyForce", "Ns", "component of the time integral of the body force");
+    if (parts.givenBodies)
+        addVector(columns, "impulseOfBodies", "Ns", "component of the time integral of the force of given bodies");
+    addVector(columns, "momentumDrift", "Ns", "component of the change of momentum that no force explains");
+    addVector(columns, "angularMomentum", "Js", "component of the change of angular momentum about the box's middle");
+    if (parts.walls)
+        addVector(columns, "angularImpulseOfWalls", "Js", "component of the time integral of the walls' torque");
+    if (parts.bodyForce)
+        addVector(columns, "angularImpulseOfBodyForce", "Js",
+                  "component of the time integral of the body force's torque");
+    columns.push_back({"massChange", "", "relative change of the mass of all that moves"});
+    columns.push_back({"volumeChange", "", "relative change of sum m/rho of fluid and nodes"});
     return columns;
 }
 
 std::vector<double> AccountBook::row(const Scene& scene) const {
     const Balance b = balance(scene);
     const Account::Values& w = b.work;
-    const bool walls = scene.flow.walls.exist(), force = hasBodyForce(scene), bodies = anyGivenBody(scene);
+    const bool walls = parts_.walls, force = parts_.bodyForce, bodies = parts_.givenBodies,
+               cells = !parts_.cells.empty();
     std::vector<double> row;
     if (walls) row.push_back(w[Account::ofWalls]);
     if (force) row.push_back(w[Account::ofBodyForce]);
     if (bodies) row.push_back(w[Account::ofBodies]);
     row.push_back(b.dissipated);
-    if (anyViscous(scene)) row.push_back(w[Account::inMembranes]);
-    if (!scene.cells.empty()) row.push_back(b.elastic);
-    if (anyRupture(scene)) row.push_back(w[Account::released]);
+    if (parts_.viscousMembranes) row.push_back(w[Account::inMembranes]);
+    if (cells) row.push_back(b.elastic);
+    if (parts_.rupture) row.push_back(w[Account::released]);
     row.insert(row.end(), {b.compression, b.kinetic, b.residual, b.share, b.ofInertia});
-    if (!scene.cells.empty()) row.push_back(b.ofMembranes);
+    if (cells) row.push_back(b.ofMembranes);
     row.push_back(b.ofCompression), row.push_back(b.ofSolver);
     add(row, b.momentum);
     if (walls) add(row, Account::vector(w, Account::lowerWall)), add(row, Account::vector(w, Account::upperWall));
@@ -182,24 +183,24 @@ Summary AccountBook::summary(const Scene& scene) const {
     const Account::Values& w = b.work;
     const std::vector<double> values = row(scene);
     Summary summary;
-    const std::vector<io::Column> names = columns(scene);
+    const std::vector<io::Column> names = columns(parts_);
     for (std::size_t k = 0; k < names.size(); ++k)
         if (names[k].unit == "J" || names[k].unit.empty()) summary.figures[names[k].header()] = values[k];
     summary.figures["momentumDrift_Ns"] = numbers(b.drift);
     summary.figures["momentumDriftShare"] = b.driftShare;
     const auto joule = [](double value) { return formatQuantity(value, unit::joule); };
     std::string given;
-    if (scene.flow.walls.exist()) given += "walls put in " + joule(w[Account::ofWalls]) + ", ";
-    if (hasBodyForce(scene)) given += "the body force " + joule(w[Account::ofBodyForce]) + ", ";
-    if (anyGivenBody(scene)) given += "bodies of given motion " + joule(w[Account::ofBodies]) + ", ";
-    if (!scene.cells.empty()) given += "stored in membranes " + joule(b.elastic) + ", ";
+    if (parts_.walls) given += "walls put in " + joule(w[Account::ofWalls]) + ", ";
+    if (parts_.bodyForce) given += "the body force " + joule(w[Account::ofBodyForce]) + ", ";
+    if (parts_.givenBodies) given += "bodies of given motion " + joule(w[Account::ofBodies]) + ", ";
+    if (!parts_.cells.empty()) given += "stored in membranes " + joule(b.elastic) + ", ";
     summary.lines.push_back(
         fmt::format("energy account: {}dissipated {}, kinetic {}, compression {}; closes to {:.2g} %", given,
                     joule(b.dissipated), joule(b.kinetic), joule(b.compression), 100 * b.share));
     summary.lines.push_back(
         fmt::format("momentum drifts by {:.2g} of what is exchanged, mass by {:.2g}, volume (sum of m/rho) by {:.2g}",
                     b.driftShare, b.mass, b.volume));
-    if (!scene.cells.empty()) {
+    if (!parts_.cells.empty()) {
         double worst = 0;
         for (const auto& cell : ofEachCell(scene, 1, [](const coupling::Cell&held, std::size_t, double*out) {
                  *out = held.membrane.volume() / held.initialVolume - 1;

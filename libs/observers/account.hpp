@@ -12,7 +12,7 @@ class AccountBook {
   public:
     explicit AccountBook(const Scene& scene);  // begins now. Collective
 
-    static std::vector<io::Column> columns(const Scene& scene);
+    static std::vector<io::Column> columns(const SceneParts& parts);
     std::vector<double> row(const Scene& scene) const;  // collective
     Summary summary(const Scene& scene) const;          // collective
 
@@ -44,6 +44,7 @@ class AccountBook {
     };
     Balance balance(const Scene& scene) const;
 
+    SceneParts parts_;
     Content start_;
     sph::Account::Values before_;  // what the account held at the beginning
 };

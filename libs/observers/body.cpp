@@ -1,13 +1,5 @@
-// Observer `body`: motion of each rigid body and what the fluid does to it; one file per body.
-//
-// column                    | meaning                                                                                  | unit
-// centre_x, _y, _z          | centre of mass, not wrapped into the box                                                 | m
-// axis_x, _y, _z            | what was the axis of its shape at t = 0                                                  | -
-// rotation_w, _x, _y, _z    | unit quaternion of the rotation since t = 0                                              | -
-// velocity_x, _y, _z        | of the centre of mass                                                                    | m/s
-// angularVelocity_x, _y, _z |                                                                                          | 1/s
-// force_x, _y, _z           | of the fluid, with rho0 b V where a body force b stands for a pressure gradient          | N
-// torque_x, _y, _z          | of the fluid, about the centre of mass                                                   | N m
+// Observer `body`: motion of each rigid body and what the fluid does to it; one file per body. The force has rho0 b V in it where a body
+// force b stands for a pressure gradient.
 //
 // Numbers to compare with, in Stokes flow, a the radius, mu the viscosity: drag 6 pi mu a U; torque on a sphere held in the shear
 // rate gammadot 4 pi mu a^3 gammadot; angular velocity of a free sphere gammadot/2, of a free spheroid of axis ratio r = c/a whose axis
@@ -21,7 +13,7 @@ namespace {
 
 class BodyObservation : public Observation {
   public:
-    explicit BodyObservation(const Scene& scene) : Observation(tablesOf(scene)) {}
+    using Observation::Observation;
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         std::vector<Row> rows;
@@ -39,21 +31,6 @@ class BodyObservation : public Observation {
         }
         return rows;
     }
-
-  private:
-    static std::vector<Table> tablesOf(const Scene& scene) {
-        std::vector<io::Column> columns;
-        const auto add = [&](const std::string& name, const std::string& unit) {
-            for (const char* component : {"_x", "_y", "_z"}) columns.push_back({name + component, unit});
-        };
-        add("centre", "m"), add("axis", "");
-        columns.push_back({"rotation_w", ""});
-        add("rotation", "");
-        add("velocity", "m_s"), add("angularVelocity", "1_s"), add("force", "N"), add("torque", "Nm");
-        std::vector<Table> tables;
-        for (const bodies::Body& body : scene.bodies->all()) tables.push_back({body.name, columns});
-        return tables;
-    }
 };
 
 struct BodyObserver : Observer {
@@ -68,8 +45,22 @@ struct BodyObserver : Observer {
         return "this observer looks at rigid bodies, and the case has none; remove it, or add bodies to "
                "system/mesh.yaml";
     }
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<io::Column> columns;
+        addVector(columns, "centre", "m", "coordinate of the centre of mass, not wrapped into the box");
+        addVector(columns, "axis", "", "component of the unit vector that was the axis of its shape at t = 0");
+        columns.push_back({"rotation_w", "", "scalar part of the unit quaternion of the rotation since t = 0"});
+        addVector(columns, "rotation", "", "component of the vector part of the unit quaternion");
+        addVector(columns, "velocity", "m_s", "component of the velocity of the centre of mass");
+        addVector(columns, "angularVelocity", "1_s", "component of the angular velocity");
+        addVector(columns, "force", "N", "component of the force of the fluid, with that of a mean pressure gradient");
+        addVector(columns, "torque", "Nm", "component of the torque of the fluid about the centre of mass");
+        std::vector<Table> all;
+        for (const std::string& body : parts.bodies) all.push_back({body, columns});
+        return all;
+    }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<BodyObservation>(scene);
+        return std::make_unique<BodyObservation>(tables(SceneParts::of(scene)));
     }
 };
 

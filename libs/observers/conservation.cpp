@@ -1,30 +1,7 @@
 // Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the account of energy and momentum, account.csv.
 //
-// conservation.csv:
-// column                          | meaning                                                                             | unit
-// density_mean, _min, _max        | of the fluid's particles over rho0                                                  | -
-// kineticEnergy                   | sum m u^2/2 of fluid and membrane particles, and that of rigid bodies               | J
-// momentum_x, _y, _z              | sum m u of the same; walls and body force change it                                 | N s
-// particles                       | of all kinds                                                                        | -
-// with cells only:
-// membraneEnergy                  | of all laws of all membranes                                                        | J
-// changedSide                     | fluid particles that are not where their `side` says, by geometry (cells.hpp)       | -
-// guardMoves                      | particles put back to their side of a membrane since the start; leak: both together  | -
-// <cell>_area, <cell>_areaChange  | of the whole triangles; A/A(t = 0) - 1                                              | m^2, -
-// <cell>_volume, _volumeChange    | enclosed, holes closed by fans; V/V(t = 0) - 1                                      | m^3, -
-//
-// account.csv: sums and changes since the start (docs/theory/conservation.md); those that a case has
-// column                              | meaning                                                                                    | unit
-// workOfWalls, _OfBodyForce, _OfBodies | put in; OfBodies: by bodies whose motion is given                                         | J
-// dissipated, dissipatedInMembranes   | by viscosity, all of it; of that, by the membranes' own                                    | J
-// stored, released                    | change of the membranes' elastic energy; what was in bonds and triangles as they broke     | J
-// compressed, kineticEnergy           | changes of the energy of compression, and of motion                                        | J
-// residual, residualShare             | put in - dissipated - stored - released - compressed - kinetic; over the largest entry     | J, -
-// residualOfInertia, OfMembranes,     | what that is made of: energies as a step changes them less those of the state; what its    | J
-//   OfCompression, OfSolver           | solver leaves                                                                              |
-// momentum, impulseOf..., momentumDrift | change; time integrals of forces on the fluid; what these do not explain                 | N s
-// angularMomentum, angularImpulseOf...  | likewise, about the middle of the box. Periodic faces pass some on: no balance          | J s
-// massChange, volumeChange            | of all that moves; of sum m/rho of fluid and nodes; relative                               | -
+// account.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is by geometry (cells.hpp);
+// leak is changedSide and guardMoves together. A torn cell's volume is that with its holes closed by fans.
 //
 // Expected: residualShare below 0.01, momentumDrift of rounding by explicit schemes and of the solver's tolerance by the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's membrane keeps its area
 // within 4 % before it fails (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976: 2-4 %).
@@ -42,7 +19,7 @@ namespace {
 
 class ConservationObservation : public Observation {
   public:
-    explicit ConservationObservation(const Scene& scene) : Observation(tablesOf(scene)) {
+    ConservationObservation(std::vector<Table> tables, const Scene& scene) : Observation(std::move(tables)) {
         if (scene.account.kept) book_.emplace(scene);
     }
 
@@ -67,28 +44,6 @@ class ConservationObservation : public Observation {
     }
 
   private:
-    static std::vector<Table> tablesOf(const Scene& scene) {
-        std::vector<Table> tables{{"conservation", columnsOf(scene)}};
-        if (scene.account.kept) tables.push_back({"account", AccountBook::columns(scene)});
-        return tables;
-    }
-
-    static std::vector<io::Column> columnsOf(const Scene& scene) {
-        std::vector<io::Column> columns{{"density_mean", ""},   {"density_min", ""},  {"density_max", ""},
-                                        {"kineticEnergy", "J"}, {"momentum_x", "Ns"}, {"momentum_y", "Ns"},
-                                        {"momentum_z", "Ns"},   {"particles", ""}};
-        if (!scene.cells.empty())
-            columns.insert(columns.end(), {{"membraneEnergy", "J"}, {"changedSide", ""}, {"guardMoves", ""}});
-        for (const coupling::Cell& cell : scene.cells) {
-            const std::string& name = cell.membrane.name;
-            columns.insert(columns.end(), {{name + "_area", "m2"},
-                                           {name + "_areaChange", ""},
-                                           {name + "_volume", "m3"},
-                                           {name + "_volumeChange", ""}});
-        }
-        return columns;
-    }
-
     static std::vector<double> ofParticles(const Scene& scene) {
         const Communicator ranks(scene.system->comm());
         const particles::ParticleStore& s = scene.store();
@@ -152,6 +107,27 @@ class ConservationObservation : public Observation {
     std::optional<AccountBook> book_;
 };
 
+std::vector<io::Column> columnsOf(const SceneParts& parts) {
+    std::vector<io::Column> columns{
+        {"density_mean", "", "mean density of the fluid's particles over the density at rest"},
+        {"density_min", "", "least density of the fluid's particles over the density at rest"},
+        {"density_max", "", "greatest density of the fluid's particles over the density at rest"},
+        {"kineticEnergy", "J", "kinetic energy of fluid and membranes, sum m u^2/2, and of rigid bodies"}};
+    addVector(columns, "momentum", "Ns", "component of the momentum of the same; walls and body force change it");
+    columns.push_back({"particles", "", "particles of all kinds"});
+    if (!parts.cells.empty())
+        columns.insert(columns.end(),
+                       {{"membraneEnergy", "J", "elastic energy of all membranes"},
+                        {"changedSide", "", "fluid particles that are not on the side of the membranes they belong to"},
+                        {"guardMoves", "", "particles moved back to their side of a membrane since the start"}});
+    for (const std::string& cell : parts.cells)
+        columns.insert(columns.end(), {{cell + "_area", "m2", "area of the whole triangles"},
+                                       {cell + "_areaChange", "", "A/A(t = 0) - 1"},
+                                       {cell + "_volume", "m3", "enclosed volume, holes closed by fans"},
+                                       {cell + "_volumeChange", "", "V/V(t = 0) - 1"}});
+    return columns;
+}
+
 struct ConservationObserver : Observer {
     static const Schema<ConservationObserver>& schema() {
         static const Schema<ConservationObserver> s =
@@ -160,8 +136,13 @@ struct ConservationObserver : Observer {
         return s;
     }
     bool wantsAccount() const override { return true; }
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<Table> all{{"conservation", columnsOf(parts)}};
+        if (parts.account) all.push_back({"account", AccountBook::columns(parts)});
+        return all;
+    }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<ConservationObservation>(scene);
+        return std::make_unique<ConservationObservation>(tables(SceneParts::of(scene)), scene);
     }
 };
 

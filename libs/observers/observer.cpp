@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "observers/summary.hpp"
 
 namespace corpuscle::observers {
@@ -13,6 +15,40 @@ const Schema<ObserverSettings>& ObserverSettings::schema() {
                       {.range = positive});
     return s;
 }
+
+const std::vector<io::Column>& timeColumns() {
+    static const std::vector<io::Column> columns{
+        {"time", "s", "time since the start of the flow"},
+        {"strain", "", "shear since the start of the flow; 0 in a flow without a shear rate"}};
+    return columns;
+}
+
+void addVector(std::vector<io::Column>& columns, const std::string& name, const std::string& unit,
+               const std::string& meaning) {
+    for (const char component : {'x', 'y', 'z'})
+        columns.push_back({fmt::format("{}_{}", name, component), unit, fmt::format("{} {}", component, meaning)});
+}
+
+SceneParts SceneParts::of(const Scene& scene) {
+    SceneParts parts;
+    for (const coupling::Cell& cell : scene.cells) {
+        parts.cells.push_back(cell.membrane.name);
+        parts.viscousMembranes = parts.viscousMembranes || cell.membrane.isViscous();
+        parts.rupture = parts.rupture || cell.membrane.canRupture();
+    }
+    if (scene.bodies)
+        for (const bodies::Body& body : scene.bodies->all()) {
+            parts.bodies.push_back(body.name);
+            parts.givenBodies = parts.givenBodies || !body.behaviour->yields();
+        }
+    parts.walls = scene.flow.walls.exist();
+    parts.shear = scene.flow.shearRate != 0;
+    parts.bodyForce = !scene.model().bodyForce.isZero();
+    parts.account = scene.account.kept;
+    return parts;
+}
+
+SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, true, true, true, true, true, true, true}; }
 
 std::optional<Summary> Observation::summary(const Scene&, const Time&) { return {}; }
 

@@ -2,9 +2,9 @@
 //
 //     deformation: {type: shape, every: 0.02 strain}
 //
-// An Observer is what the case says: settings, const and shared. begin() gives an Observation, the running part: the columns of
-// its files and whatever it has to remember between two looks. An Observation never changes the scene, knows no file and no
-// interval (observers.hpp has both), and its rows are the same on every rank.
+// An Observer is what the case says: settings, const and shared, and the tables it writes, each column with unit and meaning. begin()
+// gives an Observation, the running part: rows, and whatever it has to remember between two looks. An Observation never changes the
+// scene, knows no file and no interval (observers.hpp has both), and its rows are the same on every rank.
 //
 // Adding an observer is adding one .cpp with a struct of the settings (schema() includes ObserverSettings), its Observation and
 // CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
@@ -28,6 +28,23 @@ using coupling::Scene;
 struct Table {
     std::string file;  // without .csv
     std::vector<io::Column> columns;
+};
+
+// The first two columns of every table.
+const std::vector<io::Column>& timeColumns();
+
+// name_x, name_y, name_z, "x <meaning>" and so on; meaning: "component of the velocity".
+void addVector(std::vector<io::Column>& columns, const std::string& name, const std::string& unit,
+               const std::string& meaning);
+
+// Of a scene, what decides which tables and columns there are.
+struct SceneParts {
+    std::vector<std::string> cells, bodies;  // their names
+    bool walls = false, shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false,
+         rupture = false, account = false;
+    static SceneParts of(const Scene& scene);
+    // Everything, with cells and bodies "<cell>" and "<body>": for the documentation.
+    static SceneParts all();
 };
 
 struct Row {
@@ -88,6 +105,8 @@ class Observer : public ObserverSettings {
     virtual std::string obstacle(const Subject&) const { return {}; }
     // Whether the scene is to keep its account of energy and momentum (sph/account.hpp).
     virtual bool wantsAccount() const { return false; }
+    // What it writes of a scene with these parts.
+    virtual std::vector<Table> tables(const SceneParts& parts) const = 0;
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
 
   protected:

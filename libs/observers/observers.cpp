@@ -14,7 +14,8 @@ const Schema<ObserversSettings>& ObserversSettings::schema() {
     static const Schema<ObserversSettings> s =
         Schema<ObserversSettings>("observers", "system/observers.yaml: what is measured while the case runs")
             .models("*", &ObserversSettings::models,
-                    "one observer; its name is that of its folder under postProcessing");
+                    "one observer; its name is that of its folder under postProcessing")
+            .atRestart(AtRestart::free, {"*"});
     return s;
 }
 
@@ -46,7 +47,8 @@ std::string sharedFile(const Observation& observation) {
 
 Observers::Observers(const ObserversSettings& settings, const Scene& scene, const Time& start,
                      std::filesystem::path caseDir)
-    : caseDir_(std::move(caseDir)), startTime_(start.t) {
+    : caseDir_(std::move(caseDir)) {
+    if (start.step > 0) restart_ = start.t;
     Problems problems;
     for (const auto& [name, choice] : settings.models) {
         Running observer{name, choice.name, choice, Ticker(choice->every, start), choice->begin(scene), {}};
@@ -60,11 +62,14 @@ Observers::Observers(const ObserversSettings& settings, const Scene& scene, cons
 }
 
 void Observers::openFiles(const Scene& scene) {
+    io::clearTables(scene.system->comm(), caseDir_, "observer", restart_);
     for (Running& observer : running_)
         for (const Table& table : observer.observation->tables()) {
-            std::vector<io::Column> columns{{"time", "s"}, {"strain", ""}};
-            columns.insert(columns.end(), table.columns.begin(), table.columns.end());
-            observer.files.emplace_back(scene.system->comm(), caseDir_, observer.name, startTime_, table.file, columns);
+            io::CsvHead head{observer.name, table.file, "observer " + observer.type,
+                             Registry<Observer>::instance().find(observer.type)->text, timeColumns()};
+            head.columns.insert(head.columns.end(), table.columns.begin(), table.columns.end());
+            observer.files.emplace_back(scene.system->comm(), caseDir_, head, restart_);
+            if (const std::string& note = observer.files.back().note(); !note.empty()) notes_.push_back(note);
         }
     filesOpen_ = true;
 }
@@ -96,8 +101,7 @@ void Observers::write(Running& observer, const Time& time, const std::vector<Row
 }
 
 void Observers::run(const Scene& scene, const Time& time) {
-    if (empty()) return;
-    if (!filesOpen_) openFiles(scene);
+    if (!filesOpen_ && !caseDir_.empty()) openFiles(scene);
     for (Running& observer : running_) {
         if (observer.observation->watchesSteps()) write(observer, time, observer.observation->afterStep(scene, time));
         if (observer.ticker.due(time)) write(observer, time, observer.observation->observe(scene, time));

@@ -3,9 +3,10 @@
 //     deformation: {type: shape, every: 0.02 strain}
 //     balance: {type: conservation, every: 0.1 strain}
 //
-// Each writes postProcessing/<name>/<start time>/<file>.csv, first columns time_s and strain; files are made at the first run(). A run
-// from t = 0 begins with a row at t = 0; after a restart the first row is that of the next due time, so that both together have each
-// row once. Rows stand at the multiples of an interval exactly, unless it is shorter than a step. Observers may be added, removed or changed between a run and its restart.
+// Each writes postProcessing/<name>/<file>.csv (io/csvSeries.hpp), first columns time_s and strain; files are opened at the first run(), where
+// a run from t = 0 writes them anew, removes tables that earlier runs have left, and begins with a row at t = 0. A restart goes on in the
+// same files; its first row is that of the next due time, so that each row is there once. Rows stand at the multiples of an interval
+// exactly, unless it is shorter than a step. Observers may be added, removed or changed between a run and its restart.
 //
 //     Observers observers(settings, scene, time, caseDir);     // settings without models, or Observers(): none, at no cost
 //     observers.restore(saved);                                // from a checkpoint
@@ -39,6 +40,8 @@ class Observers {
     // Lets look those that are due. Collective.
     void run(const Scene& scene, const Time& time);
 
+    // What the user is to know of the tables that earlier runs have left, on rank 0, after the first run().
+    const std::vector<std::string>& notes() const { return notes_; }
     // When those look next whose interval is not shorter than a step. The others look after the first step past each of their times.
     void addEvents(const Time& time, std::vector<Event>& events) const;
 
@@ -72,8 +75,9 @@ class Observers {
 
     std::vector<Running> running_;
     std::filesystem::path caseDir_;
-    double startTime_ = 0;
+    std::optional<double> restart_;  // the time of the start; none: from t = 0
     bool filesOpen_ = false;
+    std::vector<std::string> notes_;
 };
 
 }  // namespace corpuscle::observers

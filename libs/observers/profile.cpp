@@ -1,6 +1,5 @@
 // Observer `profile`: mean velocity and density of the fluid's particles in slabs across an axis; one file, profile.csv, with one row
-// for each slab at each look: position (middle of the slab), u, v, w, density, count. Slabs divide the fluid between the walls evenly;
-// the mean is over particles, nan in a slab without any. In gnuplot:
+// for each slab at each look. Slabs divide the fluid between the walls evenly. In gnuplot, after `set datafile columnheaders`:
 //     plot 'profile.csv' using 4:3 every ::N*n::N*n+N-1 with linespoints      (look n, N slabs, u over position)
 //
 // setting | meaning                           | default
@@ -22,12 +21,8 @@ namespace {
 
 class ProfileObservation : public Observation {
   public:
-    ProfileObservation(int axis, int bins)
-        : Observation(
-              {{"profile",
-                {{"position", "m"}, {"u", "m_s"}, {"v", "m_s"}, {"w", "m_s"}, {"density", "kg_m3"}, {"count", ""}}}}),
-          axis_(axis),
-          bins_(bins) {}
+    ProfileObservation(std::vector<Table> tables, int axis, int bins)
+        : Observation(std::move(tables)), axis_(axis), bins_(bins) {}
 
     bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
@@ -71,8 +66,17 @@ struct ProfileObserver : Observer {
                 .integer("bins", &ProfileObserver::bins, "number of slabs", {.fallback = "32", .range = atLeast(1)});
         return s;
     }
-    std::unique_ptr<Observation> begin(const Scene&) const override {
-        return std::make_unique<ProfileObservation>(axis[0] - 'x', bins);
+    std::vector<Table> tables(const SceneParts&) const override {
+        return {{"profile",
+                 {{"position", "m", "middle of the slab on the axis across the slabs"},
+                  {"u", "m_s", "mean of the velocity along x over the fluid's particles in the slab; nan without any"},
+                  {"v", "m_s", "mean of the velocity along y"},
+                  {"w", "m_s", "mean of the velocity along z"},
+                  {"density", "kg_m3", "mean density"},
+                  {"count", "", "particles of the fluid in the slab"}}}};
+    }
+    std::unique_ptr<Observation> begin(const Scene& scene) const override {
+        return std::make_unique<ProfileObservation>(tables(SceneParts::of(scene)), axis[0] - 'x', bins);
     }
 };
 

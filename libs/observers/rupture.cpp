@@ -1,26 +1,11 @@
 // Observer `rupture`: when, where and how far the membranes break, and what they let out.
 //
-// <cell>.csv, a row at each look:
-// column                        | meaning                                                                                | unit
-// bondsBroken, trianglesLost    | so far                                                                                 | -
-// holes                         | closed rims between whole and lost triangles                                           | -
-// holeArea                      | fans over the rims now                                                                 | m^2
-// holeRestArea                  | stress-free area of the lost triangles                                                 | m^2
-// released, releasedVolume      | fluid of this cell's inside that is outside its surface (interior.hpp): particles,     | -, m^3
-//                               | sum of their volumes m/rho; 0 until the first break                                    |
-// leaked                        | the same particles while the cell is whole: an error of the numerics                   | -
-// haemolysisIndex               | 100 (released mass)/(mass inside at the start)                                         | %
-// maxBondStrain, maxArealStrain | largest l/l0 - 1 of the living bonds, A/A0 - 1 of the whole triangles                  | -
-// maxTension                    | greatest principal tension of the whole triangles (diagnostics.hpp)                    | N/m
-// maxDamage                     | largest damage of the whole triangles (damage.hpp); 0 where no law keeps it            | -
-// firstBreak, _strain           | time and strain of the first break, that of the most stretched bond of that step;      | s, -
-//                               | nan before, as the rest                                                                |
-// firstBreak_bond, _x.., _x0..  | its bond (events.csv has its nodes), its middle then and on the stress-free cell       | -, m, m
-// case.csv: cellsBroken, released, leaked, releasedVolume, haemolysisIndex of all cells.
-// holes.csv, a row for each rim at each look: cell (number, 1 and up), hole (1 and up, in the order of the rims' lowest bonds; not the same
-//     hole from look to look when holes come or merge), edges, perimeter, area (fan), mean point of its nodes x, y, z.
-// events.csv, a row for each bond, at the step at which it broke: cell, bond, its nodes, stretch l/l0, middle x, y, z then and x0, y0, z0 on
-//     the stress-free cell (in the case's box, where the cell stood at the start).
+// <cell>.csv and case.csv (of all cells) have a row at each look. holes.csv has one for each rim at each look; its number is not that of the
+// same hole at the next look when holes come or merge. events.csv has one for each bond, at the step at which it broke.
+//
+// Areas of holes are those of fans over their rims now; released fluid is interior.hpp's, tension diagnostics.hpp's, damage damage.hpp's. The
+// first break is that of the most stretched bond of its step; places on the stress-free cell are in the case's box, where the cell stood at
+// the start.
 //
 // The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, of cells that hold the same concentration and
 // let it out with their fluid. It counts what went out with the fluid through torn membranes; not what diffuses, nor what passes through
@@ -45,8 +30,10 @@ namespace {
 
 constexpr std::size_t eventNumbers = 11, holeNumbers = 8;
 
-std::vector<io::Column> point(const std::string& prefix, const std::string& suffix) {
-    return {{prefix + "x" + suffix, "m"}, {prefix + "y" + suffix, "m"}, {prefix + "z" + suffix, "m"}};
+void addPoint(std::vector<io::Column>& columns, const std::string& prefix, const std::string& suffix,
+              const std::string& meaning) {
+    for (const char axis : {'x', 'y', 'z'})
+        columns.push_back({prefix + axis + suffix, "m", fmt::format("{} coordinate of {}", axis, meaning)});
 }
 
 template <class T>
@@ -54,36 +41,59 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-std::vector<Table> tablesOf(const Scene& scene) {
-    std::vector<io::Column> cell{{"bondsBroken", ""},    {"trianglesLost", ""},    {"holes", ""},
-                                 {"holeArea", "m2"},     {"holeRestArea", "m2"},   {"released", ""},
-                                 {"leaked", ""},         {"releasedVolume", "m3"}, {"haemolysisIndex", "percent"},
-                                 {"maxBondStrain", ""},  {"maxArealStrain", ""},   {"maxTension", "N_m"},
-                                 {"maxDamage", ""},      {"firstBreak", "s"},      {"firstBreak_strain", ""},
-                                 {"firstBreak_bond", ""}};
-    append(cell, point("firstBreak_", ""));
-    append(cell, point("firstBreak_", "0"));
-    std::vector<io::Column> hole{{"cell", ""}, {"hole", ""}, {"edges", ""}, {"perimeter", "m"}, {"area", "m2"}};
-    append(hole, point("", ""));
-    std::vector<io::Column> event{{"cell", ""}, {"bond", ""}, {"node1", ""}, {"node2", ""}, {"stretch", ""}};
-    append(event, point("", ""));
-    append(event, point("", "0"));
-    std::vector<Table> tables;
-    for (const coupling::Cell& c : scene.cells) tables.push_back({c.membrane.name, cell});
-    tables.push_back({"events", event});
-    tables.push_back({"holes", hole});
-    tables.push_back({"case",
-                      {{"cellsBroken", ""},
-                       {"released", ""},
-                       {"leaked", ""},
-                       {"releasedVolume", "m3"},
-                       {"haemolysisIndex", "percent"}}});
-    return tables;
+// Of a cell and of all, whose meanings differ by whose they are.
+std::vector<io::Column> releaseColumns(const std::string& whose) {
+    return {{"released", "", "particles of " + whose + " inside that are outside the surface; 0 until the first break"},
+            {"leaked", "", "the same particles while the cell is whole: an error of the numerics"},
+            {"releasedVolume", "m3", "volume of the released particles, sum of m/rho"},
+            {"haemolysisIndex", "percent", "released mass over the mass inside at the start"}};
+}
+
+std::vector<io::Column> cellColumns() {
+    std::vector<io::Column> columns{{"bondsBroken", "", "bonds broken so far"},
+                                    {"trianglesLost", "", "triangles lost so far"},
+                                    {"holes", "", "closed rims between whole and lost triangles"},
+                                    {"holeArea", "m2", "area of fans over the rims of the holes, now"},
+                                    {"holeRestArea", "m2", "stress-free area of the lost triangles"}};
+    append(columns, releaseColumns("this cell's"));
+    append(columns, {{"maxBondStrain", "", "largest l/l0 - 1 of the living bonds"},
+                     {"maxArealStrain", "", "largest A/A0 - 1 of the whole triangles"},
+                     {"maxTension", "N_m", "greatest principal tension of the whole triangles"},
+                     {"maxDamage", "", "largest damage of the whole triangles; 0 where no law keeps it"},
+                     {"firstBreak", "s", "time of the first break, nan before, as all of it"},
+                     {"firstBreak_strain", "", "strain of the flow at the first break"},
+                     {"firstBreak_bond", "", "number of the bond that broke first; events.csv has its nodes"}});
+    addPoint(columns, "firstBreak_", "", "the middle of the bond that broke first, as it broke");
+    addPoint(columns, "firstBreak_", "0", "the middle of the bond that broke first, on the stress-free cell");
+    return columns;
+}
+
+std::vector<io::Column> holeColumns() {
+    std::vector<io::Column> columns{
+        {"cell", "", "number of the cell, 1 and up"},
+        {"hole", "", "number of the hole in its cell, 1 and up, in the order of lowest bonds"},
+        {"edges", "", "edges of its rim"},
+        {"perimeter", "m", "length of its rim"},
+        {"area", "m2", "area of a fan over its rim"}};
+    addPoint(columns, "", "", "the mean point of the rim's nodes");
+    return columns;
+}
+
+std::vector<io::Column> eventColumns() {
+    std::vector<io::Column> columns{{"cell", "", "number of the cell, 1 and up"},
+                                    {"bond", "", "number of the bond that broke"},
+                                    {"node1", "", "number of its first node"},
+                                    {"node2", "", "number of its second node"},
+                                    {"stretch", "", "l/l0 as it broke"}};
+    addPoint(columns, "", "", "its middle as it broke");
+    addPoint(columns, "", "0", "its middle on the stress-free cell");
+    return columns;
 }
 
 class RuptureObservation : public Observation {
   public:
-    explicit RuptureObservation(const Scene& scene) : Observation(tablesOf(scene)), first_(scene.cells.size()) {}
+    RuptureObservation(std::vector<Table> tables, const Scene& scene)
+        : Observation(std::move(tables)), first_(scene.cells.size()) {}
 
     bool watchesSteps() const override { return true; }
 
@@ -239,8 +249,18 @@ struct RuptureObserver : Observer {
         return s;
     }
     std::string obstacle(const Subject& subject) const override { return needsCells(subject); }
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<io::Column> ofAll{{"cellsBroken", "", "cells with a broken bond"}};
+        append(ofAll, releaseColumns("all cells'"));
+        std::vector<Table> all;
+        for (const std::string& cell : parts.cells) all.push_back({cell, cellColumns()});
+        all.push_back({"events", eventColumns()});
+        all.push_back({"holes", holeColumns()});
+        all.push_back({"case", ofAll});
+        return all;
+    }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<RuptureObservation>(scene);
+        return std::make_unique<RuptureObservation>(tables(SceneParts::of(scene)), scene);
     }
 };
 

@@ -1,17 +1,8 @@
 // Observer `shape`: deformation, orientation and rotation of each cell; one file per cell (sectionShape.hpp has the definitions).
 //
-// column           | meaning                                                                                         | unit
-// D12_extent       | |L - H|/(L + H)                                                                                 | -
-// D12_inertia      | of the ellipsoid of inertia                                                                     | -
-// inclination      | of the main axis against x, in (-pi/2, pi/2]                                                    | rad
-// angleTurned      | rotation of the material since the stress-free state, with the flow, without jumps: 2 pi is a   | rad
-//                  | whole tumble of a rigid cell, or a whole turn of a tank-treading membrane                       |
-// treadPhase       | how far the membrane is ahead of the shape: angle of one node, which at rest is nearest to the  | rad
-//                  | main axis, about the centroid, less that of the main axis. Near 0 for a rigid cell, growing by  |
-//                  | 2 pi with each turn of a tank-treading one; it jumps where a nearly round section changes axis  |
-// length, height   | L, H                                                                                            | m
-// width            | along the vorticity axis                                                                        | m
-// centroid_x, y, z | of the enclosed volume, not wrapped into the box                                                | m
+// angleTurned grows without jumps: 2 pi is a whole tumble of a rigid cell, or a whole turn of a tank-treading membrane. treadPhase is how far
+// the membrane is ahead of the shape: the angle of one node, which at rest is nearest to the main axis, about the centroid, less that of the
+// main axis; near 0 for a rigid cell, growing by 2 pi with each turn of a tank-treading one. It jumps where a nearly round section changes axis.
 //
 // Angles are followed from one look to the next and so must change by less than half a period between two; material turns by no
 // more than gammadot t, hence at most 1.5 strain between two looks.
@@ -53,7 +44,8 @@ int markerNode(const std::vector<Vec3>& nodes, const std::vector<Index3>& triang
 
 class ShapeObservation : public Observation {
   public:
-    explicit ShapeObservation(const Scene& scene) : Observation(tablesOf(scene)), angles_(scene.cells.size()) {
+    ShapeObservation(std::vector<Table> tables, const Scene& scene)
+        : Observation(std::move(tables)), angles_(scene.cells.size()) {
         if (scene.flow.walls.axis == 1) plane_.gradient = 1;
         for (const coupling::Cell& cell : scene.cells) {
             markers_.push_back(
@@ -97,24 +89,6 @@ class ShapeObservation : public Observation {
     }
 
   private:
-    static std::vector<Table> tablesOf(const Scene& scene) {
-        std::vector<Table> tables;
-        for (const coupling::Cell& cell : scene.cells)
-            tables.push_back({cell.membrane.name,
-                              {{"D12_extent", ""},
-                               {"D12_inertia", ""},
-                               {"inclination", "rad"},
-                               {"angleTurned", "rad"},
-                               {"treadPhase", "rad"},
-                               {"length", "m"},
-                               {"height", "m"},
-                               {"width", "m"},
-                               {"centroid_x", "m"},
-                               {"centroid_y", "m"},
-                               {"centroid_z", "m"}}});
-        return tables;
-    }
-
     struct Angles {
         double turned = 0, phase = 0;  // at the last look
     };
@@ -138,8 +112,25 @@ struct ShapeObserver : Observer {
             return "angles are followed from one look to the next: at most 1.5 strain may pass; give a smaller 'every'";
         return needsCells(subject);
     }
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<io::Column> columns{
+            {"D12_extent", "", "deformation index |L - H|/(L + H) of length and height"},
+            {"D12_inertia", "", "deformation index of the ellipsoid with the cell's tensor of inertia"},
+            {"inclination", "rad", "angle of the main axis of the section against x, in (-pi/2, pi/2]"},
+            {"angleTurned", "rad",
+             "rotation of the material since the stress-free state, with the flow, without jumps"},
+            {"treadPhase", "rad", "angle of one node of the membrane about the centroid less that of the main axis"},
+            {"length", "m", "extent L along the main axis in the section with the shear plane"},
+            {"height", "m", "extent H at right angles to it in the section"},
+            {"width", "m", "extent along the vorticity axis"}};
+        addVector(columns, "centroid", "m",
+                  "coordinate of the centroid of the enclosed volume, not wrapped into the box");
+        std::vector<Table> all;
+        for (const std::string& cell : parts.cells) all.push_back({cell, columns});
+        return all;
+    }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<ShapeObservation>(scene);
+        return std::make_unique<ShapeObservation>(tables(SceneParts::of(scene)), scene);
     }
 };
 

@@ -1,11 +1,7 @@
 // Observer `wallStress`: what the fluid does to the walls; one file, wallStress.csv.
 //
-// column                           | meaning                                                                       | unit
-// shearStress_lower, _upper        | stress sigma_xg in the fluid at the wall, g across the walls: F_x/A of the    | Pa
-//                                  | lower wall, -F_x/A of the upper one, F the force of the fluid on the wall     |
-// pressure_lower, _upper           | normal force over area, positive when the fluid pushes                        | Pa
-// effectiveViscosity               | mean of the two shear stresses over mu gammadot; only in a flow with a shear  | -
-//                                  | rate                                                                          |
+// Shear stress: sigma_xg in the fluid at the wall, g across the walls, which is F_x/A of the lower wall and -F_x/A of the upper one, F the
+// force of the fluid on the wall.
 //
 // Numbers to compare with: plane Couette flow has sigma_xg = mu gammadot at both walls, effectiveViscosity 1; plane Poiseuille
 // flow under the body force b over the gap h has +-rho b h/2 (momentum balance, exact). A dilute suspension of rigid spheres of volume
@@ -19,7 +15,7 @@ namespace {
 
 class WallStressObservation : public Observation {
   public:
-    explicit WallStressObservation(const Scene& scene) : Observation({{"wallStress", columnsOf(scene)}}) {}
+    using Observation::Observation;
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         const int axis = scene.flow.walls.axis;
@@ -33,16 +29,6 @@ class WallStressObservation : public Observation {
         if (const double rate = scene.flow.shearRate; rate != 0)
             row.push_back(0.5 * (row[0] + row[1]) / (scene.model().viscosity * rate));
         return {{0, std::move(row)}};
-    }
-
-  private:
-    static std::vector<io::Column> columnsOf(const Scene& scene) {
-        std::vector<io::Column> columns{{"shearStress_lower", "Pa"},
-                                        {"shearStress_upper", "Pa"},
-                                        {"pressure_lower", "Pa"},
-                                        {"pressure_upper", "Pa"}};
-        if (scene.flow.shearRate != 0) columns.push_back({"effectiveViscosity", ""});
-        return columns;
     }
 };
 
@@ -58,8 +44,18 @@ struct WallStressObserver : Observer {
         return "this observer looks at walls, and the flow has none; remove it, or choose a flow with walls in "
                "constant/flow.yaml";
     }
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<io::Column> columns{
+            {"shearStress_lower", "Pa", "shear stress in the fluid at the lower wall, along the flow"},
+            {"shearStress_upper", "Pa", "shear stress in the fluid at the upper wall, along the flow"},
+            {"pressure_lower", "Pa", "normal force on the lower wall over its area, positive when the fluid pushes"},
+            {"pressure_upper", "Pa", "normal force on the upper wall over its area, positive when the fluid pushes"}};
+        if (parts.shear)
+            columns.push_back({"effectiveViscosity", "", "mean of the two shear stresses over mu gammadot"});
+        return {{"wallStress", columns}};
+    }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<WallStressObservation>(scene);
+        return std::make_unique<WallStressObservation>(tables(SceneParts::of(scene)));
     }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/readyCell.hpp"
@@ -49,7 +50,8 @@ void requireShapes(Node& mesh, Problems& problems) {
 }
 
 // What the cells are, and their membranes: of two files, since a ready cell has its part in both.
-void readCells(const Application& app, Case& c, Problems& problems) {
+void readCells(const Application& app, const std::set<std::string>& misnamed, Case& c, Problems& problems) {
+    if (misnamed.contains("system/mesh.yaml")) return;
     const std::size_t before = problems.count();
     Node& mesh = c.files["system/mesh.yaml"] = app.dictionary("system/mesh.yaml", problems);
     const std::size_t inMesh = problems.count() - before;
@@ -62,7 +64,7 @@ void readCells(const Application& app, Case& c, Problems& problems) {
     if (inMesh == 0) requireShapes(mesh, problems);
     if (inMesh + inReady == 0) c.mesh = readNode<MeshSettings>("system/mesh.yaml", c, problems);
     if (!hasLaws && !areReady) {
-        if (!c.mesh.cells.empty())
+        if (!c.mesh.cells.empty() && !misnamed.contains("constant/membranes.yaml"))
             app.dictionary("constant/membranes.yaml", problems);  // which says that it is missing
         return;
     }
@@ -98,21 +100,26 @@ void Case::throwIfAny(const Problems& problems) const {
             placed.add(p.mark.line == 0 && file != files.end() ? placeOf(file->second, p.key) : p.mark, p.key,
                        p.message);
         }
+        placed.addUncounted(error.more());
         placed.throwIfAny();
     }
 }
 
 Case Case::read(const Application& app) {
     Problems problems;
+    const std::set<std::string> misnamed = checkFiles(app, problems);
     Case c;
     c.directory = app.caseDirectory();
-    c.control = readFile<ControlSettings>(app, "system/control.yaml", c, problems);
-    c.numerics = readFile<NumericsSettings>(app, "system/numerics.yaml", c, problems);
-    readCells(app, c, problems);
-    c.fluid = readFile<FluidSettings>(app, "constant/fluid.yaml", c, problems);
+    const auto readInto = [&]<class T>(T& settings, const std::string& file) {
+        if (!misnamed.contains(file)) settings = readFile<T>(app, file, c, problems);
+    };
+    readInto(c.control, "system/control.yaml");
+    readInto(c.numerics, "system/numerics.yaml");
+    readCells(app, misnamed, c, problems);
+    readInto(c.fluid, "constant/fluid.yaml");
     if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml"))
-        c.bodies = readFile<bodies::BodiesSettings>(app, "constant/bodies.yaml", c, problems);
-    {
+        readInto(c.bodies, "constant/bodies.yaml");
+    if (!misnamed.contains("constant/flow.yaml")) {
         const std::size_t before = problems.count();
         const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
         if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
@@ -151,6 +158,8 @@ Case Case::read(const Application& app) {
         context.radius = c.mesh.bodies.front().shape->radius();
     }
     c.flow = c.flowModel->resolve(context, {"constant/flow.yaml", 0, 0}, problems);
+    c.throwIfAny(problems);
+    checkSizes(c, context.shearModulus, problems);
     c.throwIfAny(problems);
     if (c.control.endStrain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "endStrain",

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "coupling/noFlux.hpp"
+#include "geometry/mesher.hpp"
 #include "io/vtkSeries.hpp"
 #include "simulation/scheme.hpp"
 
@@ -28,17 +29,34 @@ constexpr double largestEdgeInSpacings = 2;  // immersed
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
+// A surface whose size fits neither box nor edge, where another unit of its file would.
+std::string wrongScale(const Case& c, const SurfaceSettings& surface) {
+    const double longest = surface.shape->box().sizes().maxCoeff(), room = c.mesh.domain.size.maxCoeff();
+    if (longest <= room && surface.edge <= 0.5 * surface.shape->radius()) return {};
+    const std::string cure = surface.shape->cureForSize(4 * surface.edge, room);
+    if (cure.empty()) return {};
+    return "the surface is " + formatQuantity(longest, unit::metre) + " long, in a box of " +
+           formatQuantity(room, unit::metre) + " and with edges of " + formatQuantity(surface.edge, unit::metre) +
+           "; " + cure;
+}
+
 void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
     const auto& [settings, key, kind] = surface;
     if (!settings.shape) return;
     const double radius = settings.shape->radius();
+    const Eigen::AlignedBox3d box = settings.shape->box();
+    if (const std::string why = wrongScale(c, settings); !why.empty()) {
+        problems.add(mesh, key + ".shape", why);
+        return;
+    }
+    if (const std::string why = geometry::tooManyTriangles(*settings.shape.model, settings.edge); !why.empty())
+        problems.add(mesh, key + ".edge", why);
     if (settings.edge > 0.5 * radius)
         problems.add(mesh, key + ".edge",
                      "found " + formatQuantity(settings.edge, unit::metre) + ", too coarse for a " + kind +
                          " of radius " + formatQuantity(radius, unit::metre) + "; at most half the radius, " +
                          formatQuantity(0.5 * radius, unit::metre));
-    const Eigen::AlignedBox3d box = settings.shape->box();
     if (kind == "body" && box.sizes().minCoeff() < leastBodyInSpacings * c.spacing())
         problems.add(mesh, key + ".shape",
                      "the body is " + formatQuantity(box.sizes().minCoeff(), unit::metre) +
@@ -172,6 +190,7 @@ void checkUnused(const Case& c, Problems& problems) {
 
 // What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
 void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
+    if (!wrongScale(c, cell).empty()) return;
     const Mark mesh{"system/mesh.yaml", 0, 0};
     const double longest = largestEdgeInSpacings * c.spacing(),
                  margin = coupling::NoFlux::imageMarginInSpacings * c.spacing();
@@ -281,7 +300,7 @@ void checkTogether(const Case& c, Problems& problems) {
             problems.add(
                 mesh, "domain.size",
                 std::string("along ") + axisName(k) + " found " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
-                    ", which is no whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
+                    ", which is not a whole number of spacings (" + formatQuantity(c.spacing(), unit::metre) +
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
@@ -321,6 +340,32 @@ void checkTogether(const Case& c, Problems& problems) {
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
                      "found " + formatQuantity(c.support() / c.spacing(), unit::none) +
                          " dx, which reaches too few neighbours; at least 1.2 dx, usually 2.4 to 3 dx");
+}
+
+void checkSizes(const Case& c, double shearModulus, Problems& problems) {
+    constexpr double least = 1e-60, largest = 1e60;  // squares and products of a few stay far from overflow
+    const double soundSpeed = c.soundSpeed();
+    struct Value {
+        const char* what;
+        double size;
+        Dimension dimension;
+    };
+    for (const auto& [what, size, dimension] :
+         {Value{"the density of the fluid", c.flow.density, unit::kilogramPerMetre3},
+          Value{"the shear modulus of the membrane", shearModulus, unit::newtonPerMetre},
+          Value{"the shear rate", c.flow.shearRate, unit::perSecond}, Value{"the speed", c.flow.speed, unit::metrePerSecond},
+          Value{"the rate of the flow", c.flow.rate, unit::perSecond},
+          Value{"the time in which the flow changes", c.flow.transient, unit::second},
+          Value{"the speed of sound", soundSpeed, unit::metrePerSecond},
+          Value{"the mass of a particle", c.particleMass(), {1, 0, 0}}}) {
+        const double magnitude = std::abs(size);
+        if (size == 0 || (magnitude >= least && magnitude <= largest)) continue;
+        problems.add({"constant/flow.yaml", 0, 0}, "",
+                     fmt::format("{} comes out as {}, which cannot be computed with: one of the values that it follows "
+                                 "from (Ca, Re, viscosity, moduli, sizes) is far from anything real",
+                                 what, formatQuantity(size, dimension)));
+        return;  // others follow from it
+    }
 }
 
 }  // namespace corpuscle::simulation

@@ -19,4 +19,8 @@ std::string obstacle(const Case& c, const std::string& integrator);
 // Adds a problem for each rule that the case breaks; each names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems);
 
+// Values that each lie in their range can have a product that does not: adds a problem for what cannot be computed with
+// once the flow is known.
+void checkSizes(const Case& c, double shearModulus, Problems& problems);
+
 }  // namespace corpuscle::simulation

@@ -72,8 +72,9 @@ const Schema<ControlSettings>& ControlSettings::schema() {
     static const Schema<ControlSettings> s =
         Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
             .word("application", &ControlSettings::application, {"dmpFlow", "sphFlow"}, "the solver that runs the case")
-            .text("startFrom", &ControlSettings::startFrom,
-                  "latestTime, firstTime, or the time of a checkpoint (1.2e-3 s)", {.fallback = "latestTime"})
+            .wordOrQuantity("startFrom", &ControlSettings::startFrom, {"latestTime", "firstTime"}, unit::second,
+                            "where the run goes on: from the last checkpoint, the start, or the checkpoint nearest before a time",
+                            {.fallback = "latestTime", .range = nonNegative})
             .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends",
                       {.range = positive})
             .quantity("endStrain", &ControlSettings::endStrain, unit::none, "strain gammadot t at which the run ends",
@@ -82,14 +83,8 @@ const Schema<ControlSettings>& ControlSettings::schema() {
             .table("write", &ControlSettings::write, "results", {.fallback = "{}"})
             .table("checkpoint", &ControlSettings::checkpoint, "checkpoints", {.fallback = "{}"})
             .table("stop", &ControlSettings::stop, "early end", {.fallback = "{}"})
-            .check([](const ControlSettings& c, const Node& node, Problems& problems) {
-                try {
-                    startingTime(c.startFrom);
-                } catch (const std::invalid_argument& fault) {
-                    if (const Node* given = node.find("startFrom"))
-                        problems.add(given->mark, given->path, fault.what());
-                }
-            });
+            .atRestart(AtRestart::free,
+                       {"application", "startFrom", "endTime", "endStrain", "write", "checkpoint", "stop"});
     return s;
 }
 
@@ -133,7 +128,11 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .integer("retreats", &NumericsSettings::retreats,
                      "how often in a row a run that fails goes back to its last good state and on with half the step, "
                      "before it ends; 0 for not at all",
-                     {.fallback = "4", .range = between(0, 20)});
+                     {.fallback = "4", .range = between(0, 20)})
+            .atRestart(AtRestart::fixed, {"spacing", "kernel", "coupling", "operators", "shifting", "skin"})
+            .atRestart(AtRestart::resolved, {"integrator"})
+            .atRestart(AtRestart::noted, {"precision", "implicit", "rkl2", "guard", "densityBalance", "safety"})
+            .atRestart(AtRestart::free, {"retreats"});
     return s;
 }
 
@@ -184,6 +183,7 @@ const Schema<CellSettings>& CellSettings::schema() {
                   "a ready cell, in place of 'shape' and 'membrane': a file of constant/cells or etc/cells")
             .name("membrane", &CellSettings::membrane,
                   "its entry of constant/membranes.yaml; the cell's own name when absent")
+            .atRestart(AtRestart::noted, {"membrane", "cell"})
             .exactlyOneOf({"shape", "cell"});
         return keys;
     }();
@@ -195,7 +195,8 @@ const Schema<BodyPlaceSettings>& BodyPlaceSettings::schema() {
         Schema<BodyPlaceSettings>("body", "one rigid body: its shape, place and mesh")
             .include<SurfaceSettings>()
             .name("body", &BodyPlaceSettings::body,
-                  "its entry of constant/bodies.yaml; the body's own name when absent");
+                  "its entry of constant/bodies.yaml; the body's own name when absent")
+            .atRestart(AtRestart::noted, {"body"});
     return s;
 }
 
@@ -220,7 +221,8 @@ const Schema<MeshSettings>& MeshSettings::schema() {
             .table("domain", &MeshSettings::domain, "the box")
             .list("cells", &MeshSettings::cells, "the cells", {.fallback = "[]"})
             .list("bodies", &MeshSettings::bodies, "the rigid bodies", {.fallback = "[]"})
-            .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"});
+            .table("fill", &MeshSettings::fill, "placing of particles", {.fallback = "{}"})
+            .atRestart(AtRestart::fixed, {"domain", "cells", "bodies", "fill"});
     return s;
 }
 
@@ -244,7 +246,10 @@ const Schema<FluidSettings>& FluidSettings::schema() {
             .list("layers", &FluidSettings::layers,
                   "layers of other viscosities between two walls, from the lowest up, at t = 0; for a fluid alone",
                   {.fallback = "[]"})
-            .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"});
+            .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"})
+            .atRestart(AtRestart::resolved, {"density", "viscosity"})
+            .atRestart(AtRestart::fixed, {"layers"})
+            .atRestart(AtRestart::noted, {"equationOfState"});
     return s;
 }
 

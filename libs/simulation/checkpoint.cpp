@@ -3,6 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/communicator.hpp"
+#include "core/together.hpp"
+#include "simulation/restart.hpp"
 #include "simulation/resultsWriter.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -55,50 +58,6 @@ long total(long mine, MPI_Comm comm) {
     return mine;
 }
 
-// What the particles of a checkpoint hold on to, whatever the case says now: spacing and box, and the densities and viscosities that
-// they carry.
-struct Fixed {
-    const char *file, *key;
-    double value;
-    Dimension dimension;
-};
-std::vector<Fixed> fixedSettings(const Case& input) {
-    const Vec3& size = input.mesh.domain.size;
-    std::vector<Fixed> fixed{
-        {"system/numerics.yaml", "spacing", input.spacing(), unit::metre},
-        {"system/mesh.yaml", "domain.size", size[0], unit::metre},
-        {"system/mesh.yaml", "domain.size", size[1], unit::metre},
-        {"system/mesh.yaml", "domain.size", size[2], unit::metre},
-        input.flow.densityFromRe ? Fixed{"constant/flow.yaml", "inertia", input.flow.density, unit::kilogramPerMetre3}
-                                 : Fixed{"constant/fluid.yaml", "density", input.flow.density, unit::kilogramPerMetre3},
-        {"constant/fluid.yaml", "viscosity", input.varyingViscosity() ? input.fluid.viscosity : 0, unit::pascalSecond}};
-    for (const LayerSettings& layer : input.fluid.layers) {
-        fixed.push_back({"constant/fluid.yaml", "layers", layer.above, unit::metre});
-        fixed.push_back({"constant/fluid.yaml", "layers", layer.viscosity, unit::pascalSecond});
-    }
-    for (const CellSettings& cell : input.mesh.cells)
-        fixed.push_back({"constant/membranes.yaml", "interior.viscosityRatio",
-                         input.membraneOf(cell).interior.viscosityRatio, unit::none});
-    return fixed;
-}
-
-void checkFixed(const std::filesystem::path& path, const Case& input, const std::vector<double>& written) {
-    const std::vector<Fixed> fixed = fixedSettings(input);
-    if (written.size() != fixed.size())
-        throw Failure(ExitCode::io, path.string() + ": 'fixed' has " + std::to_string(written.size()) +
-                                        " numbers; start from firstTime");
-    Problems problems;
-    for (std::size_t i = 0; i < fixed.size(); ++i) {
-        const auto& [file, key, value, dimension] = fixed[i];
-        if (std::abs(written[i] - value) > 1e-9 * std::abs(value))
-            problems.add({file, 0, 0}, key,
-                         "the case now has " + formatQuantity(value, dimension, 6) + ", but " + path.string() +
-                             " was written with " + formatQuantity(written[i], dimension, 6) +
-                             "; start from firstTime, or give the old value");
-    }
-    input.throwIfAny(problems);
-}
-
 // To a file, or to memory.
 template <class File>
 void save(File& file, const Case& input, const Scene& scene, const Time& time, const RunState& state) {
@@ -127,9 +86,6 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
     if (scene.account.kept) file.writeReplicated("account", gathered(scene.account, comm));
-    std::vector<double> fixed;
-    for (const Fixed& f : fixedSettings(input)) fixed.push_back(f.value);
-    file.writeReplicated("fixed", fixed);
     scene.store().forEachField([&](std::string_view name, const auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
@@ -245,13 +201,14 @@ void writeCheckpoint(const Case& input, const Scene& scene, const Time& time, co
     const MPI_Comm comm = scene.system->comm();
     io::CheckpointWriter file(comm, io::nextCheckpoint(comm, input.directory));
     save(file, input, scene, time, state);
+    writeOrigin(file, input, scene);
     file.finish();
     io::keepCheckpoints(comm, input.directory, static_cast<int>(input.control.checkpoint.keep));
 }
 
 RunState readCheckpoint(const std::filesystem::path& path, const Case& input, Scene& scene, Time& time) {
     io::CheckpointReader file(scene.system->comm(), path);
-    checkFixed(path, input, file.readReplicated<double>("fixed"));
+    compareMeshes(file, path, input, scene);
     return load(file, path.string(), input, scene, time);
 }
 
@@ -283,7 +240,15 @@ std::filesystem::path chooseCheckpoint(const Case& input, const std::string& sta
         return found.path;
     }
     if (*wanted == 0) return {};
-    return io::findCheckpoint(input.directory, *wanted);
+    std::string path;
+    onRoot(comm, [&] {
+        const io::CheckpointInfo found = io::findCheckpoint(input.directory, *wanted);
+        path = found.path.string();
+        if (std::abs(found.time - *wanted) > 1e-6 * *wanted)
+            log.info("The checkpoint nearest before {} is that at t = {}", formatQuantity(*wanted, unit::second),
+                     formatQuantity(found.time, unit::second, 9));
+    });
+    return Communicator(comm).broadcast(path);
 }
 
 }  // namespace corpuscle::simulation

@@ -22,7 +22,7 @@ struct RunState {
 
 void writeCheckpoint(const Case& input, const coupling::Scene& scene, const Time& time, const RunState& state);
 
-// Fills an empty scene. Collective.
+// Fills an empty scene, of a case that compareSettings (restart.hpp) has let pass. Collective.
 RunState readCheckpoint(const std::filesystem::path& path, const Case& input, coupling::Scene& scene, Time& time);
 
 // The same to memory and back into the scene of this run, which may have gone on or come apart since. Collective.
@@ -30,7 +30,8 @@ void remember(io::MemoryCheckpoint& memory, const Case& input, const coupling::S
               const RunState& state);
 RunState recall(const io::MemoryCheckpoint& memory, const Case& input, coupling::Scene& scene, Time& time);
 
-// The checkpoint that `startFrom` (latestTime, firstTime, a time) means; empty for the start in 0/. Warnings name what was passed over.
+// The checkpoint that `startFrom` (latestTime, firstTime, or the one nearest before a time) means; empty for the start in 0/. Warnings name
+// what was passed over.
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log);
 
 // Parts of the scene that exist only once the integrator has been made.

@@ -3,11 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "particles/isa.hpp"
-#include "simulation/cost.hpp"
 
 namespace corpuscle::simulation {
 
@@ -86,11 +81,6 @@ void addBody(Groups& groups, const Case& c, const BodyPlaceSettings& body) {
     addResolution(groups, c, a, whose, "particles per radius of the body");
 }
 
-// Nodes of a mesh whose node has the area of its hexagon, sqrt(3)/2 edge^2.
-double hexagonalNodes(const CellSettings& cell) {
-    return cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge);
-}
-
 }  // namespace
 
 double capillaryNumber(const Case& c, const CellSettings& cell) {
@@ -116,56 +106,6 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
                fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),
                            c.fluid.equationOfState->soundSpeed ? "" : " (automatic)"));
     return groups.take();
-}
-
-ParticleEstimate estimateParticles(const Case& c) {
-    ParticleEstimate n;
-    long count[3], layer = 1;
-    n.fluid = 1;
-    for (int k = 0; k < 3; ++k) n.fluid *= count[k] = std::lround(c.mesh.domain.size[k] / c.spacing());
-    if (const int k = c.flowModel->wallAxis(); k >= 0) {
-        for (int j = 0; j < 3; ++j)
-            if (j != k) layer *= count[j];
-        n.walls = 2 * layer * c.wallLayers();
-    }
-    if (!c.numerics.isImmersed())  // else nodes are no particles
-        for (const CellSettings& cell : c.mesh.cells) {
-            // As particles the nodes replace fluid of area x dx.
-            n.nodes += std::lround(hexagonalNodes(cell));
-            n.fluid -= std::lround(cell.shape->area() * c.spacing() / c.particleVolume());
-        }
-    for (const BodyPlaceSettings& body : c.mesh.bodies) {
-        const long inside = std::lround(body.shape->volume() / c.particleVolume());
-        n.bodies += inside;
-        n.fluid -= inside;
-    }
-    return n;
-}
-
-SizeEstimate estimateSize(const Case& c) {
-    const auto n = static_cast<double>(estimateParticles(c).all());
-    const double support = c.support() / c.spacing(), reach = support + c.skin() / c.spacing();
-    SizeEstimate size;
-    // Store and its copy while sorting, records with ghosts, sums over pairs, and the list: of what lies around a block
-    // half is listed, and all of the ghosts.
-    const double perBlock = 4.2 * (reach + 1) * (reach + 1) * (reach + 1);
-    size.memory =
-        n * (2 * 20 * 8 + 1.3 * 80 + 32 + 0.65 * 4 * perBlock / particles::blockLanes(c.precision()) * 1.5 + 60);
-    double nodes = 0;
-    for (const CellSettings& cell : c.mesh.cells) nodes += hexagonalNodes(cell);
-    constexpr double perParticle = 70, perNode = 220;  // with its two triangles
-    size.perWrite = n * perParticle + nodes * perNode;
-    size.checkpoint = n * 8 * 19;
-    const WriteSettings& w = c.control.write;
-    const double strain = c.control.endStrain ? *c.control.endStrain : c.flow.shearRate * c.control.endTime.value_or(0);
-    const double time = c.control.endTime ? *c.control.endTime : strain / c.flow.shearRate;
-    if (w.strain) size.writes = static_cast<long>(strain / *w.strain) + 1;
-    if (w.time) size.writes = static_cast<long>(time / *w.time) + 1;
-    if (w.steps)
-        for (const IntegratorCost& cost : predictCosts(c))
-            if (cost.name == c.numerics.integrator)
-                size.writes = static_cast<long>(cost.steps / static_cast<double>(*w.steps)) + 1;
-    return size;
 }
 
 }  // namespace corpuscle::simulation

@@ -16,18 +16,4 @@ struct Group {
 std::vector<Group> dimensionlessGroups(const Case& input);
 double capillaryNumber(const Case& input, const CellSettings& cell);  // mu gammadot a/Gs, Gs of the closed form
 
-// Particles of the case by the lattice and the meshes' edge lengths, before anything is made.
-struct ParticleEstimate {
-    long fluid = 0, walls = 0, nodes = 0, bodies = 0;
-    long all() const { return fluid + walls + nodes + bodies; }
-};
-ParticleEstimate estimateParticles(const Case& input);
-
-// Bytes: memory of a run in all ranks together, one written time, one checkpoint.
-struct SizeEstimate {
-    double memory = 0, perWrite = 0, checkpoint = 0;
-    long writes = 0;
-};
-SizeEstimate estimateSize(const Case& input);
-
 }  // namespace corpuscle::simulation

@@ -158,10 +158,7 @@ void Retreat::report(const Fault& fault) {
     if (inRow_ == 0) failed_ = integrator_.tried();
     const long most = input_.numerics.retreats;
     if (fault.isGeometric)
-        end(fault, "a shorter step would not help",
-            "cells have no contact force, and nothing keeps them apart but the fluid between them: place them further "
-            "apart in "
-            "system/mesh.yaml, give an earlier end, or a finer spacing, which resolves more of the fluid between them");
+        end(fault, "a shorter step would not help", "place cells further apart, or end the run earlier");
     if (inRow_ < most) {
         ++inRow_, ++count_;
         if (schedule_) schedule_->record().set("performance", "retreats", count_);

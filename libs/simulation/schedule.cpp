@@ -4,10 +4,14 @@
 #include <ctime>
 #include <exception>
 
+#include "core/writable.hpp"
+#include "io/earlierRun.hpp"
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/memoryLimit.hpp"
+#include "simulation/restart.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/watch.hpp"
 
@@ -41,20 +45,64 @@ Time startTime(const Application& app, const Case& input) {
     return time;
 }
 
+namespace {
+
+void reportFinished(Application& app, const Case& input, const StartingPoint& from) {
+    const std::string key = input.control.endTime ? "endTime" : "endStrain";
+    const std::string reason = from.time.endReason() + " is reached by " + from.checkpoint.string();
+    app.log().info(
+        "The case is finished: {}. Nothing was changed.\n"
+        "To go on, raise '{}' in system/control.yaml, or for one run: -set system/control.yaml:/{}=...\n"
+        "To start anew: -set system/control.yaml:/startFrom=firstTime",
+        reason, key, key);
+    if (!app.json()) return;
+    RunRecord record(input.directory / "run.json", app.name(), app.communicator());
+    record.set("", "status", "finished");
+    record.set("", "reason", reason);
+    record.print();
+}
+
+// What a run will write, by the temporary names, which are the longest.
+std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
+    std::vector<std::string> streams{"fluid"};
+    for (const CellSettings& cell : input.mesh.cells) streams.push_back(cell.name);
+    for (const BodyPlaceSettings& body : input.mesh.bodies) streams.push_back(body.name);
+    std::vector<std::filesystem::path> files{input.directory / "run.json.0000000.tmp",
+                                             input.directory / "checkpoints" / ".000000.h5.part"};
+    for (const std::string& name : streams)
+        files.push_back(input.directory / "results" / name / (name + "_000000") /
+                        fmt::format(".{}_000000_{}.vtp.part", name, ranks - 1));
+    for (const auto& observer : input.observers.models)
+        files.push_back(input.directory / "postProcessing" / observer.first / "0.123456789" /
+                        "observer.csv.0000000.tmp");
+    return files;
+}
+
+}  // namespace
+
 StartingPoint prepare(Application& app, const Case& input) {
     const MPI_Comm comm = app.communicator().handle();
+    requireMemory(app.communicator(), input);
+    if (!app.has("dry-run")) requireWritable(app.communicator(), outputs(input, app.communicator().size()));
     StartingPoint from;
     from.time = startTime(app, input);
+    if (!app.has("dry-run")) app.lockCase();
     from.checkpoint = chooseCheckpoint(input, app.value("restart").value_or(input.control.startFrom), comm, app.log());
-    if (from.checkpoint.empty())
+    if (from.checkpoint.empty()) {
         from.scene = buildScene(input, comm);
-    else {
-        from.scene = emptyScene(input, comm);
-        from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
-        if (from.time.lastStep) *from.time.lastStep += from.time.step;
-        app.log().info("Restart from {} at t = {}", from.checkpoint.string(),
-                       formatQuantity(from.time.t, unit::second));
+        return from;
     }
+    from.notes = compareSettings(from.checkpoint, input, comm);
+    from.scene = emptyScene(input, comm);
+    from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
+    if (from.time.lastStep) *from.time.lastStep += from.time.step;
+    if (!from.time.running() && !app.has("dry-run")) {
+        from.isFinished = true;
+        reportFinished(app, input, from);
+        return from;
+    }
+    app.log().info("Restart from {} at t = {}", from.checkpoint.string(), formatQuantity(from.time.t, unit::second));
+    for (const std::string& note : from.notes) app.log().info("note: {}", note);
     return from;
 }
 
@@ -67,33 +115,35 @@ void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& s
     }
 }
 
-Schedule::Schedule(Application& app, const Case& input, const Scene& scene, const Integrator& integrator,
-                   const Time& start, const RunState& state)
+Schedule::Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator)
     : app_(app),
       input_(input),
       integrator_(integrator),
-      start_(start),
-      observers_(input.observers, scene, start, input.directory),
-      results_(input, scene, start),
+      start_(from.time),
+      isContinued_(!from.checkpoint.empty()),
+      notes_(from.notes),
+      observers_(input.observers, from.scene, from.time, input.directory),
+      results_(input, from.scene, from.time),
       checkpoints_(input.control.checkpoint.wallClock),
       stop_({input.directory / input.control.stop.file, input.control.stop.wallClock}, app.communicator()),
-      progress_(app.log(), start),
-      record_(input.directory / "run.json", app.name(), app.communicator()),
+      progress_(app.log(), from.time),
+      kept_(std::make_shared<RunRecord>(input.directory / "run.json", app.name(), app.communicator())),
+      record_(*kept_),
       began_(std::chrono::steady_clock::now()),
       processorBegan_(processorSeconds()),
-      smallestDt_(start.dt),
-      largestDt_(start.dt) {
-    if (!state.observers.empty()) observers_.restore(state.observers);
-    particles_ = sum(scene.system->owned(), scene.system->comm());
+      smallestDt_(from.time.dt),
+      largestDt_(from.time.dt) {
+    if (!from.state.observers.empty()) observers_.restore(from.state.observers);
+    particles_ = sum(from.scene.system->owned(), from.scene.system->comm());
 }
 
 Schedule::~Schedule() {
-    if (std::uncaught_exceptions() == 0 || !begun_) return;
-    try {
-        record_.finish(ExitCode::numerics, "ended by an error: see log." + app_.name());
-    } catch (const std::exception& fault) {
-        app_.log().error("run.json could not be completed: {}", fault.what());
-    }
+    if (std::uncaught_exceptions() == 0 || !begun_ || !app_.communicator().isRoot()) return;
+    const std::vector<io::CheckpointInfo> all = io::listCheckpoints(input_.directory);
+    if (!all.empty())
+        app_.log().info(
+            "{} is the last checkpoint, at t = {}: once the cause is removed, the same command goes on from there",
+            all.back().path.string(), formatQuantity(all.back().time, unit::second));
 }
 
 void Schedule::describe() {
@@ -134,8 +184,15 @@ ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
 }
 
 void Schedule::begin(const Scene& scene, const Time& time) {
+    app_.openLog(isContinued_ ? Application::LogStart::continued : Application::LogStart::anew);
+    const io::ClearedOutput cleared = io::clearAfter(scene.system->comm(), input_.directory,
+                                                     isContinued_ ? std::optional<double>(time.t) : std::nullopt);
+    if (!cleared.empty())
+        app_.log().info("removed what an earlier run of the case wrote {}: {}",
+                        isContinued_ ? "after the start of this one" : "before", cleared.text());
     describe();
     begun_ = true;
+    app_.keepRecord(kept_);
     writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
     record_.set("parameters", "density_kg_m3", input_.flow.density);
     record_.set("parameters", "densityFromRe", input_.flow.densityFromRe);
@@ -145,11 +202,13 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     record_.set("parameters", "particles", particles_);
     record_.set("parameters", "startTime_s", time.t);
     record_.set("parameters", "commandLine", app_.commandLine());
+    if (!notes_.empty()) record_.set("parameters", "changedAtRestart", notes_);
     record_.set("performance", "instructionSet", particles::instructionSetName());
     record_.write();
 
     if (results_.due(time)) results_.write(scene, time);
     observers_.run(scene, time);
+    for (const std::string& note : observers_.notes()) app_.log().warning("{}", note);
 }
 
 void Schedule::afterStep(const Scene& scene, const Time& time) {

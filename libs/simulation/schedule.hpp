@@ -12,16 +12,31 @@
 
 namespace corpuscle::simulation {
 
+// Time at the start of a run, with its end conditions.
+Time startTime(const Application& app, const Case& input);
+
+// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
+struct StartingPoint {
+    coupling::Scene scene;
+    Time time;
+    std::filesystem::path checkpoint;  // empty: from 0/
+    RunState state;
+    std::vector<std::string> notes;  // settings that have changed since the checkpoint, and may
+    bool isFinished =
+        false;  // the checkpoint is at the end already: there is nothing to run, and the user has been told
+};
+// Takes the lock of the case, unless it is a dry run. Collective.
+StartingPoint prepare(Application& app, const Case& input);
+
 class Schedule {
   public:
-    Schedule(Application& app, const Case& input, const coupling::Scene& scene, const Integrator& integrator,
-             const Time& start, const RunState& state);
-    // A run that ends by an exception is recorded as failed.
+    Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator);
+    // Says what a run that ends by an error leaves to go on from.
     ~Schedule();
-
     // -dry-run: groups, limits, particles; writes nothing.
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
-    // Head of the log, used.yaml, run.json, and what is due before the first step.
+    // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the case: what an earlier
+    // run left after the start is removed.
     void begin(const coupling::Scene& scene, const Time& time);
     // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
@@ -54,12 +69,15 @@ class Schedule {
     const Case& input_;
     const Integrator& integrator_;
     Time start_;
+    bool isContinued_;
+    std::vector<std::string> notes_;
     observers::Observers observers_;
     ResultsWriter results_;
     WallTicker checkpoints_;
     StopControl stop_;
     Progress progress_;
-    RunRecord record_;
+    std::shared_ptr<RunRecord> kept_;  // outlives this where an error ends the run
+    RunRecord& record_;
     std::chrono::steady_clock::time_point began_;
     double processorBegan_;  // of this rank [s]
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
@@ -67,18 +85,6 @@ class Schedule {
     bool begun_ = false;
     std::string stopReason_;
 };
-
-// Time at the start of a run, with its end conditions.
-Time startTime(const Application& app, const Case& input);
-
-// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
-struct StartingPoint {
-    coupling::Scene scene;
-    Time time;
-    std::filesystem::path checkpoint;  // empty: from 0/
-    RunState state;
-};
-StartingPoint prepare(Application& app, const Case& input);
 
 // Forces and first step at the start, or the continuation of a checkpoint.
 void startIntegrator(const StartingPoint& from, Integrator& integrator, coupling::Scene& scene, Time& time);

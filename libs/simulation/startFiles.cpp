@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/writable.hpp"
+#include "io/publish.hpp"
+
 namespace corpuscle::simulation {
 
 namespace {
@@ -128,11 +131,17 @@ std::map<std::string, std::string> startSettings(const Case& input, const std::s
     return settings;
 }
 
+void requireStartWritable(const Communicator& communicator, const Case& input) {
+    std::vector<std::filesystem::path> files{io::temporaryName(startFile(input, "fluid"))};
+    for (const CellSettings& cell : input.mesh.cells) files.push_back(io::temporaryName(startFile(input, cell.name)));
+    for (const BodyPlaceSettings& body : input.mesh.bodies)
+        files.push_back(io::temporaryName(startFile(input, body.name)));
+    requireWritable(communicator, files);
+}
+
 void writeStart(const Case& input, const std::string& name, io::PolyData data) {
     const std::filesystem::path file = startFile(input, name);
-    std::error_code fault;
-    std::filesystem::create_directories(file.parent_path(), fault);
-    if (fault) throw Failure(ExitCode::io, file.parent_path().string() + " cannot be made: " + fault.message());
+    io::makeFolder(file.parent_path());
     data.field = {{"TimeValue", 0}, {"strain", 0}};
     data.texts = startSettings(input, name);
     io::writeVtp(file, data);
@@ -146,6 +155,11 @@ io::PolyData readStart(const Case& input, const std::string& name) {
     io::PolyData data = io::readVtp(file);
     if (surfaceNamed(input, name) && data.triangles.empty())
         throw Failure(ExitCode::io, file.string() + " holds no triangles: run " + writer + " again");
+    if (!data.verified && !data.texts.empty())
+        throw Failure(ExitCode::io,
+                      file.string() +
+                          " has no checksum: it was written by another program, or by an earlier version; run " +
+                          writer + " again");
     Problems problems;
     compare(input, name, data.texts, problems);
     input.throwIfAny(problems);

@@ -23,10 +23,13 @@ std::filesystem::path startFile(const Case& input, const std::string& name);  //
 // Name ("mesh.domain.size") and value ("[1.2e-05 m, 1e-05 m, 1e-05 m]", ten digits) of what 0/<name>.vtp depends on.
 std::map<std::string, std::string> startSettings(const Case& input, const std::string& name);
 
+// Collective. Failure(io) when 0/ cannot be written, before anything is meshed or filled.
+void requireStartWritable(const Communicator& communicator, const Case& input);
+
 // Writes 0/<name>.vtp at t = 0 with its settings. Throws Failure(io).
 void writeStart(const Case& input, const std::string& name, io::PolyData data);
 
-// Throws Failure(io) when the file is missing or, of a cell or body, holds no triangles, and CaseError with each setting for
+// Throws Failure(io) when the file is missing, damaged, without a checksum or, of a cell or body, without triangles, and CaseError with each setting for
 // which it was not made; both say what to run.
 io::PolyData readStart(const Case& input, const std::string& name);
 

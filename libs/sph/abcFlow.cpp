@@ -18,7 +18,8 @@ const Schema<AbcFlow>& AbcFlow::schema() {
             .check([](const AbcFlow& f, const Node& node, Problems& problems) {
                 if (const Node* given = node.find("A"); given && f.A == 0 && f.B == 0 && f.C == 0)
                     problems.add(given->mark, given->path, "found A, B and C all zero; at least one above 0 is needed");
-            });
+            })
+            .atRestart(AtRestart::fixed, {"A", "B", "C"});
     return s;
 }
 

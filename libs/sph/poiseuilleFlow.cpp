@@ -11,7 +11,9 @@ const Schema<PoiseuilleFlow>& PoiseuilleFlow::schema() {
             .quantity("bodyForce", &PoiseuilleFlow::bodyForce, unit::metrePerSecond2, "force per unit mass along x",
                       {.range = positive})
             .table("walls", &PoiseuilleFlow::walls, "the two walls", {.fallback = "{normal: z}"})
-            .word("start", &PoiseuilleFlow::start, {"rest", "parabola"}, "velocity at t = 0", {.fallback = "rest"});
+            .word("start", &PoiseuilleFlow::start, {"rest", "parabola"}, "velocity at t = 0", {.fallback = "rest"})
+            .atRestart(AtRestart::noted, {"bodyForce"})
+            .atRestart(AtRestart::fixed, {"walls", "start"});
     return s;
 }
 

@@ -16,7 +16,10 @@ const Schema<ShearFlow>& ShearFlow::schema() {
                      {.fallback = "physical"})
             .table("walls", &ShearFlow::walls, "the two moving walls", {.fallback = "{normal: z}"})
             .word("start", &ShearFlow::start, {"linear", "rest"},
-                  "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"});
+                  "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"})
+            .atRestart(AtRestart::noted, {"Ca", "shearRate"})
+            .atRestart(AtRestart::resolved, {"inertia"})
+            .atRestart(AtRestart::fixed, {"walls", "start"});
     return s;
 }
 

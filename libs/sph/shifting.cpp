@@ -16,7 +16,8 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
             .quantity("coefficient", &ShiftingSettings::coefficient, unit::none, "C, strength per unit of strain",
                       {.fallback = "1", .range = positive})
             .integer("steps", &ShiftingSettings::steps, "time steps between two shifts",
-                     {.fallback = "10", .range = atLeast(1)});
+                     {.fallback = "10", .range = atLeast(1)})
+            .atRestart(AtRestart::noted, {"coefficient", "steps"});
     return s;
 }
 

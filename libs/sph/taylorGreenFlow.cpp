@@ -12,7 +12,8 @@ const Schema<TaylorGreenFlow>& TaylorGreenFlow::schema() {
                       {.range = positive})
             .integer("dimensions", &TaylorGreenFlow::dimensions,
                      "2: vortices in the x-z plane, the same all along y; 3: in a cube",
-                     {.fallback = "2", .range = between(2, 3)});
+                     {.fallback = "2", .range = between(2, 3)})
+            .atRestart(AtRestart::fixed, {"speed", "dimensions"});
     return s;
 }
 

@@ -115,5 +115,39 @@ TEST_F(Application, oneFailingRankEndsAll) {
     EXPECT_EQ(o.text.find("NaN in step 3"), o.text.rfind("NaN in step 3"));
 }
 
+TEST_F(Application, errorsAreRecordedFromWhicheverRankKnowsOfThem) {
+    const auto record = [&] { return nlohmann::json::parse(readFile(folder / "run.json")); };
+    run("-fail numerics");
+    EXPECT_EQ(record()["status"], "failed");
+    EXPECT_EQ(record()["reason"], "NaN in step 3");
+    run("-fail one",
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 40 " MPIEXEC " --oversubscribe -np 2");
+    EXPECT_EQ(record()["status"], "failed");
+    EXPECT_EQ(record()["reason"], "the disk is full");
+}
+
+TEST_F(Application, memoryThatRunsOutIsSaidInWords) {
+    for (const char* how : {"memory", "memoryTogether"}) {
+        const Outcome o = run(std::string("-fail ") + how);
+        EXPECT_EQ(o.code, 4) << o.text;
+        expectPart(o, "sample: no memory is left: this process had up to ");
+        EXPECT_EQ(o.text.find("bad_alloc"), std::string::npos) << o.text;
+    }
+}
+
+TEST_F(Application, closedStreamsAndPipesDoNotEndIt) {
+    EXPECT_EQ(shell("bash -c 'trap - PIPE; " SAMPLE_APPLICATION " -case " + folder.string() +
+                    " | true; exit ${PIPESTATUS[0]}'")
+                  .code,
+              0);
+    EXPECT_EQ(run("", "", ">&- 2>&-").code, 0);
+    const std::string log = readFile(folder / "log.sample");
+    EXPECT_NE(log.find("steps -1"), std::string::npos);
+    EXPECT_EQ(log.find("write:"), std::string::npos) << "standard output went into the log: " << log;
+    const Outcome full = run("-json", "", "2>&1 >/dev/full");
+    EXPECT_EQ(full.code, 4);
+    expectPart(full, "cannot write standard output: No space left on device");
+}
+
 }  // namespace
 }  // namespace corpuscle

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/atomicFile.hpp"
+#include "core/machineMemory.hpp"
 #include "core/runRecord.hpp"
 #include "core/wallClock.hpp"
 
@@ -17,6 +18,15 @@ namespace corpuscle {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(Communicator, ranksShareTheMemoryOfTheirMachine) {
+    const Communicator c;
+    EXPECT_EQ(memoryShortage(c, 1e6), "");
+    const std::string text = memoryShortage(c, 1e18);
+    EXPECT_TRUE(text.starts_with("888 PiB of memory is needed on ")) << text;
+    EXPECT_NE(text.find("(" + std::to_string(c.size()) + " rank"), std::string::npos) << text;
+    EXPECT_EQ(text, c.broadcast(text));
+}
 
 TEST(Communicator, reductionsAndTexts) {
     const Communicator c;

@@ -3,9 +3,13 @@
 
 #include <chrono>
 #include <cstdio>
+#include <memory>
+#include <new>
 #include <thread>
+#include <vector>
 
 #include "core/application.hpp"
+#include "core/together.hpp"
 
 using namespace corpuscle;
 
@@ -16,6 +20,14 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         const std::string how = app.value("fail").value_or("");
         const int last = app.communicator().size() - 1;
+        const auto record = std::make_shared<RunRecord>(app.path("run.json"), app.name(), app.communicator());
+        record->write();
+        app.keepRecord(record);
+        if (how == "memory") return std::vector<double>(std::size_t{1} << 55).empty() ? ExitCode::done : ExitCode::io;
+        if (how == "memoryTogether")
+            together(app.communicator().handle(), [&] {
+                if (app.communicator().rank() == last) throw std::bad_alloc();
+            });
         if (how == "numerics") throw Failure(ExitCode::numerics, "NaN in step 3");
         if (how == "one" && app.communicator().rank() == last) throw Failure(ExitCode::io, "the disk is full");
         if (how == "one") app.communicator().barrier();

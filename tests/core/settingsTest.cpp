@@ -196,10 +196,28 @@ TEST(Settings, faultsNamePlaceAndCure) {
     };
     expect("soundSpeed: 0.1", "soundSpeed", {"has no unit", "m/s", "1 mm/s"});
     expect("soundSpeed: 8 um", "soundSpeed", {"'8 um' is in m", "m/s"});
-    expect("soundSpeed: 8 mm/S", "soundSpeed", {"unknown unit 'S'", "'s'"});
+    expect("soundSpeed: 8 mm/S", "soundSpeed", {"unknown unit 'mm/S'", "Did you mean 'mm/s'?"});
     expect("soundSpeed: 2 dx", "soundSpeed", {"particle spacings"});
     expect("soundSpeed: [1, 2]", "soundSpeed", {"a list of 2"});
     expect("soundSpeed:", "soundSpeed", {"nothing"});
+    // The nearest unit is of the right dimension.
+    expect("soundSpeed: 8 mm", "soundSpeed", {"'8 mm' is in m"});
+    expect("size: [8 uM, 1 um, 1 um]", "size[0]", {"Did you mean 'um'?"});
+    expect("forces: [1 pn]", "forces[0]", {"Did you mean 'pN'?"});
+    expect("soundSpeed: 8 mm*s^-1/s s", "soundSpeed", {"written in a way that is not read", "Did you mean"});
+    // Numbers that are none.
+    expect("soundSpeed: nan", "soundSpeed", {"not a finite number"});
+    expect("soundSpeed: -.inf m/s", "soundSpeed", {"not a finite number"});
+    expect("soundSpeed: 1e400 m/s", "soundSpeed", {"between 1e-100 and 1e+100"});
+    expect("soundSpeed: 1e-400 m/s", "soundSpeed", {"between 1e-100 and 1e+100"});
+    expect("soundSpeed: 0x10 m/s", "soundSpeed", {"only decimal"});
+    expect("soundSpeed: 1,5 m/s", "soundSpeed", {"'1.5 m/s'"});
+    expect("soundSpeed: none", "soundSpeed", {"does not start with a number", "or auto"});
+    expect("steps: 0x10", "steps", {"only decimal"});
+    expect("steps: inf", "steps", {"not a finite number"});
+    expect("steps: 1e400", "steps", {"is not a whole number"});
+    expect("on: 'true'", "on", {"without quotation marks"});
+    expect("Viscosity: 1 Pa s", "Viscosity", {"'viscosity' is given already in line 1"});
     expect("porosity: 50 um", "porosity", {"has a unit"});
     expect("porosity: 1.5", "porosity", {"0 to 1"});
     expect("steps: 0", "steps", {"at least 1"});
@@ -207,9 +225,10 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("threads: 3000000000", "threads", {"out of range"});
     expect("on: yes", "on", {"true or false"});
     expect("boundary: noslip", "boundary", {"Did you mean 'noSlip'?", "noSlip, freeSlip"});
-    expect("title: 7up", "title", {"no name"});
+    expect("title: 7up", "title", {"is not a name"});
+    expect("title: no", "title", {"is not a name", "YAML"});
     expect("fields: [densty]", "fields[0]", {"Did you mean 'density'?"});
-    expect("fields: velocity", "fields", {"a list of words"});
+    expect("fields: velocity", "fields", {"a list like '[velocity, density]'"});
     expect("fields: [velocity] um", "fields", {"not YAML"});
     expect("size: [1, 2, 3] um", "size", {"'[1, 2, 3] um' is not YAML", "'[1 um, 2 um, 3 um]'", "etc/convertVectors"});
     expect("forces: [1, 2.5] pN", "forces", {"'[1 pN, 2.5 pN]'"});
@@ -227,7 +246,9 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("cells: {name: a}", "cells", {"a list is expected"});
     expect("cells: [{name: a, edge: 1}]", "cells[0].edge", {"has no unit"});
     expect("named: {a: {name: b}}", "named.a.edge", {"missing", "8 um"});
-    expect("named: {1a: {name: b, edge: 1 um}}", "named.1a", {"no name"});
+    expect("named: {1a: {name: b, edge: 1 um}}", "named.1a", {"is not a name"});
+    expect("named: {null: {name: b, edge: 1 um}}", "named.null", {"is not a name"});
+    expect("named: {name: b, edge: 1 um}", "named", {"name of its own"});
     expect("boundry: noSlip", "boundry", {"unknown key", "Did you mean 'boundary'?", "Allowed: every, viscosity"});
     expect("shearRate: 3 1/s", "shearRate", {"exactly one of 'Ca', 'shearRate'"});
 }

@@ -47,6 +47,21 @@ TEST(Units, timesAnglesAndCompounds) {
     expectQuantity("100 Hz", 100, unit::perSecond);
     expectQuantity("180 deg", std::numbers::pi, unit::none);
     expectQuantity("1 N*s/m", 1, unit::newtonSecondPerMetre);
+    expectQuantity("1 cP", 1e-3, unit::pascalSecond);
+    expectQuantity("2 P", 0.2, unit::pascalSecond);
+    expectQuantity("1.2 mPa.s", 1.2e-3, unit::pascalSecond);
+    expectQuantity("1.2 mPa*s", 1.2e-3, unit::pascalSecond);
+    expectQuantity("5 dyn/cm", 5e-3, unit::newtonPerMetre);
+    expectQuantity("3 dyn", 3e-5, unit::newton);
+    expectQuantity("2 bar", 2e5, unit::pascal);
+    expectQuantity("1 mmHg", 133.322387415, unit::pascal);
+    expectQuantity("10 cmH2O", 980.665, unit::pascal);
+    expectQuantity("10 mmH2O/s", 98.0665, unit::pascal * unit::perSecond);
+    expectQuantity("7 erg", 7e-7, unit::joule);
+    expectQuantity("0.3 aJ", 0.3e-18, unit::joule);
+    expectQuantity("90 fl", 90e-18, {0, 3, 0});
+    expectQuantity("1000 kg/m\xC2\xB3", 1000, unit::kilogramPerMetre3);
+    expectQuantity("9 m\xC2\xB7s\xE2\x81\xBB\xC2\xB2", 9, unit::metrePerSecond2);
     expectQuantity("3 mm", 3e-3, unit::metre);
     expectQuantity("9.81 m/s^2", 9.81, unit::metrePerSecond2);
 }

@@ -219,9 +219,13 @@ TEST(Checkpoint, ListsFindsAndKeepsTheLatest) {
     ASSERT_EQ(list.size(), 2u);
     EXPECT_EQ(list[0].number, 2);
     EXPECT_EQ(list[1].time, 0.1 * 3);
-    EXPECT_EQ(findCheckpoint(folder.path(), 0.3), list[1].path);
-    const std::string message = messageOf<Failure>([&] { findCheckpoint(folder.path(), 0.7); });
-    EXPECT_NE(message.find("there are: 0.2, 0.3 s"), std::string::npos) << message;
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.3).path, list[1].path);
+    // The nearest before; what lies just after because it was rounded counts as at the time.
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.7).path, list[1].path);
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.29).path, list[0].path);
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.1 * 3 * (1 - 1e-7)).path, list[1].path);
+    const std::string message = messageOf<Failure>([&] { findCheckpoint(folder.path(), 0.1); });
+    EXPECT_NE(message.find("there are: 200 ms, 300 ms"), std::string::npos) << message;
     MPI_Barrier(MPI_COMM_WORLD);
 }
 

@@ -1,4 +1,4 @@
-// Streams in time on any number of ranks: pieces, restart, keeping the latest; CSV rows.
+// Streams in time on any number of ranks: pieces, restart, keeping the latest.
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <vtkFieldData.h>
@@ -11,7 +11,6 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "io/csvSeries.hpp"
 #include "io/temporaryFolder.hpp"
 #include "io/vtkSeries.hpp"
 
@@ -168,61 +167,6 @@ TEST(VtkSeries, WhatFailsOnOneRankFailsOnAll) {
     if (rankHere() == ranks() - 1) data.point.scalars["pressure"].assign(data.points.size(), 0);
     const std::string message = messageOf<Failure>([&] { series.write(0, 0, data); });
     EXPECT_NE(message.find("other arrays"), std::string::npos) << message;
-}
-
-TEST(CsvSeries, EveryBitOfEveryRow) {
-    TemporaryFolder folder;
-    CsvSeries csv(MPI_COMM_WORLD, folder.path(), "deformation", 0, "rbc",
-                  {{"time", "s"}, {"D12_extent", ""}, {"area", "m2"}});
-    csv.row(std::vector{0.1, 1.0 / 3.0, 1.35e-10});
-    csv.row(std::vector{0.2, std::nan(""), 1e-300});
-    MPI_Barrier(MPI_COMM_WORLD);
-    std::ifstream file(folder.path() / "postProcessing/deformation/0/rbc.csv");
-    std::string line;
-    std::getline(file, line);
-    EXPECT_EQ(line, "time_s,D12_extent,area_m2");
-    const CsvTable table = readCsv(csv.path());
-    ASSERT_EQ(table.rows.size(), 2u) << "rows must be in the file at once";
-    EXPECT_EQ(table.column("D12_extent")[0], 1.0 / 3.0);
-    EXPECT_TRUE(std::isnan(table.column("D12_extent")[1]));
-    EXPECT_EQ(table.column("area_m2")[1], 1e-300);
-    EXPECT_NE(messageOf<Failure>([&] { table.column("D12_extend"); }).find("Did you mean 'D12_extent'"),
-              std::string::npos);
-    if (rankHere() == 0) {
-        EXPECT_THROW(csv.row(std::vector{1.0}), std::invalid_argument);
-    }
-}
-
-TEST(CsvSeries, CutsWhatComesAfterATime) {
-    TemporaryFolder folder;
-    CsvSeries csv(MPI_COMM_WORLD, folder.path(), "leak", 0, "count", {{"time", "s"}, {"count", ""}});
-    csv.cutAfter(0);  // no row yet
-    for (int i = 0; i < 4; ++i) csv.row(std::vector{0.1 * i, 1.0 * i});
-    csv.cutAfter(0.1);
-    csv.row(std::vector{0.15, 9.0});
-    MPI_Barrier(MPI_COMM_WORLD);
-    EXPECT_EQ(readCsv(csv.path()).column("time_s"), (std::vector<double>{0, 0.1, 0.15}));
-    EXPECT_EQ(readCsv(csv.path()).column("count"), (std::vector<double>{0, 1, 9}));
-    MPI_Barrier(MPI_COMM_WORLD);
-}
-
-TEST(CsvSeries, RestartsAreJoined) {
-    TemporaryFolder folder;
-    auto run = [&](double from, double value) {
-        CsvSeries csv(MPI_COMM_WORLD, folder.path(), "leak", from, "count", {{"time", "s"}, {"count", ""}});
-        for (int i = 0; i < 4; ++i) csv.row(std::vector{from + 0.1 * i, value});
-    };
-    run(0, 1);
-    run(0.2, 2);
-    MPI_Barrier(MPI_COMM_WORLD);
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "postProcessing/leak/0.2/count.csv"));
-    EXPECT_EQ(readCsvSeries(folder.path(), "leak", "count").column("count"), (std::vector<double>{1, 1, 2, 2, 2, 2}));
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rankHere() == 0) {
-        std::ofstream(folder.path() / "postProcessing/leak/0.2/count.csv", std::ios::app) << "0.9,abc\n";
-        const std::string message = messageOf<Failure>([&] { readCsvSeries(folder.path(), "leak", "count"); });
-        EXPECT_NE(message.find("count.csv:6: 'abc'"), std::string::npos) << message;
-    }
 }
 
 }  // namespace

@@ -107,14 +107,15 @@ int main(int argc, char* argv[]) {
     options.push_back({"always", "", "Each time that the run comes to this step."});
     Application app("faultInjection", "A run with a fault in its state.", argc, argv, {.options = options});
     return app.run([&] {
-        app.openLog();
+        app.announce();
         const simulation::Case input = simulation::Case::read(app);
         simulation::StartingPoint start = simulation::prepare(app, input);
+        if (start.isFinished) return ExitCode::done;
         Scene& scene = start.scene;
         Time& time = start.time;
         simulation::Integrator integrator(input, scene);
         simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, scene, integrator, time, start.state);
+        simulation::Schedule after(app, input, start, integrator);
         Injection fault(app);
         after.begin(scene, time);
         simulation::Retreat step(input, scene, time, integrator, after, app.log());

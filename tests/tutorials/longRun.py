@@ -20,8 +20,9 @@ from summary import axisTurned, strainOfTurn
 
 
 def table(case, observer, file):
-    with open(case / "postProcessing" / observer / "0" / file) as text:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(text)]
+    with open(case / "postProcessing" / observer / file) as text:
+        lines = (line for line in text if not line.startswith("#"))
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
 
 
 def within(name, value, low, high):

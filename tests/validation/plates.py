@@ -11,8 +11,7 @@ def slab(n):
 
 def profiles(folder, times):
     """(time, [(z, u)]) at the first look at or after each of these times."""
-    (path,) = folder.glob("postProcessing/profile/*/profile.csv")
-    table, found = rows(path), []
+    table, found = rows(folder / "postProcessing/profile/profile.csv"), []
     for time in times:
         t = min(row["time_s"] for row in table if row["time_s"] >= time * (1 - 1e-9))
         found.append((t, [(row["position_m"], row["u_m_s"]) for row in table if row["time_s"] == t]))

@@ -39,7 +39,7 @@ def lz4(block, size):
 
 
 class File:
-    """points: list of (x, y, z); triangles; arrays: point arrays by name; texts: field strings by name."""
+    """points: list of (x, y, z); triangles; arrays: point arrays by name; texts: field strings by name, without the checksum."""
 
     TYPES = {"Float64": "d", "Float32": "f", "Int64": "q", "Int32": "i", "UInt8": "B", "Int8": "b"}
 
@@ -56,7 +56,7 @@ class File:
         corners = corners.get("connectivity", ())
         self.triangles = [tuple(corners[i : i + 3]) for i in range(0, len(corners), 3)]
         self.texts = {a.get("Name"): self.decoded(a).split(b"\0")[0].decode()
-                      for a in root.findall("PolyData/FieldData/*") if a.get("type") == "String"}
+                      for a in root.findall("PolyData/FieldData/*") if a.get("type") == "String" and a.get("Name") != "checksum"}
 
     def decoded(self, array):
         if array.get("format") == "ascii":
@@ -91,8 +91,41 @@ def count(path):
     return sum(map(int, re.findall(rb'<Piece [^>]*NumberOfPoints="(\d+)', head)))
 
 
+WORD = (1 << 64) - 1
+
+
+def mix(z):
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9 & WORD
+    z = (z ^ z >> 27) * 0x94D049BB133111EB & WORD
+    return z ^ z >> 31
+
+
+def checksum(parts):
+    """That of libs/io/dataChecksum.hpp; parts: (name, numbers or a text or a float array)."""
+    def words(values):
+        if isinstance(values, str):
+            return values.encode()
+        return [struct.unpack("<Q", struct.pack("<d", v))[0] if isinstance(v, float) else v for v in values]
+
+    def total(values):
+        return sum(mix(v + (i + 1) * 0x9E3779B97F4A7C15 & WORD) for i, v in enumerate(words(values))) & WORD
+
+    state = 0
+    for name, values in parts:
+        state = mix(state + total(name) & WORD)
+        state = mix(state + total(values) & WORD) + len(words(values)) & WORD
+    return f"{state:016x}"
+
+
 def write(path, points, triangles, ids, spacing, texts):
     """A closed surface as membraneMesh writes it, in plain text."""
+    texts = dict(sorted(texts.items()))
+    if texts:
+        parts = [("points", [float(x) for p in points for x in p]), ("triangles", [n for t in triangles for n in t]), ("lines", []),
+                 ("point scalar spacing", [float(spacing)] * len(points)), ("point integer id", ids), ("field TimeValue", [0.0]), ("field strain", [0.0]),
+                 *((f"text {name}", text) for name, text in texts.items())]
+        texts["checksum"] = checksum(parts)
+
     def array(kind, name, values, width=1):
         words = " ".join(repr(v) if isinstance(v, float) else str(v) for v in values)
         return f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{width}" format="ascii">{words}</DataArray>'

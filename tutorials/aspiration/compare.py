@@ -11,8 +11,8 @@ GLOBAL, REST, WHITE_BORE, WHITE_LIP = 3e-4, 201.5e-12, 2e-6, 0.5e-6             
 
 
 def rows(cell):
-    with open(f"runs/{cell}/postProcessing/relax/0/{cell}.csv", newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    with open(f"runs/{cell}/postProcessing/relax/{cell}.csv", newline="") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(line for line in file if not line.startswith("#"))]
 
 
 class FlatSheet:

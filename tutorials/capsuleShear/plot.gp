@@ -2,15 +2,16 @@
 set terminal pngcairo size 1200,450 font ",11"
 set output 'postProcessing/shape.png'
 set datafile separator comma
+set datafile columnheaders
 set xlabel 'strain'
 set key bottom right
-files = system("ls -d postProcessing/deformation/*/capsule.csv")
+table = "postProcessing/deformation/capsule.csv"
 set multiplot layout 1,2
 set ylabel 'D12 by inertia'
-plot for [f in files] f using 2:4 skip 1 with lines lw 2 lc 2 title 'this case', \
-     'reference.csv' using 1:2 skip 4 every 3 with points pt 6 lc 2 title 'boundary elements, unbounded'
+plot table using 2:4 with lines lw 2 lc 2 title 'this case', \
+     'reference.csv' using 1:2 every 3 with points pt 6 lc 2 title 'boundary elements, unbounded'
 set key top right
 set ylabel 'inclination, degrees'
-plot for [f in files] f using 2:($5*180/pi) skip 1 with lines lw 2 lc 2 title 'this case', \
-     'reference.csv' using 1:3 skip 4 every 3 with points pt 6 lc 2 title 'boundary elements, unbounded'
+plot table using 2:($5*180/pi) with lines lw 2 lc 2 title 'this case', \
+     'reference.csv' using 1:3 every 3 with points pt 6 lc 2 title 'boundary elements, unbounded'
 unset multiplot

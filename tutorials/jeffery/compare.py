@@ -10,8 +10,8 @@ The rate has the form alpha cos^2 phi + beta sin^2 phi for any body of revolutio
 flow, give alpha and beta, and these the period 2 pi/sqrt(alpha beta). Rates are means over the strains from START on.
 """
 import csv
-import glob
 import math
+import os
 import sys
 
 RATE, R = 100.0, 0.5  # 1/s, constant/flow.yaml; axis ratio
@@ -25,10 +25,9 @@ def jeffery(phi):
 
 def motion(case):
     """Strain, phi without jumps, and angular velocity about y over gammadot, row by row."""
-    (name,) = glob.glob(case + "/postProcessing/motion/*/body.csv")
     rows, phi = [], None
-    with open(name) as file:
-        for row in csv.DictReader(file):
+    with open(case + "/postProcessing/motion/body.csv") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
             angle = math.atan2(float(row["axis_x"]), float(row["axis_z"]))
             phi = angle if phi is None else angle + 2 * math.pi * round((phi - angle) / (2 * math.pi))
             rows.append((float(row["strain"]), phi, float(row["angularVelocity_y_1_s"]) / RATE))
@@ -63,7 +62,7 @@ def main(runs):
         table.append((f"spheroid, axis near the {name}, phi = {math.degrees(phi):5.1f} deg: rate/gammadot", rate, jeffery(phi)))
     alpha, beta = alpha_beta(*ends)
     table.append(("spheroid: period x gammadot, from both rates", 2 * math.pi / math.sqrt(alpha * beta), 2 * math.pi * (R + 1 / R)))
-    if glob.glob(f"{runs}/turn/postProcessing/motion/*/body.csv"):
+    if os.path.exists(f"{runs}/turn/postProcessing/motion/body.csv"):
         strain = quarter(motion(f"{runs}/turn")) or math.nan
         table.append(("spheroid, 8 along its axis: four quarter turns x gammadot", 4 * strain, 2 * math.pi * (R + 1 / R)))
     print(f"{'':70s}   measured     Jeffery    error")

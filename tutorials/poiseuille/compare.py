@@ -8,7 +8,6 @@ walls at z = +-L/2 at rest, force F per unit mass from t = 0. Error: root of the
     compare.py CASE...        cases in order of refinement
 """
 import csv
-import glob
 import math
 import sys
 
@@ -25,9 +24,8 @@ def series(z, t):
 
 def errors(case):
     """Relative error at the first look at or after each of TIMES."""
-    (name,) = glob.glob(case + "/postProcessing/profile/*/profile.csv")
-    with open(name) as file:
-        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    with open(case + "/postProcessing/profile/profile.csv") as file:
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(line for line in file if not line.startswith("#"))]
     result = []
     for time in TIMES:
         t = min(row["time_s"] for row in rows if row["time_s"] >= time * (1 - 1e-9))  # steps add up to it but for rounding

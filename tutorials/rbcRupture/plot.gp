@@ -3,13 +3,13 @@ set terminal pngcairo size 1200,400 font ",11"
 set output 'postProcessing/rupture.png'
 set datafile separator comma
 set datafile columnheaders
-files = system("ls -d postProcessing/rupture/*/rbc.csv | sort -t/ -k3 -g")
+table = 'postProcessing/rupture/rbc.csv'
 set xlabel 'strain'; unset key; set yrange [0:*]; set offsets 0, 0, graph 0.05, 0
 set multiplot layout 1,3
 set ylabel 'bonds broken'
-plot for [f in files] f using 'strain':'bondsBroken' with lines lw 2 lc 1
+plot table using 'strain':'bondsBroken' with lines lw 2 lc 1
 set ylabel 'area of the holes [um^2]'
-plot for [f in files] f using 'strain':(1e12*column('holeArea_m2')) with lines lw 2 lc 1
+plot table using 'strain':(1e12*column('holeArea_m2')) with lines lw 2 lc 1
 set ylabel 'fluid released from inside [fL]'
-plot for [f in files] f using 'strain':(1e18*column('releasedVolume_m3')) with lines lw 2 lc 1
+plot table using 'strain':(1e18*column('releasedVolume_m3')) with lines lw 2 lc 1
 unset multiplot

@@ -9,8 +9,8 @@ KAPPA = 2e-19  # J: the cases' constant/membranes.yaml
 shapes = {}
 print(f"{'shape':>12}  {'diameter x, y [um]':>18}  {'height [um]':>11}  {'reduced volume':>14}  {'energy/8 pi kappa':>17}")
 for shape, name in (("discocyte", "vesicle"), ("stomatocyte", "vesicle"), ("echinocyte", "cell")):
-    with open(f"runs/{shape}/postProcessing/relax/0/{name}.csv", newline="") as file:
-        row = {key: float(value) for key, value in list(csv.DictReader(file))[-1].items()}
+    with open(f"runs/{shape}/postProcessing/relax/{name}.csv", newline="") as file:
+        row = {key: float(value) for key, value in list(csv.DictReader(line for line in file if not line.startswith("#")))[-1].items()}
     row["energy"] = row["energy_J"] / (8 * math.pi * KAPPA)
     shapes[shape] = row
     x, y, z = (1e6 * row[f"extent{axis}_m"] for axis in "XYZ")

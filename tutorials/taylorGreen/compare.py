@@ -9,7 +9,6 @@ has fallen to 1/e, over the nominal one.
     compare.py CASE...        cases in order of refinement
 """
 import csv
-import glob
 import math
 import sys
 
@@ -20,9 +19,9 @@ TOLERANCE = 0.005  # of the finest case, of E(0)
 
 def decay(case):
     """Times and kinetic energies over the first."""
-    (name,) = glob.glob(case + "/postProcessing/balance/*/conservation.csv")
-    with open(name) as file:
-        rows = [(float(row["time_s"]), float(row["kineticEnergy_J"])) for row in csv.DictReader(file)]
+    with open(case + "/postProcessing/balance/conservation.csv") as file:
+        lines = (line for line in file if not line.startswith("#"))
+        rows = [(float(row["time_s"]), float(row["kineticEnergy_J"])) for row in csv.DictReader(lines)]
     return [(t, energy / rows[0][1]) for t, energy in rows]
 
 

@@ -2,9 +2,10 @@
 set terminal pngcairo size 900,600 font ",11"
 set output 'runs/decay.png'
 set datafile separator comma
+set datafile columnheaders
 nu = 1e-6; k = 2*pi/1e-3
-file(N) = system("ls runs/" . N . "/postProcessing/balance/*/conservation.csv")
-first(N) = real(system("sed -n 2p " . file(N) . " | cut -d, -f6"))
+file(N) = "runs/" . N . "/postProcessing/balance/conservation.csv"
+first(N) = real(system("grep -v '^#' " . file(N) . " | sed -n 2p | cut -d, -f6"))
 set xlabel '4 nu k^2 t'; set ylabel 'E/E(0)'; set logscale y; set xrange [0:3.2]; set yrange [0.03:1.2]
-plot for [N in "16 32 64"] E = first(N) file(N) using (4*nu*k**2*$1):($6/E) skip 1 with points title N . ' along a wavelength', \
+plot for [N in "16 32 64"] E = first(N) file(N) using (4*nu*k**2*$1):($6/E) with points title N . ' along a wavelength', \
      exp(-x) with lines lc 'black' title 'exact'

@@ -5,8 +5,8 @@ import sys
 
 with open("reference/mills2004.csv", newline="") as file:
     measured = list(csv.DictReader(line for line in file if not line.startswith("#")))
-with open("postProcessing/relax/0/rbc.csv", newline="") as file:
-    computed = list(csv.DictReader(file))
+with open("postProcessing/relax/rbc.csv", newline="") as file:
+    computed = list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 compared = outside = 0
 print(f"{'force [pN]':>10}  {'axial [um]':>10} {'experiment':>22}  {'transverse [um]':>15} {'experiment':>20}")

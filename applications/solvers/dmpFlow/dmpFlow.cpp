@@ -13,15 +13,15 @@ int main(int argc, char* argv[]) {
                     argv,
                     simulation::solverUsage("dmpFlow"));  // options, MPI, log, exit codes
     return app.run([&] {
-        app.openLog();
+        app.announce();
         const simulation::Case input = simulation::Case::read(app);         // 1. strict dictionaries, SI from here on
         simulation::StartingPoint start = simulation::prepare(app, input);  // 2. only what the case names exists
+        if (start.isFinished) return ExitCode::done;
         coupling::Scene& scene = start.scene;
         Time& time = start.time;
         simulation::Integrator integrator(input, scene);  // 3. terms fixed once
         simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, scene, integrator, time,
-                                   start.state);  // 4. observers, writers, checkpoints
+        simulation::Schedule after(app, input, start, integrator);  // 4. observers, writers, checkpoints
         if (app.has("dry-run")) return after.dryRun(scene, time);
 
         after.begin(scene, time);

@@ -1,7 +1,7 @@
 // membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers, inflated, at
 // rest; or of a flat sheet, stretched and sheared.
 //
-// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/0/<name>.csv and
+// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/<name>.csv and
 // results/<name>.pvd, whose times are the numbers of the stages.
 //
 // Sample runs:
@@ -11,8 +11,11 @@
 
 #include "core/application.hpp"
 #include "core/runRecord.hpp"
+#include "core/writable.hpp"
 #include "io/csvSeries.hpp"
 #include "io/vtkSeries.hpp"
+#include "simulation/caseFiles.hpp"
+#include "simulation/dictionaries.hpp"
 #include "simulation/relaxSettings.hpp"
 #include "simulation/resultsWriter.hpp"
 
@@ -28,8 +31,12 @@ struct Input {
     static Input read(const Application& app) {
         Problems problems;
         Input input;
-        const Node relax = app.dictionary("system/relax.yaml", problems);
-        const Node membranes = app.dictionary("constant/membranes.yaml", problems);
+        const std::set<std::string> misnamed = simulation::checkFiles(app, problems);
+        const auto dictionary = [&](const std::string& file) {
+            return misnamed.contains(file) ? Node() : app.dictionary(file, problems);
+        };
+        const Node relax = dictionary("system/relax.yaml");
+        const Node membranes = dictionary("constant/membranes.yaml");
         problems.throwIfAny();
         input.relax = corpuscle::read<simulation::RelaxSettings>(relax, problems);
         input.membranes = corpuscle::read<simulation::MembranesSettings>(membranes, problems);
@@ -44,21 +51,18 @@ struct Input {
     }
 };
 
-// "force_N" -> {"force", "N"}.
-io::Column column(const std::string& name) {
-    const std::size_t bar = name.rfind('_');
-    return bar == std::string::npos ? io::Column{name, ""} : io::Column{name.substr(0, bar), name.substr(bar + 1)};
-}
-
 // Where stages are written to, and what areas and volumes are compared with.
 class Results {
   public:
-    Results(const Application& app, const membrane::Protocol& protocol, const membrane::Membrane& membrane, double edge)
+    Results(const Application& app, const std::string& name, const membrane::Protocol& protocol,
+            const membrane::Membrane& membrane, double edge)
         : protocol_(protocol),
           edge_(edge),
           area0_(membrane.area()),
           volume0_(membrane.network().isOpen() ? 0 : membrane.volume()),
-          table_(app.communicator().handle(), app.caseDirectory(), "relax", 0, membrane.name, columns(protocol)),
+          table_(app.communicator().handle(), app.caseDirectory(),
+                 {"relax", membrane.name, "protocol " + name, Registry<membrane::Protocol>::instance().find(name)->text,
+                  columns(protocol)}),
           surfaces_(app.communicator().handle(), app.caseDirectory(), membrane.name, 0, 0) {}
 
     // Returns the line for the log.
@@ -77,7 +81,7 @@ class Results {
         surfaces_.write(stage, std::nullopt, surface);
         std::string values;
         for (std::size_t k = 0; k < measured.size(); ++k)
-            values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k], measured[k]);
+            values += fmt::format("{}{} {:.5g}", k ? ", " : "", protocol_.columns()[k].header(), measured[k]);
         return fmt::format("stage {}, {}: {}; area {:+.3f} %, volume {:+.3f} %; {} iterations, residual {:.2g} N",
                            stage, protocol_.describe(stage), values, 100 * areaStrain, 100 * volumeStrain,
                            report.iterations, report.residual);
@@ -85,11 +89,9 @@ class Results {
 
   private:
     static std::vector<io::Column> columns(const membrane::Protocol& protocol) {
-        std::vector<io::Column> all{{"stage", ""}};
-        for (const std::string& name : protocol.columns()) all.push_back(column(name));
-        for (const char* name : {"area_m2", "volume_m3", "areaStrain", "volumeStrain", "energy_J", "iterations"})
-            all.push_back(column(name));
-        all.push_back({"residual", "N"});
+        std::vector<io::Column> all;
+        for (const auto& some : {protocol.columnsBefore(), protocol.columns(), protocol.columnsAfter()})
+            for (const membrane::Protocol::Column& c : some) all.push_back({c.name, c.unit, c.meaning});
         return all;
     }
 
@@ -103,7 +105,8 @@ class Results {
 void runStages(Application& app, const simulation::RelaxSettings& relax, membrane::Membrane& membrane,
                RunRecord& record) {
     const membrane::Protocol& protocol = *relax.protocol;
-    Results results(app, protocol, membrane, relax.edge());
+    io::clearTables(app.communicator().handle(), app.caseDirectory(), "protocol");
+    Results results(app, relax.protocol.name, protocol, membrane, relax.edge());
     for (int stage = 0; stage < protocol.stages(); ++stage) {
         const membrane::Loads loads = protocol.apply(stage, membrane);
         const membrane::EquilibriumReport report =
@@ -114,7 +117,6 @@ void runStages(Application& app, const simulation::RelaxSettings& relax, membran
             "stage {} ({}): no equilibrium after {} iterations, the largest residual force is {:.3g} N. Take "
             "smaller steps between the stages of system/relax.yaml, or more 'iterations'",
             stage, protocol.describe(stage), report.iterations, report.residual);
-        record.finish(ExitCode::numerics, reason);
         throw Failure(ExitCode::numerics, reason);
     }
     record.set("result", "stages", static_cast<long>(protocol.stages()));
@@ -132,18 +134,25 @@ int main(int argc, char* argv[]) {
                                  "membraneRelax -set 'system/relax.yaml:/cell/edge=0.3 um'"}});
     return app.run([&] {
         if (app.communicator().size() > 1) throw Failure(ExitCode::usage, "runs on one rank: run it without mpirun");
-        app.openLog();
+        app.announce();
+        requireWritable(app.communicator(), {app.path("run.json.0000000.tmp"), app.path("results/.file.part"),
+                                             app.path("postProcessing/.file.part")});
         const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
+        simulation::refreshSchemas(app);
         membrane::Membrane membrane =
             input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
+        app.lockCase();
+        app.openLog();
         app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),
                        formatQuantity(input.relax.edge(), unit::metre), input.relax.protocol.name,
                        input.relax.protocol->stages());
 
-        RunRecord record(app.path("run.json"), app.name(), app.communicator());
+        const auto kept = std::make_shared<RunRecord>(app.path("run.json"), app.name(), app.communicator());
+        RunRecord& record = *kept;
         record.set("parameters", "nodes", static_cast<long>(membrane.position.size()));
         record.set("parameters", "commandLine", app.commandLine());
         record.write();
+        app.keepRecord(kept);
         writeUsed(app.path("used.yaml"), input.effective, app.communicator());
         runStages(app, input.relax, membrane, record);  // 3. loads, equilibrium, a row and a surface each
         return ExitCode::done;

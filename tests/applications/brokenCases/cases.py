@@ -86,7 +86,7 @@ def with_body(bodies, place="{name: bead, shape: {type: sphere, radius: 2 um}, e
 
 CASES = [
     # Form of a file
-    case("duplicateKey", append(FLUID, "density: 900 kg/m^3\n"), FLUID, "density", "density: 900", "twice", "line 1"),
+    case("duplicateKey", append(FLUID, "density: 900 kg/m^3\n"), FLUID, "density", "density: 900", "twice", "line 2"),
     case("tab", replace(MEMBRANES, "  rupture", "\trupture"), MEMBRANES, "", "\trupture", "tab", "blanks"),
     case("anchor", replace(MEMBRANES, "5e-4 N/m", "&stiff 5e-4 N/m"), MEMBRANES, "", "&stiff", "anchor", "write the value out"),
     case("alias", replace(CONTROL, "wallClock: 2 h", "wallClock: *limit"), CONTROL, "", "*limit", "alias", "write the value out"),

@@ -15,7 +15,10 @@ import subprocess
 import sys
 import tempfile
 
-from cases import CASES
+from cases import CASES as OWN_CASES
+from newcomers import GOOD, NEWCOMERS
+
+CASES = OWN_CASES + NEWCOMERS
 
 BASE = pathlib.Path(__file__).parent / "baseCase"
 CRASH = re.compile(r"what\(\)|terminate called|Aborted|Segmentation|Sanitizer|MPI_ABORT|\.[ch]pp\b|std::")
@@ -82,10 +85,12 @@ def check(programs, case, directory, show):
     return text + (f"--- {case.name}\n{result.stderr}\n" if faults or show else "")
 
 
-def check_good(program, directory):
+def check_good(program, directory, edits=(), name="base"):
     shutil.copytree(BASE, directory)
+    for edit in edits if isinstance(edits, (list, tuple)) else [edits]:
+        edit(directory)
     result = run(program, directory, [])
-    return "" if result.returncode == 0 and not result.stderr else f"the base case is not good:\n{result.stderr}"
+    return "" if result.returncode == 0 and not result.stderr else f"the case '{name}' is not good:\n{result.stderr}"
 
 
 def check_json(program, directory):
@@ -108,6 +113,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(2) as pool:
         top = pathlib.Path(temporary)
         jobs = [pool.submit(check, programs, case, top / case.name, show) for case in chosen]
+        jobs += [pool.submit(check_good, program, top / name, edits, name) for name, edits in GOOD.items() if not names or name in names]
         jobs += [pool.submit(check_good, program, top / "good"), pool.submit(check_json, program, top / "json")]
         texts = [job.result() for job in jobs]
     print("".join(texts), end="")

@@ -13,7 +13,7 @@ runs = flow.runs
 
 
 def stress(done, n, scheme):
-    (path,) = done[scheme].glob("postProcessing/wall/*/wallStress.csv")
+    path = done[scheme] / "postProcessing/wall/wallStress.csv"
     mine, exact = rows(path)[-1]["effectiveViscosity"], layers.couette_stress(U) / (layers.MU[0] * U / layers.H)
     return relative(f"{scheme}: stress on the walls at the end, over mu_1 2U/L", mine, exact, flow.permitted(n), order=True)
 

@@ -83,9 +83,9 @@ def run(c, n, prefix=""):
 def drag(folder, c, n):
     """K of the middle layer at the end."""
     N, m, middle = across(c, n), wide(c, n), LAYERS // 2
-    files = [folder / "postProcessing/force/0" / f"sphere{x}{y}{middle}.csv" for x in range(m) for y in range(m)]
+    files = [folder / "postProcessing/force" / f"sphere{x}{y}{middle}.csv" for x in range(m) for y in range(m)]
     force = sum(rows(path)[-1]["force_x_N"] for path in files) / m**2
-    flux = rows(folder / "postProcessing/flux/0/profile.csv")
+    flux = rows(folder / "postProcessing/flux/profile.csv")
     flux = [row for row in flux if row["time_s"] == flux[-1]["time_s"] and abs(row["position_m"]) < L / 2]
     velocity = sum(row["u_m_s"] * row["count"] for row in flux if row["count"]) / (N**3 * m**2)
     return force / (6 * math.pi * RHO * NU * radius(c) * velocity)

@@ -51,7 +51,7 @@ def expected(way, x):
 
 def drag(folder, way):
     """Over 6 pi mu a U at the end."""
-    last = rows(folder / "postProcessing/force/0/sphere.csv")[-1]
+    last = rows(folder / "postProcessing/force/sphere.csv")[-1]
     return -last["force_z_N" if way == "towards" else "force_y_N"] / (6 * math.pi * MU * A * U)
 
 

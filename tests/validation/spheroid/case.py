@@ -66,8 +66,7 @@ def run(name, n, body, direction, motion, strain):
 
 def torque(folder):
     """About the vorticity over 8 pi mu a^3 gammadot, mean from START on."""
-    (path,) = folder.glob("postProcessing/motion/*/body.csv")
-    late = [row["torque_y_Nm"] for row in rows(path) if row["strain"] >= START - 1e-9]
+    late = [row["torque_y_Nm"] for row in rows(folder / "postProcessing/motion/body.csv") if row["strain"] >= START - 1e-9]
     return sum(late) / len(late) / (8 * math.pi * VISCOSITY * A**3 * RATE)
 
 

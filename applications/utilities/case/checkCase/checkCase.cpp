@@ -1,8 +1,8 @@
 // checkCase: everything about a case that can be known before it runs.
 //
-// Reads all dictionaries (every problem at once, exit code 2), then prints the dimensionless groups, what each integrator
-// would cost, the particles, memory and disk it will take, and, if 0/ has been filled, every limit of the time step and the run time
-// predicted from a short burst. Nothing is written.
+// Reads all dictionaries (every problem at once, exit code 2), then prints on one screen the case, the dimensionless groups, the resolution,
+// the memory and disk it will take, what the integrators that can do it would cost, and, if 0/ has been filled, every limit of the time
+// step and the run time predicted from a short burst; at the end what looks wrong. -json has all of it, and more. Nothing is written.
 //
 // Sample runs:
 //     checkCase -case tutorials/rbcShear/Ca0.02
@@ -14,12 +14,17 @@
 #include <iostream>
 #include <vector>
 
+#include "core/buildInfo.hpp"
+#include "core/machineMemory.hpp"
 #include "membrane/moduli.hpp"
 #include "simulation/cost.hpp"
 #include "simulation/groups.hpp"
+#include "simulation/memoryLimit.hpp"
 #include "simulation/retreat.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
+#include "simulation/schedule.hpp"
+#include "simulation/size.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
@@ -28,77 +33,209 @@ namespace {
 
 constexpr int burstSteps = 20;
 
-std::string mebibytes(double bytes) {
-    return bytes < 1e9 ? fmt::format("{:.1f} MiB", bytes / (1 << 20)) : fmt::format("{:.2f} GiB", bytes / (1 << 30));
+// Lines of the screen, group by group, and what is kept for -json.
+struct Report {
+    Application& app;
+    ordered_json json;
+    std::vector<std::string> warnings;
+
+    void section(const char* title) { app.log().info("{}", title); }
+    void line(const std::string& text) { app.log().info("  {}", text); }
+    // Aligned, without the header if it is empty.
+    void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+        const std::vector<std::string> none(rows.empty() ? 0 : rows.front().size());
+        const std::vector<std::string> lines = alignedTable(header.empty() ? none : header, rows);
+        for (std::size_t k = header.empty() ? 1 : 0; k < lines.size(); ++k) line(lines[k]);
+    }
+};
+
+std::string counted(std::size_t n, const std::string& word) {
+    return fmt::format("{} {}{}", n, word, n > 1 ? "s" : "");
 }
 
-void reportGroups(Application& app, const simulation::Case& input, ordered_json& json) {
+std::string vectorText(const Vec3& v) {
+    return fmt::format("{} x {} x {}", formatQuantity(v[0], unit::metre), formatQuantity(v[1], unit::metre),
+                       formatQuantity(v[2], unit::metre));
+}
+
+// Cells that share shape, membrane and mesh: one entry however many there are.
+struct CellKind {
+    const simulation::CellSettings* first;
+    std::size_t count;
+};
+std::vector<CellKind> kindsOf(const simulation::Case& input) {
+    std::vector<CellKind> kinds;
+    for (const simulation::CellSettings& cell : input.mesh.cells) {
+        const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const CellKind& kind) {
+            return kind.first->type() == cell.type() && kind.first->edge == cell.edge &&
+                   kind.first->shape.name == cell.shape.name && kind.first->shape->area() == cell.shape->area();
+        });
+        if (same == kinds.end())
+            kinds.push_back({&cell, 1});
+        else
+            ++same->count;
+    }
+    return kinds;
+}
+
+std::string withoutLineEnds(std::string text) {
+    while (text.ends_with('\n')) text.pop_back();
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) text.replace(at, 1, "; ");
+    return text;
+}
+
+void reportCase(Report& report, const simulation::Case& input) {
+    report.section("Case");
     std::vector<std::vector<std::string>> rows;
-    for (const simulation::Group& g : simulation::dimensionlessGroups(input)) {
-        rows.push_back({g.name, g.value, g.text});
-        json["groups"][g.name] = g.number;
+    std::string periodic;
+    for (int k = 0; k < 3; ++k)
+        if (k != input.flowModel->wallAxis()) periodic += (periodic.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
+    rows.push_back(
+        {"flow",
+         fmt::format(
+             "{}{}{}", input.flowModel.name,
+             input.flow.shearRate > 0 ? ", gammadot " + formatQuantity(input.flow.shearRate, unit::perSecond) : "",
+             input.control.endStrain ? fmt::format(", to strain {:g}", *input.control.endStrain)
+                                     : ", to t = " + formatQuantity(*input.control.endTime, unit::second))});
+    rows.push_back({"domain", vectorText(input.mesh.domain.size) + ", periodic in " + periodic});
+    const simulation::NumericsSettings& n = input.numerics;
+    rows.push_back({"numerics",
+                    fmt::format("{}, {}{} operators, {} precision", n.integrator,
+                                input.mesh.cells.empty() ? "" : n.coupling + " coupling, ", n.operators, n.precision)});
+    const simulation::ParticleEstimate count = simulation::estimateParticles(input);
+    std::string particles = fmt::format("{} of the fluid", count.fluid);
+    if (count.walls > 0) particles += fmt::format(", {} in walls", count.walls);
+    if (count.bodies > 0) particles += fmt::format(", {} in bodies", count.bodies);
+    if (count.nodes > 0) particles += fmt::format(", {} on membranes", count.nodes);
+    rows.push_back({"particles", particles});
+    long nodes = 0;
+    for (const CellKind& kind : kindsOf(input)) {
+        const simulation::CellSettings& cell = *kind.first;
+        const long each = simulation::estimateNodes(cell);
+        nodes += each * static_cast<long>(kind.count);
+        rows.push_back({"cells", fmt::format("{} of {}: {}, edge {}, about {} nodes each", kind.count, cell.type(),
+                                             cell.shape.name, formatQuantity(cell.edge, unit::metre), each)});
+        rows.push_back({"", withoutLineEnds(membrane::describeConstants(input.membraneOf(cell), cell.edge))});
     }
-    app.log().table({"group", "value", "meaning"}, rows);
+    report.table({}, rows);
+    report.json["particles"] = {{"fluid", count.fluid},
+                                {"walls", count.walls},
+                                {"nodes", count.nodes},
+                                {"bodies", count.bodies},
+                                {"membraneNodes", nodes}};
+}
+
+// Groups of resolution have /dx in them; the others are of the flow.
+void reportGroups(Report& report, const simulation::Case& input) {
+    std::vector<std::vector<std::string>> flow, resolution;
+    for (const simulation::Group& g : simulation::dimensionlessGroups(input)) {
+        (g.symbol.ends_with("/dx") ? resolution : flow).push_back({g.name, g.value, g.text});
+        report.json["groups"][g.name] = g.number;
+    }
+    report.section("Dimensionless groups");
+    report.table({}, flow);
+    report.section("Resolution");
+    report.table({}, resolution);
     for (const std::string& words : simulation::outsideSafeRanges(input)) {
-        app.log().warning("{}", words);
-        json["outsideSafeRange"].push_back(words);
+        report.warnings.push_back(words);
+        report.json["outsideSafeRange"].push_back(words);
     }
 }
 
-void reportCosts(Application& app, const simulation::Case& input, ordered_json& json) {
+// Edges of meshes that no spacing goes with.
+void findEdges(Report& report, const simulation::Case& input) {
+    constexpr double finest = 0.5, coarsest = 2.5;  // of the spacing
+    const auto check = [&](const std::string& what, double edge) {
+        const double ratio = edge / input.spacing();
+        if (ratio >= finest && ratio <= coarsest) return;
+        report.warnings.push_back(fmt::format(
+            "{}: the edge is {:.2g} dx ({} at a spacing of {}): {}. Write 'edge: 1 dx' to 'edge: 1.5 dx' in "
+            "system/mesh.yaml, or a spacing of about {} in system/numerics.yaml",
+            what, ratio, formatQuantity(edge, unit::metre), formatQuantity(input.spacing(), unit::metre),
+            ratio < finest ? fmt::format("{:.0f} nodes for each particle on the surface, steps and memory for nothing",
+                                         1 / (ratio * ratio))
+                           : "particles pass between the nodes, which do not hold them back",
+            formatQuantity(edge, unit::metre, 2)));
+    };
+    for (const CellKind& kind : kindsOf(input)) check("cell " + kind.first->name, kind.first->edge);
+    for (const simulation::BodyPlaceSettings& body : input.mesh.bodies) check("body " + body.name, body.edge);
+}
+
+// A density that the stated Re sets, far from that of any liquid that was meant.
+void findDensity(Report& report, const simulation::Case& input) {
+    constexpr double far = 100;
+    const double ratio = input.flow.density / input.fluid.density;
+    if (!input.flow.densityFromRe || (ratio <= far && ratio >= 1 / far)) return;
+    report.warnings.push_back(fmt::format(
+        "'inertia: {{Re: ...}}' of constant/flow.yaml sets the density to {:.3g} kg/m^3, {:.2g} times that of "
+        "constant/fluid.yaml. "
+        "Are shear rate ({}) and viscosity ({}) those that are meant? With the fluid's own density Re is {:.1g} of "
+        "what is "
+        "stated: write 'inertia: physical', whose cost does not depend on Re by the implicit step, or a Re nearer to that",
+        input.flow.density, ratio, formatQuantity(input.flow.shearRate, unit::perSecond),
+        formatQuantity(input.fluid.viscosity, unit::pascalSecond), 1 / ratio));
+}
+
+void reportCosts(Report& report, const simulation::Case& input) {
     const std::vector<simulation::IntegratorCost> costs = simulation::predictCosts(input);
-    app.log().table(simulation::costHeader(input), simulation::costRows(input, costs));
-    app.log().table(simulation::limitHeader(costs), simulation::limitRows(costs));
+    std::vector<simulation::IntegratorCost> possible;  // of the others the case has no use
     for (const simulation::IntegratorCost& cost : costs) {
-        ordered_json& entry = json["integrators"][cost.name];
+        ordered_json& entry = report.json["integrators"][cost.name];
         entry = {{"step_s", cost.step().seconds}, {"limit", cost.step().name}, {"steps", cost.steps},
                  {"passes", cost.passes},         {"cost", cost.cost},         {"obstacle", cost.obstacle}};
         for (const sph::StepLimit& limit : cost.limits.all) entry["limits_s"][limit.name] = limit.seconds;
+        if (cost.obstacle.empty() || cost.name == input.numerics.integrator) possible.push_back(cost);
     }
-    json["integrator"] = input.numerics.integrator;
+    report.json["integrator"] = input.numerics.integrator;
+    report.section("Step and cost");
+    report.table(simulation::costHeader(input), simulation::costRows(input, possible));
 }
 
-void reportSize(Application& app, const simulation::Case& input, ordered_json& json) {
-    const auto n = simulation::estimateParticles(input);
-    const auto size = simulation::estimateSize(input);
-    app.log().table(
-        {"size", "value"},
-        {{"fluid particles", std::to_string(n.fluid)},
-         {"wall particles", std::to_string(n.walls)},
-         {"membrane nodes", std::to_string(n.nodes)},
-         {"body particles", std::to_string(n.bodies)},
-         {"memory, all ranks", mebibytes(size.memory)},
-         {"disk: results",
-          fmt::format("{} ({} times of {})", mebibytes(size.perWrite * static_cast<double>(size.writes)), size.writes,
-                      mebibytes(size.perWrite))},
-         {"disk: checkpoints",
-          fmt::format("{} ({} kept)", mebibytes(size.checkpoint * static_cast<double>(input.control.checkpoint.keep)),
-                      input.control.checkpoint.keep)}});
-    json["particles"] = {{"fluid", n.fluid}, {"walls", n.walls}, {"nodes", n.nodes}, {"bodies", n.bodies}};
-    json["memory_B"] = size.memory;
-    json["disk_B"] = size.perWrite * static_cast<double>(size.writes) +
-                     size.checkpoint * static_cast<double>(input.control.checkpoint.keep);
+void reportSize(Report& report, const simulation::Case& input) {
+    const int ranks = report.app.communicator().size();
+    const auto size = simulation::estimateSize(input, ranks);
+    const auto keep = static_cast<double>(input.control.checkpoint.keep);
+    const double results = size.perWrite * static_cast<double>(size.writes), checkpoints = size.checkpoint * keep;
+    report.section("Memory and disk");
+    report.table(
+        {},
+        {{"memory", fmt::format("{} on {}; {} has {} free", formatBytes(size.memory), counted(ranks, "rank"),
+                                machineInfo().host, formatBytes(availableMemory().shared.bytes))},
+         {"results", fmt::format("{}: {} times of {}", formatBytes(results), size.writes, formatBytes(size.perWrite))},
+         {"checkpoints", fmt::format("{}: {} of {}", formatBytes(checkpoints), input.control.checkpoint.keep,
+                                     formatBytes(size.checkpoint))}});
+    report.json["memory_B"] = size.memory;
+    report.json["disk_B"] = results + checkpoints;
 }
 
-void reportLaws(Application& app, const simulation::Case& input) {
-    for (const simulation::CellSettings& cell : input.mesh.cells)
-        app.log().info("cell {}\n{}", cell.name, membrane::describeConstants(input.membraneOf(cell), cell.edge));
+// Moduli as the networks have them, a line for each kind of cell.
+void reportMembranes(Report& report, const coupling::Scene& scene) {
+    std::vector<std::string> told;
+    for (const coupling::Cell& cell : scene.cells) {
+        const membrane::NetworkModuli m = membrane::measureModuli(cell.membrane.network(), cell.membrane.laws());
+        report.json["cells"][cell.membrane.name] = {{"nodes", cell.nodeCount()},
+                                                    {"shearModulus_N_m", m.shear},
+                                                    {"areaModulus_N_m", m.area},
+                                                    {"deviation", m.deviation},
+                                                    {"shearAnisotropy", m.shearAnisotropy}};
+        std::string text = fmt::format(
+            "{} nodes; Gs {:.4g} of the closed form, Ks {:.4g}, varying by {:.2g} %; least over greatest by direction "
+            "{:.2f}",
+            cell.nodeCount(), m.shear / m.closedForm.shear, m.area / m.closedForm.area, 100 * m.deviation,
+            m.shearAnisotropy);
+        if (std::find(told.begin(), told.end(), text) != told.end()) continue;
+        told.push_back(text);
+        report.line(fmt::format("network of {}: {}", cell.membrane.name, text));
+    }
 }
 
-// Moduli as the case states them and as the network has them.
-void reportMembranes(Application& app, const coupling::Scene& scene) {
-    for (const coupling::Cell& cell : scene.cells)
-        app.log().info("cell {}: {} nodes\n{}", cell.membrane.name, cell.nodeCount(),
-                       membrane::describe(membrane::measureModuli(cell.membrane.network(), cell.membrane.laws())));
-}
-
-void reportBodies(Application& app, const simulation::Case& input, const coupling::Scene& scene, ordered_json& json) {
+void reportBodies(Report& report, const simulation::Case& input, const coupling::Scene& scene) {
     if (!scene.bodies) return;
     for (const bodies::Body& body : scene.bodies->all()) {
-        app.log().info("body {}: {}, {} particles, volume {:.6g} m^3, mass {:.6g} kg", body.name,
-                       input.bodies.types.at(body.type).motion.name, body.particles.size(), body.solid.volume,
-                       body.solid.mass);
-        json["bodies"][body.name] = {{"volume_m3", body.solid.volume}, {"mass_kg", body.solid.mass}};
+        report.line(fmt::format("body {}: {}, {} particles, volume {:.6g} m^3, mass {:.6g} kg", body.name,
+                                input.bodies.types.at(body.type).motion.name, body.particles.size(), body.solid.volume,
+                                body.solid.mass));
+        report.json["bodies"][body.name] = {{"volume_m3", body.solid.volume}, {"mass_kg", body.solid.mass}};
     }
 }
 
@@ -113,34 +250,63 @@ std::pair<double, double> predictRun(const simulation::Case& input, double dt, i
     return {};
 }
 
-void reportRun(Application& app, const simulation::Case& input, ordered_json& json) {
+// Says now and then how far the timing has come.
+class Timing {
+  public:
+    explicit Timing(Report& report) : report_(report), last_(std::chrono::steady_clock::now()) {}
+    void step(int made) {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last_ < pause) return;
+        last_ = now;
+        report_.line(fmt::format("timing: {} of {} steps", made, burstSteps));
+    }
+
+  private:
+    static constexpr auto pause = std::chrono::seconds(5);
+    Report& report_;
+    std::chrono::steady_clock::time_point last_;
+};
+
+void reportRun(Report& report, const simulation::Case& input) {
+    Application& app = report.app;
     coupling::Scene scene = simulation::buildScene(input, app.communicator().handle());
     Time time = simulation::startTime(app, input);
     simulation::Integrator integrator(input, scene);
     integrator.start(time);
-    reportMembranes(app, scene);
-    reportBodies(app, input, scene, json);
-    for (const sph::StepLimit& limit : integrator.limits().all) json["limits_s"][limit.name] = limit.seconds;
-    app.log().table({"limit of the step", "dt", ""}, simulation::limitRows(integrator.limits()));
-    json["binding"] = integrator.limits().binding().name;
+    reportMembranes(report, scene);
+    reportBodies(report, input, scene);
+    std::string limits;
+    for (const sph::StepLimit& limit : integrator.limits().all) {
+        report.json["limits_s"][limit.name] = limit.seconds;
+        limits += fmt::format("{}{} {}{}", limits.empty() ? "" : ", ", limit.name,
+                              formatQuantity(limit.seconds, unit::second),
+                              limit.name == integrator.limits().binding().name ? " (binds)" : "");
+    }
+    report.line("limits of the step: " + limits);
+    report.json["binding"] = integrator.limits().binding().name;
 
     const double dt = time.dt;
+    Timing timing(report);
     const auto begin = std::chrono::steady_clock::now();
     simulation::Retreat step(input, scene, time, integrator,
                              app.log());  // as the solver steps, and back where it would go back
     int made = 0;
-    for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) made += step.advance();
+    for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) {
+        made += step.advance();
+        timing.step(made);
+    }
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
         std::max(1, made);
     const auto [steps, seconds] = predictRun(input, dt, integrator.limits().stages, perStep);
     const double particles = app.communicator().sum(static_cast<double>(scene.system->owned()));
-    app.log().info("predicted: {:.4g} steps of {:.3g} s = {} on {} rank{} ({:.3g} million particle-steps per second)",
-                   steps, seconds / steps, formatDuration(seconds), app.communicator().size(),
-                   app.communicator().size() > 1 ? "s" : "", 1e-6 * particles / perStep);
-    json["steps"] = steps;
-    json["secondsPerStep"] = seconds / steps;
-    json["predicted_s"] = seconds;
+    report.line(fmt::format("predicted: {:.4g} steps of {:.3g} s = {} on {} ({:.3g} million particle-steps per second)",
+                            steps, seconds / steps, formatDuration(seconds),
+                            counted(static_cast<std::size_t>(app.communicator().size()), "rank"),
+                            1e-6 * particles / perStep));
+    report.json["steps"] = steps;
+    report.json["secondsPerStep"] = seconds / steps;
+    report.json["predicted_s"] = seconds;
 }
 
 }  // namespace
@@ -149,19 +315,25 @@ int main(int argc, char* argv[]) {
     Application app("checkCase", "Checks a case and says what it will take, before anything runs.", argc, argv,
                     {.samples = {"checkCase -case tutorials/rbcShear/Ca0.02", "mpirun -np 2 checkCase"}});
     return app.run([&] {
-        ordered_json json;
         const simulation::Case input = simulation::Case::read(app);
-        reportGroups(app, input, json);
-        reportLaws(app, input);
-        reportCosts(app, input, json);
-        reportSize(app, input, json);
+        Report report{app, {}, {}};
+        reportCase(report, input);
+        reportGroups(report, input);
+        findEdges(report, input);
+        findDensity(report, input);
+        reportSize(report, input);
+        simulation::requireMemory(app.communicator(), input);
+        reportCosts(report, input);
         if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
-            reportRun(app, input, json);
+            reportRun(report, input);
         else
-            app.log().info("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
-                           input.mesh.cells.empty() && input.mesh.bodies.empty() ? "" : "membraneMesh and ");
+            report.line(fmt::format("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
+                                    input.mesh.cells.empty() && input.mesh.bodies.empty() ? "" : "membraneMesh and "));
+        if (!report.warnings.empty()) report.section("Warnings");
+        for (const std::string& words : report.warnings) app.log().warning("{}", words);
+        report.json["warnings"] = report.warnings;
         app.log().info("Case OK.");
-        if (app.json() && app.communicator().isRoot()) std::cout << json.dump(2) << '\n';
+        if (app.json() && app.communicator().isRoot()) std::cout << report.json.dump(2) << '\n';
         return ExitCode::done;
     });
 }

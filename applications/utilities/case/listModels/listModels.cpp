@@ -13,76 +13,81 @@
 #include <nlohmann/json.hpp>
 
 #include "core/application.hpp"
-#include "core/atomicFile.hpp"
 #include "core/reference.hpp"
-#include "core/schemaJson.hpp"
 #include "observers/observers.hpp"
-#include "simulation/caseSettings.hpp"
-#include "simulation/relaxSettings.hpp"
+#include "membrane/protocol.hpp"
+#include "simulation/dictionaries.hpp"
+#include "simulation/restart.hpp"
 
 using namespace corpuscle;
 using nlohmann::ordered_json;
 
 namespace {
 
-// constant/flow.yaml is one model: `type` with its settings beside it.
-SchemaInfo flowInfo() {
-    FieldInfo type;
-    type.key = "type";
-    type.type = "word";
-    type.text = "what drives the fluid; the settings of that [flow](#flow) stand beside it";
-    type.words = Registry<sph::Flow>::instance().names();
-    SchemaInfo info;
-    info.name = "flow";
-    info.text = "constant/flow.yaml: what drives the fluid";
-    info.fields.push_back(type);
-    return info;
+// For a cell of a Markdown table.
+std::string inTable(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
+    return text;
 }
 
-ordered_json flowSchema() {
-    SchemaInfo holder;
-    FieldInfo flow;
-    flow.key = flow.type = "model";
-    flow.family = sph::Flow::familyName;
-    holder.fields.push_back(flow);
-    const ordered_json json = jsonSchema(holder);
-    return {{"$schema", json["$schema"]},
-            {"title", "flow"},
-            {"description", flowInfo().text},
-            {"allOf", {{{"$ref", json["properties"]["model"]["$ref"]}}}},
-            {"definitions", json["definitions"]}};
+// A model with its defaults; what it says of itself does not depend on the settings that a case must give.
+template <class Family>
+std::shared_ptr<const Family> sample(const std::string& name) {
+    Problems missing;
+    return Registry<Family>::instance().find(name)->make(Node{}, missing);
 }
 
-std::vector<std::pair<std::string, SchemaInfo>> dictionaries() {
-    using namespace simulation;
-    return {{"system/control.yaml", ControlSettings::schema().info()},
-            {"system/numerics.yaml", NumericsSettings::schema().info()},
-            {"system/mesh.yaml", MeshSettings::schema().info()},
-            {"system/relax.yaml", RelaxSettings::schema().info()},
-            {"system/observers.yaml", observers::ObserversSettings::schema().info()},
-            {"constant/fluid.yaml", FluidSettings::schema().info()},
-            {"constant/membranes.yaml", MembranesSettings::schema().info()},
-            {"constant/bodies.yaml", bodies::BodiesSettings::schema().info()},
-            {"constant/flow.yaml", flowInfo()}};
-}
+struct Table {
+    std::string file;  // "deformation/<cell>.csv"
+    std::vector<io::Column> columns;
+};
 
-void writeSchemas(const std::filesystem::path& folder) {
-    for (const auto& [file, info] : dictionaries()) {
-        const ordered_json schema = info.name == "flow" ? flowSchema() : jsonSchema(info);
-        const std::filesystem::path path = folder / std::filesystem::path(file).filename().replace_extension(".json");
-        writeFileAtomically(path, schema.dump(2) + "\n");
-        std::cout << path.string() << '\n';
+// What a model writes under postProcessing; none of most families.
+std::vector<Table> tablesOf(const std::string& family, const std::string& name) {
+    std::vector<Table> all;
+    if (family == observers::Observer::familyName)
+        for (const auto& table : sample<observers::Observer>(name)->tables(observers::SceneParts::all())) {
+            all.push_back({"<name>/" + table.file + ".csv", observers::timeColumns()});
+            all.back().columns.insert(all.back().columns.end(), table.columns.begin(), table.columns.end());
+        }
+    if (family == membrane::Protocol::familyName) {
+        const auto protocol = sample<membrane::Protocol>(name);
+        all.push_back({"relax/<membrane>.csv", {}});
+        for (const auto& some : {protocol->columnsBefore(), protocol->columns(), protocol->columnsAfter()})
+            for (const auto& c : some) all.back().columns.push_back({c.name, c.unit, c.meaning});
     }
+    return all;
 }
 
-ordered_json toJson(const ModelInfo& model) {
+std::string tablesPage() {
+    std::string text =
+        "## Tables\n\nWhat observers and protocols write under postProcessing. Those of `<cell>`, `<body>` and of "
+        "walls, body forces, rupture are there where a case has them.\n\n";
+    for (const auto& [family, info] : families())
+        for (const ModelInfo& model : info.models())
+            for (const Table& table : tablesOf(family, model.name)) {
+                text += fmt::format("### {} `{}`, {}\n\n| column | unit | meaning |\n|---|---|---|\n", family,
+                                    model.name, table.file);
+                for (const io::Column& c : table.columns)
+                    text += fmt::format("| `{}` | {} | {} |\n", c.header(), c.unitText(), inTable(c.meaning));
+                text += '\n';
+            }
+    return text;
+}
+
+ordered_json toJson(const std::string& family, const ModelInfo& model) {
     ordered_json settings = ordered_json::array();
     for (const FieldInfo& f : model.settings.fields) {
         ordered_json field{{"key", f.key}, {"value", f.description()}, {"text", f.text}, {"required", f.required}};
         if (!f.fallback.empty()) field["default"] = f.fallback;
         settings.push_back(std::move(field));
     }
-    return {{"text", model.text}, {"settings", settings}};
+    ordered_json json{{"text", model.text}, {"settings", settings}};
+    for (const Table& table : tablesOf(family, model.name))
+        for (const io::Column& c : table.columns)
+            json["tables"][table.file].push_back(
+                {{"column", c.header()}, {"unit", c.unitText()}, {"meaning", c.meaning}});
+    return json;
 }
 
 // "bond law", "bondLaw" and "bond-law" are the same.
@@ -126,6 +131,13 @@ void printTable(const SchemaInfo& info, const std::string& path, const std::stri
 void printModel(const std::string& family, const ModelInfo& model) {
     std::cout << model.name << " (" << family << "): " << model.text << '\n';
     printTable(model.settings, "", "  ");
+    for (const Table& table : tablesOf(family, model.name)) {
+        std::cout << "\n  postProcessing/" << table.file << ":\n";
+        std::vector<std::vector<std::string>> rows;
+        for (const io::Column& c : table.columns) rows.push_back({c.header(), c.unitText(), c.meaning});
+        for (const std::string& line : alignedTable({"column", "unit", "meaning"}, rows))
+            std::cout << "  " << line << '\n';
+    }
 }
 
 // The family or the models of that name; a dictionary file goes by its name too ("numerics").
@@ -140,7 +152,7 @@ void show(const std::string& wanted, bool asJson) {
             known.push_back(model.name);
             if (!all && plain(model.name) != plain(wanted)) continue;
             if (asJson)
-                json[name][model.name] = toJson(model);
+                json[name][model.name] = toJson(name, model);
             else {
                 if (found) std::cout << '\n';
                 printModel(name, model);
@@ -148,12 +160,12 @@ void show(const std::string& wanted, bool asJson) {
             found = true;
         }
     }
-    for (const auto& [file, info] : dictionaries()) {
+    for (const auto& [file, info] : simulation::dictionaries()) {
         known.push_back(info.name);
         if (found || plain(info.name) != plain(wanted)) continue;
         found = true;
         if (asJson)
-            json[file] = jsonSchema(info);
+            json[file] = simulation::schemaOf(info);
         else {
             std::cout << info.text << '\n';
             printTable(info, "", "  ");
@@ -169,7 +181,7 @@ void showAll(bool asJson) {
     ordered_json json = ordered_json::object();
     for (const auto& [name, family] : families()) {
         if (!asJson) std::cout << name << '\n' << oneLinePerModel(family.models()) << '\n';
-        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(model);
+        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(name, model);
     }
     if (asJson)
         std::cout << json.dump(2) << '\n';
@@ -191,9 +203,9 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         if (!app.communicator().isRoot()) return ExitCode::done;
         if (const auto folder = app.value("schema"))
-            writeSchemas(*folder);
+            for (const std::filesystem::path& file : simulation::writeSchemas(*folder)) std::cout << file.string() << '\n';
         else if (app.has("markdown"))
-            std::cout << referencePage(dictionaries());
+            std::cout << referencePage(simulation::dictionaries()) << restartPage(simulation::restartDictionaries()) << tablesPage();
         else if (!app.arguments().empty())
             show(app.arguments().front(), app.json());
         else

@@ -14,6 +14,8 @@
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "simulation/dictionaries.hpp"
+#include "simulation/placement.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -45,6 +47,8 @@ class Meshes {
                       const std::function<std::string(const TriangleMesh&)>& describe, nlohmann::ordered_json& json) {
         const auto begin = std::chrono::steady_clock::now();
         const bool isNew = !made_.contains(kindOf(surface));
+        if (isNew)
+            for (const std::string& remark : surface.shape->remarks()) app_.log().info("{}", remark);
         if (isNew) made_[kindOf(surface)] = geometry::meshSurface(*surface.shape, surface.edge);
         TriangleMesh mesh = made_.at(kindOf(surface));
         const geometry::MeshQuality quality = geometry::meshQuality(mesh, surface.shape.model.get());
@@ -82,8 +86,12 @@ int main(int argc, char* argv[]) {
                                  "membraneMesh -set 'system/mesh.yaml:/cells/0/edge=0.3 um'"}});
     return app.run([&] {
         utilities::requireSerial(app);
-        app.openLog();
+        app.announce();
         const simulation::Case input = simulation::Case::read(app);
+        simulation::requireStartWritable(app.communicator(), input);
+        app.lockCase();
+        app.openLog();
+        simulation::refreshSchemas(app);
         nlohmann::ordered_json json = nlohmann::ordered_json::object();
         Meshes meshes(app, input);
         std::vector<TriangleMesh> cells, bodies;
@@ -105,7 +113,8 @@ int main(int argc, char* argv[]) {
                     return utilities::describe(solid);
                 },
                 json));
-        for (const std::string& fault : utilities::misplaced(input, cells, bodies)) app.log().warning("{}", fault);
+        for (const Problem& fault : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
+            app.log().warning("{}", fault.text());
         if (cells.empty() && bodies.empty())
             app.log().info("system/mesh.yaml has neither cells nor bodies: nothing to mesh");
         app.log().info("Next: particleFill{}", std::filesystem::exists(simulation::startFile(input, "fluid"))

@@ -1,4 +1,4 @@
-// Colour maps, as a few anchors that are interpolated linearly.
+// Colour maps that do not depend on telling red from green, as a few anchors that are interpolated linearly.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -26,6 +26,15 @@ inline constexpr std::array<Colour, 5> coolWarm{{{0.230, 0.299, 0.754},
                                                  {0.958, 0.604, 0.483},
                                                  {0.706, 0.016, 0.150}}};
 
+// Kinds without an order, after "none", which is grey (Okabe and Ito, 2008).
+inline constexpr std::array<Colour, 7> kinds{{{0.82, 0.82, 0.82},
+                                              {0.835, 0.369, 0.000},
+                                              {0.000, 0.447, 0.698},
+                                              {0.000, 0.620, 0.451},
+                                              {0.902, 0.624, 0.000},
+                                              {0.800, 0.475, 0.655},
+                                              {0.337, 0.706, 0.914}}};
+
 // The colour at a place in [0, 1].
 inline Colour colourAt(std::span<const Colour> anchors, double place) {
     const double at = place * static_cast<double>(anchors.size() - 1);
@@ -35,5 +44,8 @@ inline Colour colourAt(std::span<const Colour> anchors, double place) {
     for (std::size_t c = 0; c < 3; ++c) colour[c] = (1 - w) * anchors[i][c] + w * anchors[i + 1][c];
     return colour;
 }
+
+// Of a kind: 0 is none, and after the last one the colours begin again.
+inline Colour colourOfKind(int kind) { return kinds[kind <= 0 ? 0 : 1 + (kind - 1) % (kinds.size() - 1)]; }
 
 }  // namespace corpuscle

@@ -6,18 +6,22 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/vtkSeries.hpp"
 
 namespace corpuscle {
 namespace {
 
-// Names of the files <folder>/<name><extension> that hold membranes.
-std::vector<std::string> membranesIn(const std::filesystem::path& folder, const std::string& extension) {
+namespace fs = std::filesystem;
+
+// Names of the files <folder>/<name><extension> that hold surfaces.
+std::vector<std::string> surfacesIn(const fs::path& folder, const std::string& extension) {
     std::vector<std::string> names;
     std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
         const std::string name = entry.path().stem().string();
-        if (entry.path().extension() == extension && !io::isReservedStream(name)) names.push_back(name);
+        if (entry.path().extension() == extension && !name.starts_with('.') && !io::isReservedStream(name))
+            names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     return names;
@@ -26,48 +30,52 @@ std::vector<std::string> membranesIn(const std::filesystem::path& folder, const 
 // One stream of results; files are read when asked for and kept.
 class Stream {
   public:
-    Stream(const std::filesystem::path& caseDir, const std::string& name) {
+    Stream(const fs::path& caseDir, const std::string& name) {
         const auto index = caseDir / "results" / (name + ".pvd");
-        if (std::filesystem::exists(index)) entries_ = io::readPvd(index);
+        if (fs::exists(index)) entries_ = io::readPvd(index);
         if (entries_.empty()) entries_ = {{0.0, caseDir / "0" / (name + ".vtp")}};
     }
     int count() const { return static_cast<int>(entries_.size()); }
+    int last() const { return count() - 1; }
     double time(int i) const { return entries_[static_cast<std::size_t>(i)].time; }
+    const fs::path& file(int i) const { return entries_[static_cast<std::size_t>(i)].file; }
     const io::PolyData& at(int i) {
-        const auto& file = entries_[static_cast<std::size_t>(i)].file;
         const auto found = read_.find(i);
-        if (found != read_.end()) return found->second;
-        return read_[i] = file.extension() == ".pvtp" ? io::readPvtp(file) : io::readVtp(file);
+        return found != read_.end() ? found->second : read_[i] = read(i);
+    }
+    io::PolyData read(int i) const {
+        io::PolyData data = file(i).extension() == ".pvtp" ? io::readPvtp(file(i)) : io::readVtp(file(i));
+        for (std::size_t p = 0; p < data.points.size(); ++p) {
+            if (!data.points[p].allFinite())
+                throw Failure(ExitCode::io, fmt::format("{}: point {} has no finite position.", file(i).string(), p));
+        }
+        return data;
     }
     std::optional<double> field(int i, const std::string& name) {
         const auto& all = at(i).field;
         const auto found = all.find(name);
         return found == all.end() ? std::nullopt : std::optional(found->second);
     }
-    std::optional<double> strain(int i) { return field(i, "strain"); }
-    // Strain, or time where there is none.
-    double progress(int i) { return strain(i).value_or(time(i)); }
-    int nearestTime(double wanted) const {
-        int best = 0;
-        for (int i = 1; i < count(); ++i) {
-            if (std::abs(time(i) - wanted) < std::abs(time(best) - wanted)) best = i;
-        }
-        return best;
+    // A flow without a shear rate has the strain 0 at all times: none.
+    bool hasStrain() {
+        const auto end = field(last(), "strain");
+        return end && (*end != 0 || time(last()) == 0);
     }
-    // Progress grows with time, so a bisection reads few files.
-    int nearestProgress(double wanted) {
-        const int last = count() - 1;
-        const double from = progress(0), to = progress(last), slack = 1e-6 * std::abs(to - from) + 1e-12;
-        if (wanted < from - slack || wanted > to + slack) {
-            throw Failure(ExitCode::usage, fmt::format("-times {:g}: the results reach from {:g} to {:g}{}.", wanted,
-                                                       from, to, strain(0) ? "" : " s"));
-        }
-        int low = 0, high = last;
+    std::optional<double> strain(int i) { return hasStrain() ? field(i, "strain") : std::nullopt; }
+    std::optional<double> stage(int i) { return field(i, "stage"); }
+
+    int nearestTime(double wanted) const {
+        return nearest(wanted, [&](int i) { return time(i); });
+    }
+    // The values grow with time, so a bisection reads few files.
+    template <class Value>
+    int nearest(double wanted, Value&& value) const {
+        int low = 0, high = last();
         while (high - low > 1) {
             const int middle = (low + high) / 2;
-            (progress(middle) <= wanted ? low : high) = middle;
+            (value(middle) <= wanted ? low : high) = middle;
         }
-        return std::abs(progress(low) - wanted) <= std::abs(progress(high) - wanted) ? low : high;
+        return std::abs(value(low) - wanted) <= std::abs(value(high) - wanted) ? low : high;
     }
 
   private:
@@ -92,13 +100,59 @@ void removeBroken(io::PolyData& surface) {
     for (auto& item : surface.cell.integers) keepWhole(item.second);
 }
 
+void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
+    if (surface.points.empty()) return;
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& x : surface.points) mean += x;
+    mean /= static_cast<double>(surface.points.size());
+    const Vec3 shift = box.wrap(mean) - mean;
+    for (Vec3& x : surface.points) x += shift;
+}
+
+int entryOf(Stream& stream, Wanted wanted) {
+    using Kind = Wanted::Kind;
+    const int last = stream.last();
+    if (wanted.kind == Kind::first) return 0;
+    if (wanted.kind == Kind::latest) return last;
+    if (wanted.kind == Kind::progress)
+        wanted.kind = stream.hasStrain() ? Kind::strain : stream.stage(last) ? Kind::stage : Kind::time;
+    const bool ofTime = wanted.kind == Kind::time;
+    if (wanted.kind == Kind::strain && !stream.hasStrain()) {
+        throw Failure(ExitCode::usage,
+                      fmt::format("{}: these results have no strain, since the case has no shear rate; {} instead.",
+                                  wanted.option,
+                                  stream.stage(last) ? "give -stage"
+                                                     : fmt::format("give -time between {} and {}",
+                                                                   formatQuantity(stream.time(0), unit::second),
+                                                                   formatQuantity(stream.time(last), unit::second))));
+    }
+    if (wanted.kind == Kind::stage && !stream.stage(last)) {
+        throw Failure(ExitCode::usage,
+                      fmt::format("{}: these results have no stages; give -time or -strain instead.", wanted.option));
+    }
+    const auto value = [&](int i) {
+        return ofTime ? stream.time(i) : wanted.kind == Kind::strain ? *stream.strain(i) : *stream.stage(i);
+    };
+    const double from = value(0), to = value(last), slack = 1e-6 * std::abs(to - from) + (ofTime ? 0 : 1e-12);
+    if (wanted.value < from - slack || wanted.value > to + slack) {
+        const auto words = [&](double v) { return ofTime ? formatQuantity(v, unit::second) : fmt::format("{:g}", v); };
+        throw Failure(ExitCode::usage,
+                      fmt::format("{}: the results reach from {} to {}.", wanted.option, words(from), words(to)));
+    }
+    return stream.nearest(wanted.value, value);
+}
+
 std::vector<int> chooseTimes(Stream& stream, const FrameChoice& choice) {
     std::vector<int> chosen;
-    if (!choice.times.empty()) {
-        for (const double wanted : choice.times) chosen.push_back(stream.nearestProgress(wanted));
+    if (!choice.wanted.empty()) {
+        for (const Wanted& wanted : choice.wanted) chosen.push_back(entryOf(stream, wanted));
         return chosen;
     }
-    const double from = stream.time(0), to = stream.time(stream.count() - 1);
+    if (choice.count == 0) {
+        for (int i = 0; i < stream.count(); ++i) chosen.push_back(i);
+        return chosen;
+    }
+    const double from = stream.time(0), to = stream.time(stream.last());
     for (int i = 0; i < choice.count; ++i) {
         const int next = stream.nearestTime(choice.count == 1 ? to : from + (to - from) * i / (choice.count - 1));
         if (chosen.empty() || chosen.back() != next) chosen.push_back(next);
@@ -108,42 +162,57 @@ std::vector<int> chooseTimes(Stream& stream, const FrameChoice& choice) {
 
 }  // namespace
 
-std::vector<Frame> readFrames(const std::filesystem::path& caseDir, const FrameChoice& choice) {
-    auto names = membranesIn(caseDir / "results", ".pvd");
-    if (names.empty()) names = membranesIn(caseDir / "0", ".vtp");
-    if (names.empty()) {
-        throw Failure(ExitCode::io, fmt::format("{}: there is no membrane in results/ or 0/; run membraneMesh first.",
-                                                caseDir.string()));
+Results::Results(const fs::path& caseDir) : caseDir_(caseDir) {
+    if (!fs::is_directory(caseDir))
+        throw Failure(ExitCode::io, fmt::format("{}: there is no such directory; is -case right?", caseDir.string()));
+    surfaces_ = surfacesIn(caseDir / "results", ".pvd");
+    hasRun_ = !surfaces_.empty() || fs::exists(caseDir / "results" / "fluid.pvd");
+    if (!hasRun_) surfaces_ = surfacesIn(caseDir / "0", ".vtp");
+    hasFluid_ = fs::exists(caseDir / "results" / "fluid.pvd") || fs::exists(caseDir / "0" / "fluid.vtp");
+    if (surfaces_.empty() && !hasFluid_) {
+        throw Failure(ExitCode::io,
+                      fmt::format("{}: there is nothing to draw, neither results/*.pvd nor 0/*.vtp; run membraneMesh "
+                                  "and particleFill, or membraneRelax, first.",
+                                  caseDir.string()));
     }
+}
+
+std::vector<Frame> Results::frames(const FrameChoice& choice, const std::optional<particles::Box>& box) const {
+    std::vector<std::string> names = surfaces_;
     if (!choice.membrane.empty()) {
         if (std::find(names.begin(), names.end(), choice.membrane) == names.end()) {
             throw Failure(ExitCode::usage,
-                          fmt::format("-membrane {}: there is no such membrane; there are: {}.{}", choice.membrane,
-                                      joinWords(names), didYouMean(choice.membrane, names)));
+                          fmt::format("-membrane {}: there is no such cell or body; there {}.{}", choice.membrane,
+                                      names.empty() ? "are none" : "are: " + joinWords(names),
+                                      didYouMean(choice.membrane, names)));
         }
         names = {choice.membrane};
     }
-
     std::map<std::string, Stream> streams;
-    for (const auto& name : names) streams.emplace(name, Stream(caseDir, name));
+    for (const auto& name : names) streams.emplace(name, Stream(caseDir_, name));
     std::optional<Stream> fluid;
-    if (choice.fluid) fluid.emplace(caseDir, "fluid");
+    if (names.empty()) fluid.emplace(caseDir_, "fluid");
 
     std::vector<Frame> frames;
-    Stream& leading = streams.at(names.front());
+    Stream& leading = names.empty() ? *fluid : streams.at(names.front());
     for (const int i : chooseTimes(leading, choice)) {
         Frame frame;
         frame.time = leading.time(i);
         frame.strain = leading.strain(i);
-        frame.stage = leading.field(i, "stage");
+        frame.stage = leading.stage(i);
         for (auto& [name, stream] : streams) {
-            frame.surfaces[name] = stream.at(stream.nearestTime(frame.time));
-            removeBroken(frame.surfaces[name]);
+            io::PolyData& surface = frame.surfaces[name] = stream.at(stream.nearestTime(frame.time));
+            if (!choice.keepBroken) removeBroken(surface);
+            if (box) moveIntoBox(surface, *box);
         }
-        if (fluid) frame.fluid = fluid->at(fluid->nearestTime(frame.time));
         frames.push_back(std::move(frame));
     }
     return frames;
+}
+
+io::PolyData Results::fluidAt(double time) const {
+    const Stream stream(caseDir_, "fluid");
+    return stream.read(stream.nearestTime(time));
 }
 
 }  // namespace corpuscle

@@ -1,4 +1,5 @@
-// What a picture shows: the surfaces of a case, and perhaps its fluid, at some times.
+// What a picture shows: the surfaces of a case at some times. Cells in a periodic box are unwrapped in the results;
+// here each surface is moved as a whole, by box lengths, until the mean of its points lies in the box.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -7,26 +8,59 @@
 #include <vector>
 
 #include "io/polyData.hpp"
+#include "particles/box.hpp"
+#include "slice.hpp"
 
 namespace corpuscle {
 
 struct Frame {
     double time = 0;                               // s
-    std::optional<double> strain;                  // gammadot t, where the results know it
-    std::optional<double> stage;                   // of a protocol, the same
-    std::map<std::string, io::PolyData> surfaces;  // by membrane; triangles marked `broken` are left out
-    std::optional<io::PolyData> fluid;
+    std::optional<double> strain;                  // gammadot t; empty where the flow has no shear rate
+    std::optional<double> stage;                   // of a protocol
+    std::map<std::string, io::PolyData> surfaces;  // by name of the cell or rigid body
+    std::optional<Slice> slice;                    // of the fluid, where it is shown
+};
+
+// One wanted time of the results.
+struct Wanted {
+    enum class Kind {
+        time,
+        strain,
+        stage,
+        progress,
+        first,
+        latest
+    } kind = Kind::time;  // progress: strain, else stage, else time
+    double value = 0;
+    std::string option;  // for messages: "-strain 9"
 };
 
 struct FrameChoice {
-    std::string membrane;       // empty: all there are
-    std::vector<double> times;  // strains (seconds where the results know no strain); empty: `count` equally spaced
-    int count = 4;
-    bool fluid = false;
+    std::string membrane;        // empty: all there are
+    std::vector<Wanted> wanted;  // the nearest results are taken; empty: `count` at equal distances in time
+    int count = 4;               // 0: all
+    bool keepBroken = false;     // triangles marked `broken` are left out otherwise
 };
 
-// Reads results/<membrane>.pvd, or 0/<membrane>.vtp before any run. Throws Failure: usage for times outside the results
-// or an unknown membrane, io for unreadable files.
-std::vector<Frame> readFrames(const std::filesystem::path& caseDir, const FrameChoice& choice);
+// The streams of a case. Files are read when asked for.
+class Results {
+  public:
+    // Throws Failure(io) when there is neither results/*.pvd nor 0/*.vtp.
+    explicit Results(const std::filesystem::path& caseDir);
+
+    bool hasRun() const { return hasRun_; }  // false: only 0/ is there
+    bool hasFluid() const { return hasFluid_; }
+    const std::vector<std::string>& surfaces() const { return surfaces_; }
+
+    // Throws Failure: usage for times outside the results or an unknown membrane, io for unreadable files.
+    std::vector<Frame> frames(const FrameChoice& choice, const std::optional<particles::Box>& box) const;
+    // The particles at the time nearest to this one.
+    io::PolyData fluidAt(double time) const;
+
+  private:
+    std::filesystem::path caseDir_;
+    std::vector<std::string> surfaces_;
+    bool hasRun_ = false, hasFluid_ = false;
+};
 
 }  // namespace corpuscle

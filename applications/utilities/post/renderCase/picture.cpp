@@ -1,257 +1,41 @@
 #include "picture.hpp"
 
 #include <fmt/format.h>
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkGlyph3DMapper.h>
 #include <vtkImageShrink3D.h>
-#include <vtkLight.h>
-#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
-#include <vtkRegularPolygonSource.h>
 #include <vtkRenderer.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "actors.hpp"
 #include "core/error.hpp"
 #include "io/publish.hpp"
 #include "offscreenWindow.hpp"
-#include "overlay.hpp"
 
 namespace corpuscle {
 namespace {
 
-constexpr int oversampling = 3;  // drawn three times as large and averaged: smooth outlines, thin edges
+constexpr int oversampling = 3;    // drawn three times as large and averaged: smooth outlines, thin edges
+constexpr int mostInRow = 5;       // panels
+constexpr double leastText = 8.5;  // pixels
 
-// How a field is shown: what the numbers are divided by, their title, and whether zero is the middle.
-struct FieldStyle {
-    double perUnit;
-    std::string title;
-    bool aboutZero;
-};
-FieldStyle styleOf(const std::string& field) {
-    if (field == "areaStrain") return {0.01, "area strain, %", true};
-    if (field == "tension1") return {1e-6, "tension T\u2081, \u00b5N/m", false};
-    if (field == "tension2") return {1e-6, "tension T\u2082, \u00b5N/m", false};
-    if (field == "stretch") return {1, "stretch", false};
-    if (field == "force") return {1e-12, "force, pN", false};
-    return {1, field, false};
+// 1.5, 2.05: one decimal where that tells the strain exactly, otherwise two.
+std::string strainWords(double strain) {
+    const double tenths = 10 * strain;
+    return fmt::format("{:.{}f}", strain, std::abs(tenths - std::round(tenths)) < 0.05 ? 1 : 2);
 }
 
-// One number for each triangle or point; empty where the surface has no such array.
-struct Values {
-    std::vector<double> numbers;
-    bool ofCells = false;
-};
-Values valuesOf(const io::PolyData& surface, const std::string& field) {
-    if (const auto found = surface.cell.scalars.find(field); found != surface.cell.scalars.end())
-        return {found->second, true};
-    if (const auto found = surface.point.scalars.find(field); found != surface.point.scalars.end())
-        return {found->second, false};
-    Values values;
-    if (const auto found = surface.point.vectors.find(field); found != surface.point.vectors.end()) {
-        for (const Vec3& v : found->second) values.numbers.push_back(v.norm());
-        return values;
-    }
-    auto names = surface.cell.names();
-    const auto ofPoints = surface.point.names();
-    names.insert(names.end(), ofPoints.begin(), ofPoints.end());
-    throw Failure(ExitCode::usage, fmt::format("-field {}: the membrane has no such array; there are: {}, none.{}",
-                                               field, joinWords(names), didYouMean(field, names)));
-}
-
-struct Range {
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    void add(double value) {
-        if (!std::isfinite(value)) return;
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    void makeSymmetric() {
-        high = std::max(std::abs(low), std::abs(high));
-        low = -high;
-    }
-    void makeWide() {
-        if (high > low) return;
-        const double margin = low == 0 ? 1 : 0.1 * std::abs(low);
-        high = low + margin;
-        low -= margin;
-    }
-};
-
-vtkSmartPointer<vtkLookupTable> colourTable(std::span<const Colour> anchors, Range range) {
-    range.makeWide();
-    auto table = vtkSmartPointer<vtkLookupTable>::New();
-    table->SetNumberOfTableValues(256);
-    table->SetRange(range.low, range.high);
-    for (int i = 0; i < 256; ++i) {
-        const Colour c = colourAt(anchors, i / 255.0);
-        table->SetTableValue(i, c[0], c[1], c[2]);
-    }
-    table->SetNanColor(0.6, 0.6, 0.6, 1);
-    return table;
-}
-
-vtkSmartPointer<vtkDoubleArray> numbersArray(const std::vector<double>& numbers) {
-    auto array = vtkSmartPointer<vtkDoubleArray>::New();
-    array->SetName("shown");
-    for (const double number : numbers) array->InsertNextValue(number);
-    return array;
-}
-
-// Micrometres inside VTK: its near planes and tolerances are made for numbers around one.
-constexpr double perMetre = 1e6;
-
-vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vec3>& positions) {
-    auto points = vtkSmartPointer<vtkPoints>::New();
-    points->SetDataTypeToDouble();
-    for (const Vec3& x : positions) points->InsertNextPoint(x[0] * perMetre, x[1] * perMetre, x[2] * perMetre);
-    return points;
-}
-
-// Outside and inside as two actors: the inside, seen through a hole, is plain and dark, whatever the field.
-void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::string& field, vtkLookupTable* colours) {
-    vtkNew<vtkPolyData> poly;
-    poly->SetPoints(pointsOf(surface.points));
-    vtkNew<vtkCellArray> cells;
-    for (const auto& t : surface.triangles) cells->InsertNextCell({t[0], t[1], t[2]});
-    poly->SetPolys(cells);
-    if (colours) {
-        const Values values = valuesOf(surface, field);
-        vtkDataSetAttributes* target =
-            values.ofCells ? static_cast<vtkDataSetAttributes*>(poly->GetCellData()) : poly->GetPointData();
-        target->SetScalars(numbersArray(values.numbers));
-    }
-    vtkNew<vtkPolyDataNormals> normals;
-    normals->SetInputData(poly);
-    normals->SplittingOff();
-    normals->ConsistencyOff();
-    for (const bool outside : {true, false}) {
-        vtkNew<vtkPolyDataMapper> mapper;
-        mapper->SetInputConnection(normals->GetOutputPort());
-        mapper->SetScalarVisibility(outside && colours);
-        if (colours) {
-            mapper->SetLookupTable(colours);
-            mapper->UseLookupTableScalarRangeOn();
-        }
-        vtkNew<vtkActor> actor;
-        actor->SetMapper(mapper);
-        vtkProperty* property = actor->GetProperty();
-        property->SetInterpolationToPhong();
-        property->SetBackfaceCulling(outside);
-        property->SetFrontfaceCulling(!outside);
-        if (outside) {
-            property->SetColor(0.84, 0.30, 0.26);
-            property->SetAmbient(colours ? 0.60 : 0.28);
-            property->SetDiffuse(colours ? 0.42 : 0.75);
-            property->SetSpecular(colours ? 0 : 0.12);
-            property->SetSpecularPower(25);
-            property->EdgeVisibilityOn();
-            property->SetEdgeColor(0.25, 0.12, 0.12);
-        } else {
-            property->SetColor(0.33, 0.13, 0.12);
-            property->SetAmbient(0.4);
-            property->SetDiffuse(0.6);
-        }
-        renderer->AddActor(actor);
-    }
-}
-
-// The fluid particles around the plane through `centre`, as discs in that plane. A slab of 1.5 spacings and discs large
-// enough to meet across the diagonal leave no gaps in a disordered fluid.
-struct Slab {
-    std::vector<Vec3> positions;
-    std::vector<double> speeds;  // along x, the direction of flow [m/s]
-    double spacing = 0;
-};
-Slab slabOf(const io::PolyData& fluid, const View& view, const Vec3& centre) {
-    Slab slab;
-    const auto& velocity = fluid.point.vector("velocity");
-    const auto& spacing = fluid.point.scalar("spacing");
-    for (std::size_t i = 0; i < fluid.points.size(); ++i) {
-        const double above = (fluid.points[i] - centre).dot(view.slab);
-        if (std::abs(above) > 0.75 * spacing[i]) continue;
-        slab.positions.push_back(fluid.points[i] - above * view.slab);
-        slab.speeds.push_back(velocity[i].x());
-        slab.spacing = std::max(slab.spacing, spacing[i]);
-    }
-    return slab;
-}
-
-vtkSmartPointer<vtkActor> slabActor(const Slab& slab, const View& view, vtkLookupTable* colours) {
-    vtkNew<vtkPolyData> poly;
-    poly->SetPoints(pointsOf(slab.positions));
-    poly->GetPointData()->SetScalars(numbersArray(slab.speeds));
-    vtkNew<vtkRegularPolygonSource> disc;
-    disc->SetNumberOfSides(16);
-    disc->SetRadius(0.75 * slab.spacing * perMetre);
-    disc->SetNormal(view.slab[0], view.slab[1], view.slab[2]);
-    disc->GeneratePolylineOff();
-    vtkNew<vtkGlyph3DMapper> mapper;
-    mapper->SetInputData(poly);
-    mapper->SetSourceConnection(disc->GetOutputPort());
-    mapper->ScalingOff();
-    mapper->SetLookupTable(colours);
-    mapper->UseLookupTableScalarRangeOn();
-    auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->LightingOff();
-    return actor;
-}
-
-Vec3 centreOf(const Frame& frame) {  // of the box around the cells
-    Range box[3];
-    for (const auto& item : frame.surfaces) {
-        for (const Vec3& x : item.second.points) {
-            for (int k = 0; k < 3; ++k) box[k].add(x[k]);
-        }
-    }
-    return 0.5 * Vec3(box[0].low + box[0].high, box[1].low + box[1].high, box[2].low + box[2].high);
-}
-
-// What a frame occupies in the picture's plane.
-struct Extent {
-    Range u, v;
-    void add(const std::vector<Vec3>& points, const View& view) {
-        for (const Vec3& x : points) {
-            u.add(x.dot(view.right));
-            v.add(x.dot(view.up));
-        }
-    }
-};
-
-// One decimal where that tells the strains exactly, otherwise two.
-std::string labelOf(const Frame& frame) {
-    if (frame.strain) {
-        const double tenths = 10 * *frame.strain;
-        return fmt::format("\u03b3\u0307t = {:.{}f}", *frame.strain,
-                           std::abs(tenths - std::round(tenths)) < 0.05 ? 1 : 2);
-    }
+std::string labelOf(const Frame& frame, const Plan& plan) {
+    if (frame.strain && !plan.options.labelTime && (*frame.strain != 0 || plan.largestTime > 0))
+        return "\u03b3\u0307t = " + strainWords(*frame.strain);
     if (frame.stage) return fmt::format("stage {:g}", *frame.stage);
-    return fmt::format("t = {:.4g} ms", frame.time * 1e3);
-}
-
-void addLights(vtkRenderer* renderer) {
-    auto add = [&](double x, double y, double z, double intensity) {
-        vtkNew<vtkLight> light;
-        light->SetLightTypeToCameraLight();
-        light->SetPosition(x, y, z);
-        light->SetIntensity(intensity);
-        renderer->AddLight(light);
-    };
-    renderer->AutomaticLightCreationOff();
-    add(-0.5, 0.7, 1.0, 0.75);
-    add(0.6, -0.1, 1.0, 0.40);
+    if (plan.largestTime == 0) return "t = 0";
+    const std::string unit = formatQuantity(plan.largestTime, unit::second);
+    const std::string name = unit.substr(unit.find(' ') + 1);
+    return fmt::format("t = {:.3g} {}", frame.time / parseQuantity("1 " + name).value, name == "us" ? "\u00b5s" : name);
 }
 
 void writePng(vtkImageData* image, const std::filesystem::path& output) {
@@ -265,139 +49,281 @@ void writePng(vtkImageData* image, const std::filesystem::path& output) {
     writer->SetInputConnection(shrink->GetOutputPort());
     writer->SetFileName(temporary.c_str());
     writer->Write();
-    if (writer->GetErrorCode() != 0)
-        throw Failure(ExitCode::io, fmt::format("cannot write {}; check permissions and free space.", output.string()));
+    if (writer->GetErrorCode() != 0) throw io::notWritten(output, temporary);
     io::publish(temporary, output, io::Sync::none);
+}
+
+std::vector<Vec3> cornersOf(const particles::Box& box) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 8; ++i) {
+        Vec3 x;
+        for (int k = 0; k < 3; ++k) {
+            const double wall = box.periodic[k] ? 0 : wallThickness(box);
+            x[k] = (i >> k) & 1 ? box.high[k] + wall : box.low[k] - wall;
+        }
+        corners.push_back(x);
+    }
+    return corners;
+}
+
+Camera cameraFor(const std::vector<Frame>& frames, const PictureOptions& options) {
+    std::vector<Vec3> shown;
+    for (const Frame& frame : frames) {
+        for (const auto& item : frame.surfaces)
+            shown.insert(shown.end(), item.second.points.begin(), item.second.points.end());
+        if (!frame.slice || (options.frameCells && !shown.empty())) continue;
+        for (const int row : {0, frame.slice->rows - 1})
+            for (const int column : {0, frame.slice->columns - 1}) shown.push_back(frame.slice->place(column, row));
+    }
+    if (options.box && (!options.frameCells || shown.empty()))
+        for (const Vec3& corner : cornersOf(*options.box)) shown.push_back(corner);
+    if (shown.empty())
+        throw Failure(ExitCode::io, "there is nothing to draw: the surfaces of the case have no points.");
+    return {options.view, shown};
+}
+
+std::string lengthWords(double metres) {
+    std::string words = formatQuantity(metres, unit::metre, 3);
+    if (const auto micro = words.find(" um"); micro != std::string::npos) words.replace(micro, 3, " \u00b5m");
+    return words;
+}
+
+// Everything in pixels of the finished picture.
+struct Layout {
+    double textHeight = 0, labelHeight = 0;
+    int columns = 0, rows = 0, panelWidth = 0, imageHeight = 0, labelStrip = 0, bottomStrip = 0, barColumn = 0;
+    int width = 0, height = 0, gap = 0;
+    double metresPerPixel = 0;
+};
+
+using Bars = std::vector<std::pair<const Scale*, std::vector<std::string>>>;
+
+Bars barsOf(const Plan& plan, std::span<const Frame> frames) {
+    Bars bars;
+    if (plan.field) bars.emplace_back(&*plan.field, std::vector{plan.field->title});
+    if (plan.fluid) {
+        const SlicePlane& plane = frames.front().slice->plane;
+        const double position = std::abs(plane.position) < 1e-12 ? 0 : plane.position;
+        bars.emplace_back(&*plan.fluid,
+                          std::vector{plan.fluid->title, fmt::format("at {} = {}", std::string("xyz")[plane.axis],
+                                                                     position == 0 ? "0" : lengthWords(position))});
+    }
+    return bars;
+}
+
+Layout layOut(const Plan& plan, int count, const std::vector<std::string>& labels, const Bars& bars) {
+    const PictureOptions& options = plan.options;
+    Layout out;
+    out.rows = (count + mostInRow - 1) / mostInRow;
+    out.columns = (count + out.rows - 1) / out.rows;
+    out.width = options.width > 0 ? options.width : std::clamp(520 * out.columns, 800, 1600);
+    out.textHeight = std::clamp(out.width / 40.0, 9.0, std::clamp(out.width / 70.0, 14.0, 44.0));
+    const auto tooSmall = [&] {
+        return Failure(ExitCode::usage,
+                       fmt::format("-size {}{}: too small for {} panel{}{}.", out.width,
+                                   options.height > 0 ? fmt::format("x{}", options.height) : "", count,
+                                   count == 1 ? "" : "s", bars.empty() ? "" : " and their colour bars"));
+    };
+    double barWidth = 0, leastBars = out.textHeight;
+    for (const auto& [scale, title] : bars) {
+        barWidth = std::max(barWidth, Overlay::barWidthOf(*scale, title, out.textHeight));
+        leastBars += (6.5 + 1.35 * static_cast<double>(title.size())) * out.textHeight;
+    }
+    out.barColumn = bars.empty() ? 0 : static_cast<int>(std::ceil(barWidth + 2 * out.textHeight));
+    out.panelWidth = (out.width - out.barColumn) / out.columns;
+    out.gap = std::max(2, out.panelWidth / 60);
+    out.labelStrip = static_cast<int>(1.9 * out.textHeight);
+    out.bottomStrip = static_cast<int>(4.0 * out.textHeight);
+    double widest = 0;
+    for (const std::string& label : labels) widest = std::max(widest, Overlay::widthOf(label, out.textHeight));
+    out.labelHeight = out.textHeight * std::min(1.0, 0.95 * out.panelWidth / std::max(widest, 1.0));
+    const int imageWidth = out.panelWidth - out.gap;
+    if (imageWidth < 40 || out.labelHeight < leastText) throw tooSmall();
+
+    constexpr double filled = 0.96;  // of a panel by what it shows
+    const double byWidth = plan.camera.u().length() / (filled * imageWidth);
+    const int strips = out.rows * out.labelStrip + out.bottomStrip;
+    if (options.height > 0) {
+        out.height = options.height;
+    } else {
+        out.height = strips + out.rows * static_cast<int>(std::ceil(plan.camera.v().length() / (filled * byWidth)));
+        out.height = std::max({out.height, static_cast<int>(std::ceil(leastBars)), strips + out.rows * 60});
+    }
+    out.imageHeight = (out.height - strips) / out.rows;
+    if (out.imageHeight < 40 || out.height < leastBars) throw tooSmall();
+    out.metresPerPixel = std::max(byWidth, plan.camera.v().length() / (filled * out.imageHeight));
+    return out;
+}
+
+void aim(vtkCamera* eye, const Camera& camera, const Layout& layout, int imageWidth) {
+    const double halfHeight = 0.5 * layout.imageHeight * layout.metresPerPixel;
+    const double halfWidth = 0.5 * imageWidth * layout.metresPerPixel;
+    const Vec3 focus = camera.focus() * perMetre, place = camera.eye() * perMetre;
+    eye->SetFocalPoint(focus.data());
+    eye->SetPosition(place.data());
+    eye->SetViewUp(camera.view().up.data());
+    if (camera.view().perspective)
+        eye->SetViewAngle(2 * std::atan(halfHeight / camera.distance()) * 180 / M_PI);
+    else
+        eye->ParallelProjectionOn();
+    eye->SetParallelScale(halfHeight * perMetre);
+    eye->SetWindowCenter(camera.u().middle() / halfWidth, camera.v().middle() / halfHeight);
+}
+
+// Scale bar, axes and the length of an arrow, from the left below all panels. Returns where it ends.
+double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, double lengthPerSpeed) {
+    const Colour black{0, 0, 0};
+    const double text = layout.textHeight, middle = 0.5 * layout.bottomStrip;
+    double x = text;
+    const double barMetres = roundBelow(0.35 * layout.panelWidth * layout.metresPerPixel);
+    const double barPixels = barMetres / layout.metresPerPixel;
+    overlay.rectangle(x, middle - 0.1 * text, barPixels, std::max(2.0, 0.2 * text), black);
+    const std::string length = lengthWords(barMetres);
+    x += barPixels + 0.5 * text;
+    overlay.text(length, x, middle, text);
+    x += Overlay::widthOf(length, text) + 2 * text;
+
+    // The axes as the eye sees them.
+    const View& view = plan.camera.view();
+    std::array<std::array<double, 2>, 3> ends{};
+    double left = 0, low = 0, right = 0, high = 0;
+    const double reach = 1.5 * text;
+    for (int k = 0; k < 3; ++k) {
+        ends[k] = {reach * view.right[k], reach * view.up[k]};
+        left = std::min(left, ends[k][0]);
+        right = std::max(right, ends[k][0]);
+        low = std::min(low, ends[k][1]);
+        high = std::max(high, ends[k][1]);
+    }
+    const double x0 = x + 0.8 * text - left, y0 = middle - 0.5 * (low + high);
+    for (int k = 0; k < 3; ++k) {
+        const auto& [u, v] = ends[k];
+        if (std::hypot(u, v) < 0.3 * text) continue;  // it points at the eye
+        overlay.line(x0, y0, x0 + u, y0 + v, std::max(1.5, 0.1 * text), black);
+        // The letter stands away from the other axes.
+        const auto &a = ends[(k + 1) % 3], &b = ends[(k + 2) % 3];
+        const double du = u - 0.25 * (a[0] + b[0]), dv = v - 0.25 * (a[1] + b[1]);
+        const double size = std::max(std::hypot(du, dv), 1e-6);
+        overlay.text(std::string(1, "xyz"[k]), x0 + u + 0.5 * text * du / size, y0 + v + 0.5 * text * dv / size,
+                     0.75 * text, Align::centre);
+    }
+    x = x0 + right + 2.6 * text;
+
+    if (plan.options.arrows && plan.largestSpeed > 0) {
+        const double speed = roundBelow(plan.largestSpeed);
+        const double pixels = speed * lengthPerSpeed / layout.metresPerPixel;
+        std::string words = formatQuantity(speed, unit::metrePerSecond);
+        if (const auto micro = words.find(" u"); micro != std::string::npos) words.replace(micro, 2, " \u00b5");
+        overlay.arrow(x, middle, pixels, 0.36 * plan.arrowSpacing / layout.metresPerPixel, black);
+        x += pixels + 0.6 * text;
+        overlay.text(words, x, middle, text);
+        x += Overlay::widthOf(words, text);
+    }
+    return x;
 }
 
 }  // namespace
 
-const std::vector<View>& views() {
-    static const std::vector<View> all{
-        {"xz", Vec3::UnitX(), Vec3::UnitZ(), Vec3::UnitY()},
-        {"xy", Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()},
-        {"yz", Vec3::UnitY(), Vec3::UnitZ(), Vec3::UnitX()},
-        {"iso", Vec3(2, 1, 0).normalized(), Vec3(-1, 2, 4).normalized(), Vec3::UnitY()},
-    };
-    return all;
+Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options) {
+    Plan plan{options, cameraFor(frames, options), {}, {}, 0, 0, 0};
+    Range field, fluid;
+    bool sliced = false, surfaces = false;
+    for (const Frame& frame : frames) {
+        plan.largestTime = std::max(plan.largestTime, std::abs(frame.time));
+        surfaces = surfaces || !frame.surfaces.empty();
+        if (options.field != "none")
+            for (const auto& [name, surface] : frame.surfaces)
+                for (const double value : valuesOf(surface, name, options.field).numbers) field.add(value);
+        if (!frame.slice) continue;
+        sliced = true;
+        for (const double value : frame.slice->values) fluid.add(value);
+        plan.largestSpeed = std::max(plan.largestSpeed, largestSpeedIn(*frame.slice));
+        plan.arrowSpacing = arrowSpacing(*frame.slice);
+    }
+    if (options.field != "none") {
+        if (!surfaces)
+            throw Failure(
+                ExitCode::usage,
+                fmt::format("-field {}: the case has no cells; -fluidField colours the fluid.", options.field));
+        plan.field = makeScale(styleOf(options.field), field, options.fieldRange);
+    }
+    if (sliced) plan.fluid = makeScale(styleOf(options.fluidField), fluid, options.fluidRange);
+    return plan;
 }
 
-Picture drawPicture(const std::vector<Frame>& frames, const PictureOptions& options,
-                    const std::filesystem::path& output) {
-    const View& view = options.view;
-    const bool hasField = options.field != "none";
-    const int count = static_cast<int>(frames.size());
+Picture drawPicture(const Plan& plan, std::span<const Frame> frames, const std::filesystem::path& output) {
+    const PictureOptions& options = plan.options;
+    std::vector<std::string> labels;
+    for (const Frame& frame : frames) labels.push_back(labelOf(frame, plan));
+    const Bars bars = barsOf(plan, frames);
+    const Layout layout = layOut(plan, static_cast<int>(frames.size()), labels, bars);
 
-    // 1. What is shown: one scale and one range of colours for all panels.
-    std::vector<Vec3> centres;
-    std::vector<Extent> extents;
-    std::vector<Slab> slabs;
-    Range fieldRange, speedRange;
-    double width = 0, height = 0;  // m
-    for (const auto& frame : frames) {
-        centres.push_back(centreOf(frame));
-        Extent extent;
-        for (const auto& item : frame.surfaces) extent.add(item.second.points, view);
-        if (frame.fluid) {
-            slabs.push_back(slabOf(*frame.fluid, view, centres.back()));
-            extent.add(slabs.back().positions, view);
-            for (const double speed : slabs.back().speeds) speedRange.add(speed);
-        }
-        width = std::max(width, extent.u.high - extent.u.low);
-        height = std::max(height, extent.v.high - extent.v.low);
-        extents.push_back(extent);
-        if (hasField) {
-            for (const auto& item : frame.surfaces) {
-                for (const double value : valuesOf(item.second, options.field).numbers) fieldRange.add(value);
-            }
-        }
-    }
-    const FieldStyle style = styleOf(options.field);
-    if (style.aboutZero) fieldRange.makeSymmetric();
-    speedRange.makeSymmetric();
-    const auto fieldColours =
-        hasField ? colourTable(style.aboutZero ? std::span<const Colour>(coolWarm) : viridis, fieldRange) : nullptr;
-    const auto speedColours = slabs.empty() ? nullptr : colourTable(coolWarm, speedRange);
-
-    // 2. The layout, in pixels of the finished picture.
     Picture picture;
-    picture.width = options.width;
-    const int bars = (hasField ? 1 : 0) + (slabs.empty() ? 0 : 1);
-    const double textHeight = std::clamp(options.width / 80.0, 11.0, 40.0);
-    const int barSpace = bars > 0 ? static_cast<int>(11 * textHeight) : 0;
-    const int panelWidth = (options.width - barSpace) / count;
-    const double margin = 0.06 * panelWidth;
-    const int top = static_cast<int>(2.2 * textHeight), bottom = static_cast<int>(2.6 * textHeight);
-    const double metresPerPixelWide = width / (panelWidth - 2 * margin);
-    picture.height =
-        options.height > 0 ? options.height : static_cast<int>(height / metresPerPixelWide + top + bottom + margin);
-    if (bars > 0 && options.height == 0)
-        picture.height = std::max(picture.height, static_cast<int>(9 * textHeight) * bars + top);
-    if (panelWidth < 40 || picture.height < top + bottom + 40) {
-        throw Failure(ExitCode::usage,
-                      fmt::format("-size {}x{} is too small for {} panels.", options.width, picture.height, count));
-    }
-    picture.metresPerPixel = std::max(metresPerPixelWide, height / (picture.height - top - bottom - 0.5 * margin));
+    picture.width = layout.width;
+    picture.height = layout.height;
+    picture.metresPerPixel = layout.metresPerPixel;
 
-    // 3. The panels.
     OffscreenWindow offscreen(picture.width * oversampling, picture.height * oversampling);
-    offscreen.window()->SetNumberOfLayers(2);
+    offscreen.window()->SetNumberOfLayers(3);
     vtkNew<vtkRenderer> paper;
     paper->SetBackground(1, 1, 1);
     offscreen.window()->AddRenderer(paper);
     vtkNew<vtkRenderer> overlayRenderer;
-    overlayRenderer->SetLayer(1);
+    overlayRenderer->SetLayer(2);
     overlayRenderer->InteractiveOff();
     Overlay overlay(overlayRenderer, oversampling);
-    for (int i = 0; i < count; ++i) {
-        const auto index = static_cast<std::size_t>(i);
-        const Frame& frame = frames[index];
-        const Panel panel{i * panelWidth, 0, panelWidth, picture.height};
-        picture.panels.push_back(panel);
-        vtkNew<vtkRenderer> renderer;
-        renderer->SetBackground(1, 1, 1);
-        renderer->SetViewport(static_cast<double>(panel.x) / picture.width, 0,
-                              static_cast<double>(panel.x + panel.width) / picture.width, 1);
-        addLights(renderer);
-        for (const auto& item : frame.surfaces) addSurface(renderer, item.second, options.field, fieldColours);
-        if (frame.fluid) renderer->AddActor(slabActor(slabs[index], view, speedColours));
 
-        const Extent& extent = extents[index];
-        const double u = 0.5 * (extent.u.low + extent.u.high);
-        const double v = 0.5 * (extent.v.low + extent.v.high) + 0.5 * (top - bottom) * picture.metresPerPixel;
-        const Vec3 focus = (u * view.right + v * view.up + centres[index].dot(view.ahead()) * view.ahead()) * perMetre;
-        const double halfHeight = 0.5 * picture.height * picture.metresPerPixel * perMetre;
-        const Vec3 eye = focus - 10 * halfHeight * view.ahead();
-        vtkCamera* camera = renderer->GetActiveCamera();
-        camera->ParallelProjectionOn();
-        camera->SetFocalPoint(focus.data());
-        camera->SetPosition(eye.data());
-        camera->SetViewUp(view.up.data());
-        camera->SetParallelScale(halfHeight);
-        renderer->ResetCameraClippingRange();
-        offscreen.window()->AddRenderer(renderer);
-        overlay.text(labelOf(frame), panel.x + 0.5 * panel.width, picture.height - 0.5 * top, textHeight,
-                     Align::centre);
+    // 1. The panels, row by row.
+    const double lengthPerSpeed = plan.largestSpeed > 0 ? 0.95 * plan.arrowSpacing / plan.largestSpeed : 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Frame& frame = frames[i];
+        const int row = static_cast<int>(i) / layout.columns, column = static_cast<int>(i) % layout.columns;
+        const Panel panel{column * layout.panelWidth + layout.gap / 2,
+                          row * (layout.labelStrip + layout.imageHeight) + layout.labelStrip,
+                          layout.panelWidth - layout.gap, layout.imageHeight};
+        picture.panels.push_back(panel);
+        const double low = picture.height - panel.y - panel.height;
+        // Two layers, so that a slice through a cell does not hide half of it.
+        vtkNew<vtkRenderer> back, front;
+        front->SetLayer(1);
+        for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
+            renderer->SetBackground(1, 1, 1);
+            renderer->SetViewport(static_cast<double>(panel.x) / picture.width, low / picture.height,
+                                  static_cast<double>(panel.x + panel.width) / picture.width,
+                                  (low + panel.height) / picture.height);
+            addLights(renderer);
+        }
+        if (options.box && !options.frameCells) addBox(back, front, *options.box, plan.camera, layout.metresPerPixel);
+        if (frame.slice) {
+            addSlice(back, *frame.slice, *plan.fluid);
+            if (options.arrows) addArrows(back, *frame.slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);
+        }
+        for (const auto& [name, surface] : frame.surfaces)
+            addSurface(front, surface, name, options.field, plan.field ? &*plan.field : nullptr, options.mesh);
+        for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
+            aim(renderer->GetActiveCamera(), plan.camera, layout, panel.width);
+            renderer->ResetCameraClippingRange();
+            offscreen.window()->AddRenderer(renderer);
+        }
+        overlay.text(labels[i], panel.x + 0.5 * panel.width, picture.height - panel.y + 0.5 * layout.labelStrip,
+                     layout.labelHeight, Align::centre);
     }
 
-    // 4. Scale bar and colour bars.
-    const Colour black{0, 0, 0};
-    const double barMetres = roundBelow(0.4 * panelWidth * picture.metresPerPixel);
-    const double barPixels = barMetres / picture.metresPerPixel;
-    overlay.rectangle(margin, 0.45 * bottom, barPixels, std::max(2.0, 0.2 * textHeight), black);
-    overlay.text(fmt::format("{:g} \u00b5m", barMetres * 1e6), margin + barPixels + 0.5 * textHeight,
-                 0.45 * bottom + 0.1 * textHeight, textHeight);
-    const double each = (picture.height - 0.5 * top) / std::max(bars, 1);
-    const double barX = panelWidth * count + textHeight;
-    auto addBar = [&](int place, vtkLookupTable* colours, double perUnit, const std::string& title) {
-        overlay.colourBar(barX, picture.height - 0.5 * top - each * (place + 1) + 1.2 * textHeight, 1.1 * textHeight,
-                          each - 4.2 * textHeight, colours, perUnit, title, 0.85 * textHeight);
-    };
-    if (hasField) addBar(0, fieldColours, style.perUnit, style.title);
-    if (!slabs.empty()) addBar(bars - 1, speedColours, 1e-3, "velocity u, mm/s");
+    // 2. Below and at the right.
+    if (drawLegend(overlay, plan, layout, lengthPerSpeed) > layout.width - layout.barColumn)
+        throw Failure(ExitCode::usage,
+                      fmt::format("-size {}: too small for the scale bar and its words.", layout.width));
+    const double each =
+        (picture.height - layout.textHeight) / static_cast<double>(std::max<std::size_t>(bars.size(), 1));
+    for (std::size_t i = 0; i < bars.size(); ++i)
+        overlay.colourBar(layout.panelWidth * layout.columns + layout.textHeight,
+                          0.5 * layout.textHeight + each * static_cast<double>(bars.size() - 1 - i),
+                          std::min(each - 0.5 * layout.textHeight, 22 * layout.textHeight), *bars[i].first,
+                          bars[i].second, layout.textHeight);
     offscreen.window()->AddRenderer(overlayRenderer);
 
     writePng(offscreen.render(), output);
+    picture.places = overlay.places();
     return picture;
 }
 

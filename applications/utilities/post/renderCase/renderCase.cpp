@@ -1,10 +1,12 @@
-// renderCase: pictures of a case's cells, without a display. The sample runs below are its guide.
+// renderCase: pictures of a case's cells and fluid, without a display. The sample runs below are its guide.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
+#include "box.hpp"
 #include "core/application.hpp"
 #include "core/error.hpp"
 #include "frames.hpp"
@@ -38,72 +40,252 @@ void parseSize(const std::string& text, PictureOptions& options) {
     }
 }
 
-std::vector<double> parseTimes(const std::string& text) {
-    std::vector<double> times;
-    std::string word;
-    for (std::istringstream words(text); std::getline(words, word, ',');) {
-        char* end = nullptr;
-        times.push_back(std::strtod(word.c_str(), &end));
-        if (word.empty() || *end)
-            throw Failure(
-                ExitCode::usage,
-                fmt::format("-times {}: '{}' is no number; strains are expected (like 0,2,4,6).", text, word));
+std::vector<std::string> itemsOf(const std::string& text) {
+    std::vector<std::string> items;
+    std::string item;
+    for (std::istringstream all(text); std::getline(all, item, ',');) {
+        item.erase(0, item.find_first_not_of(' '));
+        item.erase(item.find_last_not_of(' ') + 1);
+        items.push_back(item);
     }
-    return times;
+    return items;
+}
+
+// One item of -time, -strain, -stage or -times.
+Wanted parseWanted(const std::string& option, Wanted::Kind kind, const std::string& item) {
+    using Kind = Wanted::Kind;
+    Wanted wanted{kind, 0, fmt::format("{} {}", option, item)};
+    if (item == "first" || item == "latest") {
+        wanted.kind = item == "first" ? Kind::first : Kind::latest;
+        return wanted;
+    }
+    const bool ofTime = kind == Kind::time;
+    const auto expected = [&](const std::string& reason) {
+        const char* what = ofTime                 ? "times with units (like '2 ms, 4 ms')"
+                           : kind == Kind::strain ? "strains (like 0,2,4,6)"
+                           : kind == Kind::stage  ? "numbers of stages (like 0,3,6)"
+                                                  : "strains (like 0,2,4,6) or times with units (like '2 ms, 4 ms')";
+        return Failure(ExitCode::usage,
+                       fmt::format("{}: {}; {}, 'first' or 'latest' are expected.", wanted.option, reason, what));
+    };
+    Quantity quantity;
+    try {
+        quantity = parseQuantity(item);
+    } catch (const std::invalid_argument& error) {
+        throw expected(error.what());
+    }
+    wanted.value = quantity.value;
+    if (quantity.hasUnit && quantity.dimension != unit::second) throw expected(fmt::format("'{}' is no time", item));
+    if (quantity.hasUnit && kind != Kind::time && kind != Kind::progress)
+        throw expected(fmt::format("'{}' has a unit", item));
+    if (!quantity.hasUnit && ofTime && quantity.value != 0) throw expected(fmt::format("'{}' has no unit", item));
+    if (!std::isfinite(wanted.value)) throw expected(fmt::format("'{}' is not finite", item));
+    if (quantity.hasUnit) wanted.kind = Kind::time;
+    return wanted;
+}
+
+FrameChoice choiceOf(const Application& app) {
+    using Kind = Wanted::Kind;
+    FrameChoice choice;
+    choice.membrane = app.value("membrane").value_or("");
+    std::vector<std::string> given;
+    const std::pair<const char*, Kind> lists[] = {
+        {"time", Kind::time}, {"strain", Kind::strain}, {"stage", Kind::stage}, {"times", Kind::progress}};
+    for (const auto& [name, kind] : lists) {
+        const auto text = app.value(name);
+        if (!text) continue;
+        const std::string option = std::string("-") + name;
+        given.push_back(option);
+        for (const std::string& item : itemsOf(*text)) choice.wanted.push_back(parseWanted(option, kind, item));
+        if (choice.wanted.empty()) throw Failure(ExitCode::usage, option + ": nothing is given.");
+    }
+    if (app.has("count")) given.emplace_back("-count");
+    if (given.size() > 1)
+        throw Failure(ExitCode::usage, fmt::format("{} are given; one of them is enough.", joinWords(given, " and ")));
+    choice.count = static_cast<int>(app.integer("count", 1).value_or(app.has("series") ? 0 : 4));
+    return choice;
+}
+
+// "y" or "y=2 um"
+SlicePlane parseSlice(const std::string& text, std::optional<double>& position) {
+    const std::size_t equals = text.find('=');
+    const std::string axis = text.substr(0, equals);
+    const auto fail = [&](const std::string& reason) {
+        throw Failure(
+            ExitCode::usage,
+            fmt::format(
+                "-slice {}: {}; an axis, or an axis and a position with a unit, is expected (like y or 'y=2 um').",
+                text, reason));
+    };
+    if (axis != "x" && axis != "y" && axis != "z") fail(fmt::format("'{}' is none of x, y, z", axis));
+    SlicePlane plane{axis[0] - 'x', 0};
+    if (equals == std::string::npos) return plane;
+    try {
+        const Quantity quantity = parseQuantity(text.substr(equals + 1));
+        const bool length = quantity.hasUnit && !quantity.inSpacings && quantity.dimension == unit::metre;
+        if (!length && quantity.value != 0) fail(fmt::format("'{}' is no length", text.substr(equals + 1)));
+        position = quantity.value;
+    } catch (const std::invalid_argument& error) {
+        fail(error.what());
+    }
+    return plane;
+}
+
+// Through the mean of all cells at all times, unless a position is asked for.
+void sampleSlices(const Application& app, const Results& results, const PictureOptions& options,
+                  std::vector<Frame>& frames) {
+    std::optional<double> position;
+    SlicePlane plane{options.view.sliceAxis, 0};
+    if (const auto text = app.value("slice")) plane = parseSlice(*text, position);
+    if (!position) {
+        double sum = 0, count = 0;
+        for (const Frame& frame : frames) {
+            for (const auto& item : frame.surfaces) {
+                for (const Vec3& x : item.second.points) sum += x[plane.axis];
+                count += static_cast<double>(item.second.points.size());
+            }
+        }
+        const double middle = options.box ? options.box->middle()[plane.axis] : 0;
+        position = count > 0 ? sum / count : middle;
+        // A mesh's mean lies a little beside its middle.
+        if (options.box && std::abs(*position - middle) < 0.02 * options.box->size()[plane.axis]) position = middle;
+    }
+    plane.position = *position;
+    if (options.box &&
+        (plane.position < options.box->low[plane.axis] || plane.position > options.box->high[plane.axis]))
+        throw Failure(ExitCode::usage, fmt::format("-slice {}: the box reaches from {} to {}.", *app.value("slice"),
+                                                   formatQuantity(options.box->low[plane.axis], unit::metre),
+                                                   formatQuantity(options.box->high[plane.axis], unit::metre)));
+    for (Frame& frame : frames)
+        frame.slice = sampleSlice(results.fluidAt(frame.time), options.box, plane, options.fluidField, options.arrows);
+}
+
+PictureOptions optionsOf(const Application& app) {
+    PictureOptions options;
+    options.view = viewNamed(app.value("view").value_or("tilted"));
+    options.field = app.value("field").value_or("none");
+    options.fluidField = app.value("fluidField").value_or("u");
+    if (const auto text = app.value("range")) options.fieldRange = parseRange("-range", *text);
+    if (const auto text = app.value("fluidRange")) options.fluidRange = parseRange("-fluidRange", *text);
+    if (options.fieldRange && options.field == "none")
+        throw Failure(ExitCode::usage, "-range: of which array? Give -field too.");
+    options.arrows = app.has("arrows");
+    options.mesh = app.has("mesh");
+    options.labelTime = app.has("time");
+    const std::string frame = app.value("frame").value_or("box");
+    const std::vector<std::string> frames{"box", "cells"};
+    if (frame != "box" && frame != "cells")
+        throw Failure(ExitCode::usage, fmt::format("-frame {}: there is no such frame; there are: {}.{}", frame,
+                                                   joinWords(frames), didYouMean(frame, frames)));
+    options.frameCells = frame == "cells";
+    if (const auto size = app.value("size")) parseSize(*size, options);
+    return options;
 }
 
 Usage usage() {
-    return {.options = {{"times", "S,...",
-                         "strains to show, the nearest results are taken (default: -count equally spaced)"},
-                        {"count", "N", "number of panels without -times (default 4)"},
-                        {"field", "NAME", "colour by areaStrain, tension1, ... or none (default)"},
-                        {"view", "NAME", "xz, the shear plane (default), xy, yz or iso"},
-                        {"size", "WxH", "pixels, or the width alone (default 1600)"},
-                        {"membrane", "NAME", "one membrane (default: all)"},
-                        {"fluid", "", "also a slab of fluid through the cells' centre, coloured by velocity"},
-                        {"output", "FILE", "PNG file (default postProcessing/renderCase.png in the case)"}},
-            .samples = {"renderCase -case rbcShear/Ca0.02",
-                        "renderCase -times 0,2,4,6 -field areaStrain -output areaStrain.png",
-                        "renderCase -view iso -fluid -times 6 -size 900"}};
+    return {
+        .options = {{"time", "T,...",
+                     "times to show, with units ('2 ms, 4 ms', first, latest); the nearest results are taken"},
+                    {"strain", "S,...", "strains to show (0,2,4,6, first, latest)"},
+                    {"stage", "N,...", "stages of membraneRelax to show"},
+                    {"times", "S,...", "strains, or stages, as numbers; times with units"},
+                    {"count", "N", "number of panels at equal distances without these four (default 4)"},
+                    {"field", "NAME",
+                     "colour by an array: areaStrain, tension1, stretch, broken, hole, id, ... or none (default)"},
+                    {"range", "LOW,HIGH", "of its colours, in SI or with a unit (default: of all panels)"},
+                    {"view", "NAME", "tilted, in perspective (default); xz, the shear plane; xy, yz, iso"},
+                    {"frame", "NAME", "box: the whole box (default), or cells: as far as these reach, without the box"},
+                    {"mesh", "", "draw the edges of the triangles"},
+                    {"membrane", "NAME", "one cell or body (default: all)"},
+                    {"fluid", "", "also the fluid in a plane, interpolated from its particles"},
+                    {"slice", "AXIS[=POS]", "that plane (default: the shear plane through the cells; 'y=2 um')"},
+                    {"fluidField", "NAME", "u (default), v, w, speed, pressure, ...: what the plane shows"},
+                    {"fluidRange", "LOW,HIGH", "of its colours"},
+                    {"arrows", "", "velocity in that plane"},
+                    {"series", "", "a file for each time, with the same camera and colours (default: all times)"},
+                    {"size", "WxH", "pixels, or the width alone (default: by the number of panels, at most 1600)"},
+                    {"output", "FILE", "PNG file (default postProcessing/renderCase.png in the case)"}},
+        .samples = {"renderCase -case rbcShear/Ca0.02",
+                    "renderCase -strain 0,2,4,6 -field areaStrain -output areaStrain.png",
+                    "renderCase -time '2 ms, latest' -fluid -arrows", "renderCase -view xz -frame cells -mesh",
+                    "renderCase -series -fluid -fluidField pressure -output film/frame.png"}};
 }
 
-nlohmann::json report(const std::filesystem::path& output, const std::vector<Frame>& frames, const Picture& picture) {
-    nlohmann::json panels = nlohmann::json::array();
+nlohmann::json jsonOf(const Scale& scale) {
+    return {{"title", scale.title}, {"low", scale.range.low}, {"high", scale.range.high}};
+}
+
+nlohmann::json report(const std::filesystem::path& output, std::span<const Frame> frames, const Plan& plan,
+                      const Picture& picture) {
+    nlohmann::json panels = nlohmann::json::array(), places = nlohmann::json::array();
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const Panel& p = picture.panels[i];
         panels.push_back({{"time", frames[i].time}, {"x", p.x}, {"y", p.y}, {"width", p.width}, {"height", p.height}});
         if (frames[i].strain) panels.back()["strain"] = *frames[i].strain;
     }
-    return {{"output", output.string()},
-            {"width", picture.width},
-            {"height", picture.height},
-            {"metresPerPixel", picture.metresPerPixel},
-            {"panels", panels}};
+    for (const Place& p : picture.places)
+        places.push_back({{"what", p.what},
+                          {"x", p.x},
+                          {"y", picture.height - p.y - p.height},
+                          {"width", p.width},
+                          {"height", p.height}});
+    nlohmann::json all{{"output", output.string()}, {"width", picture.width},
+                       {"height", picture.height},  {"metresPerPixel", picture.metresPerPixel},
+                       {"panels", panels},          {"places", places}};
+    if (plan.field) all["field"] = jsonOf(*plan.field);
+    if (plan.fluid) {
+        all["fluid"] = jsonOf(*plan.fluid);
+        all["fluid"]["axis"] = std::string(1, "xyz"[frames.front().slice->plane.axis]);
+        all["fluid"]["position"] = frames.front().slice->plane.position;
+    }
+    return all;
+}
+
+std::filesystem::path numbered(const std::filesystem::path& output, std::size_t i) {
+    return output.parent_path() / fmt::format("{}_{:04}.png", output.stem().string(), i);
 }
 
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    Application app("renderCase", "Pictures of a case's cells, without a display.", argc, argv, usage());
+    Application app("renderCase", "Pictures of a case's cells and fluid, without a display.", argc, argv, usage());
     return app.run([&] {
-        FrameChoice choice;
-        choice.membrane = app.value("membrane").value_or("");
-        choice.times = parseTimes(app.value("times").value_or(""));
-        choice.count = static_cast<int>(app.integer("count", 1).value_or(4));
-        choice.fluid = app.has("fluid");
-        PictureOptions options;
-        options.view = viewNamed(app.value("view").value_or("xz"));
-        options.field = app.value("field").value_or("none");
-        parseSize(app.value("size").value_or("1600"), options);
+        // 1. What is asked for.
+        FrameChoice choice = choiceOf(app);
+        PictureOptions options = optionsOf(app);
+        choice.keepBroken = options.field == "broken";
         const std::filesystem::path output =
             app.value("output").value_or(app.path("postProcessing/renderCase.png").string());
+        if (output.extension() != ".png")
+            throw Failure(ExitCode::usage,
+                          fmt::format("-output {}: a PNG file is written; its name ends in .png.", output.string()));
+
+        // 2. What there is.
+        const Results results(app.caseDirectory());
+        options.box = readBox(app, results.hasRun());
+        if (options.box) options.view = turnedForWalls(options.view, options.box->periodic);
         if (!app.communicator().isRoot()) return ExitCode::done;
+        std::vector<Frame> frames = results.frames(choice, options.box);
+        bool sliced = results.surfaces().empty();
+        for (const char* option : {"fluid", "slice", "fluidField", "fluidRange", "arrows"})
+            sliced = sliced || app.has(option);
+        if (sliced && !results.hasFluid())
+            throw Failure(ExitCode::usage, "-fluid: the case has no fluid, neither results/fluid.pvd nor 0/fluid.vtp.");
+        if (sliced) sampleSlices(app, results, options, frames);
 
-        const std::vector<Frame> frames = readFrames(app.caseDirectory(), choice);
-        const Picture picture = drawPicture(frames, options, output);
-
-        if (app.json()) fmt::print("{}\n", report(output, frames, picture).dump(2));
-        app.log().info("{}: {} panels, {} x {} pixels", output.string(), frames.size(), picture.width, picture.height);
+        // 3. One picture, or one for each time.
+        const Plan plan = makePlan(frames, options);
+        const std::size_t each = app.has("series") ? 1 : frames.size();
+        nlohmann::json reports = nlohmann::json::array();
+        for (std::size_t i = 0; i < frames.size(); i += each) {
+            const auto file = app.has("series") ? numbered(output, i) : output;
+            const std::span<const Frame> shown(frames.data() + i, each);
+            const Picture picture = drawPicture(plan, shown, file);
+            reports.push_back(report(file, shown, plan, picture));
+            app.log().info("{}: {} panel{}, {} x {} pixels", file.string(), each, each == 1 ? "" : "s", picture.width,
+                           picture.height);
+        }
+        if (app.json()) fmt::print("{}\n", (app.has("series") ? reports : reports[0]).dump(2));
         return ExitCode::done;
     });
 }

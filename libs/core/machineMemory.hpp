@@ -1,0 +1,39 @@
+// The memory that this machine has for this process, and whether an estimate fits into it.
+//
+// Several limits hold at once; the smallest counts.
+//
+// limit                        | from                                                        | shared by
+// free memory of the machine   | MemAvailable in /proc/meminfo; swap is not counted          | the ranks on the machine
+// limit of the control group   | memory.max - memory.current + file cache (or those of version 1) of the group and the groups above it | the ranks on the machine
+// ulimit -v, ulimit -d         | the soft limit less what the process already has            | nobody
+#pragma once
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "core/communicator.hpp"
+
+namespace corpuscle {
+
+struct MemoryLimit {
+    double bytes = std::numeric_limits<double>::infinity();
+    std::string name;  // "the memory limit of this process (ulimit -v)"
+};
+
+struct AvailableMemory {
+    MemoryLimit shared;  // with the other processes of this machine
+    MemoryLimit own;     // of this process alone
+};
+
+// Tests give other folders than those of the running system.
+AvailableMemory availableMemory(const std::filesystem::path& proc = "/proc",
+                                const std::filesystem::path& cgroups = "/sys/fs/cgroup");
+
+// Collective. `bytes` is the estimate for all ranks together, taken to be spread evenly. Empty when every machine has as much; otherwise, the same on
+// all ranks, "126 GiB of memory is needed on host (2 ranks), which has 3.1 GiB: free memory of the machine". The memory of the estimate must not have been
+// allocated yet.
+std::string memoryShortage(const Communicator& communicator, double bytes);
+
+std::string formatBytes(double bytes);  // "412 MiB", "3.1 GiB"
+
+}  // namespace corpuscle

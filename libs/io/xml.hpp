@@ -1,0 +1,33 @@
+// A small, strict reader of XML: elements, attributes and the first text of each element, as VTK's files need them.
+//
+// Nothing is copied but names and attributes: `text` points into the bytes that were given. The element AppendedData
+// ends the reading, as what follows its underscore may be any bytes; its text is everything behind that underscore.
+// Throws XmlFault with the line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and for a document type.
+#pragma once
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace corpuscle::io {
+
+struct XmlElement {
+    std::string name;
+    std::map<std::string, std::string> attributes;
+    std::vector<XmlElement> children;
+    std::string_view text;  // the first that is not blank
+    int line = 0;
+
+    // Null where there is none of this name.
+    const XmlElement* child(std::string_view childName) const;
+    const std::string* attribute(const std::string& attributeName) const;
+};
+
+struct XmlFault : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+XmlElement parseXml(std::string_view bytes);
+
+}  // namespace corpuscle::io

@@ -1,0 +1,31 @@
+// All dictionaries that programs read, with their declared settings; and their JSON schemas in a case, for editors.
+//
+// The first line of a dictionary names its schema by a path within the case, so that it holds wherever the case is
+// copied to:
+//     # yaml-language-server: $schema=../.schema/mesh.json
+// membraneMesh, particleFill and the solvers write .schema/ to match their own version.
+#pragma once
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/application.hpp"
+#include "core/settings.hpp"
+
+namespace corpuscle::simulation {
+
+// "system/control.yaml", ... with what is declared for it.
+const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries();
+
+nlohmann::ordered_json schemaOf(const SchemaInfo& dictionary);
+
+// One "<name>.json" for each dictionary; returns their paths.
+std::vector<std::filesystem::path> writeSchemas(const std::filesystem::path& folder);
+
+// Brings .schema/ of the case up to date where it differs. Without it a case runs as well, so that a folder that cannot
+// be written to is no fault. Only the root writes.
+void refreshSchemas(const Application& app);
+
+}  // namespace corpuscle::simulation

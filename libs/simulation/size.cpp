@@ -1,0 +1,120 @@
+#include "simulation/size.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "particles/isa.hpp"
+#include "simulation/cost.hpp"
+
+namespace corpuscle::simulation {
+
+namespace {
+
+// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity Verlet on conjugate
+// operators); with membranes or bodies in the fluid there is more of them.
+struct MemoryCosts {
+    static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
+    static constexpr double plain = 530, plainLoaded = 660;
+    static constexpr double corrected = 1090, correctedLoaded = 1300;
+    static constexpr double node = 2500;  // of a membrane, with its bonds and triangles
+};
+
+// Copies of particles that a rank has besides its own, over its own: of an even brick, cut from the box across its longest side again and
+// again, what lies within `reach` around it. Nothing lies beyond a wall.
+double ghostShare(const Case& c, int ranks, double reach) {
+    const Vec3 box = c.particleBox().size();
+    Vec3 brick = box;
+    for (int parts = ranks; parts > 1;) {
+        int prime = 2;
+        while (parts % prime != 0) ++prime;
+        parts /= prime;
+        int longest = 0;
+        brick.maxCoeff(&longest);
+        brick[longest] /= prime;
+    }
+    double share = 1;
+    for (int k = 0; k < 3; ++k) {
+        const double outer = k == c.flowModel->wallAxis() ? 2 * brick[k] / box[k] : 0;  // faces at walls
+        share *= 1 + (2 - outer) * reach / brick[k];
+    }
+    return share - 1;
+}
+
+double memoryOf(const Case& c, int ranks) {
+    const double n = static_cast<double>(estimateParticles(c).all()), reach = c.support() + c.skin();
+    const bool corrected = c.numerics.isImplicit() || c.isConjugate(),
+               loaded = !c.mesh.cells.empty() || !c.mesh.bodies.empty();
+    const double each = corrected ? (loaded ? MemoryCosts::correctedLoaded : MemoryCosts::corrected)
+                                  : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain);
+    const double across = reach / c.spacing() + 1, around = 4.2 * across * across * across;
+    const double list = 0.65 * 1.5 * sizeof(int) * around / particles::blockLanes(c.precision());
+    double nodes = 0;
+    for (const CellSettings& cell : c.mesh.cells) nodes += static_cast<double>(estimateNodes(cell));
+    const int holders = c.numerics.isImmersed() ? ranks : 1;
+    return ranks * (MemoryCosts::program + (ranks > 1 ? MemoryCosts::parallel : 0)) +
+           n * (list + each * (1 + ghostShare(c, ranks, reach))) + nodes * MemoryCosts::node * holders;
+}
+
+long writesOf(const Case& c) {
+    const WriteSettings& w = c.control.write;
+    const double time = duration(c), strain = c.flow.shearRate * time;
+    if (w.strain) return static_cast<long>(strain / *w.strain) + 1;
+    if (w.time) return static_cast<long>(time / *w.time) + 1;
+    if (w.steps)
+        for (const IntegratorCost& cost : predictCosts(c))
+            if (cost.name == c.numerics.integrator)
+                return static_cast<long>(cost.steps / static_cast<double>(*w.steps)) + 1;
+    return 0;
+}
+
+}  // namespace
+
+// A node has the area of its hexagon, sqrt(3)/2 edge^2.
+long estimateNodes(const CellSettings& cell) {
+    return std::lround(cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
+}
+
+ParticleEstimate estimateParticles(const Case& c) {
+    ParticleEstimate n;
+    long count[3], layer = 1;
+    n.fluid = 1;
+    for (int k = 0; k < 3; ++k) n.fluid *= count[k] = std::lround(c.mesh.domain.size[k] / c.spacing());
+    if (const int k = c.flowModel->wallAxis(); k >= 0) {
+        for (int j = 0; j < 3; ++j)
+            if (j != k) layer *= count[j];
+        n.walls = 2 * layer * c.wallLayers();
+    }
+    if (!c.numerics.isImmersed())  // else nodes are no particles
+        for (const CellSettings& cell : c.mesh.cells) {
+            // As particles the nodes replace fluid of area x dx.
+            n.nodes += estimateNodes(cell);
+            n.fluid -= std::lround(cell.shape->area() * c.spacing() / c.particleVolume());
+        }
+    for (const BodyPlaceSettings& body : c.mesh.bodies) {
+        const long inside = std::lround(body.shape->volume() / c.particleVolume());
+        n.bodies += inside;
+        n.fluid -= inside;
+    }
+    return n;
+}
+
+SizeEstimate estimateSize(const Case& c, int ranks) {
+    constexpr double place = 38, component = 7.5, perNode = 170;  // compressed; a node with its two triangles
+    constexpr double state = 137, nodeState = 100;                // of a checkpoint
+    const ParticleEstimate particles = estimateParticles(c);
+    const auto n = static_cast<double>(particles.all()),
+               written = static_cast<double>(particles.all() - particles.walls);
+    double components = 0;
+    for (const std::string& field : c.control.write.fields) components += field == "velocity" ? 3 : 1;
+    double nodes = 0;
+    for (const CellSettings& cell : c.mesh.cells) nodes += static_cast<double>(estimateNodes(cell));
+    SizeEstimate size;
+    size.memory = memoryOf(c, ranks);
+    size.perWrite = written * (place + component * components) + nodes * perNode;
+    size.checkpoint = n * state + nodes * nodeState;
+    size.writes = writesOf(c);
+    return size;
+}
+
+}  // namespace corpuscle::simulation

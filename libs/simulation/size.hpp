@@ -1,0 +1,30 @@
+// How large a case is, before anything is made: particles, memory of a run, disk.
+//
+// Memory, all ranks together:
+//     ranks x program + sum over ranks (owned x list + (owned + ghosts) x each) + nodes x node x holders
+// program: libraries, buffers of MPI and files. each: the store and its copy while sorting, sums over pairs, the two states that rollbacks
+// keep, the arrays of the scheme. ghosts: copies from other ranks and periodic images, as deep as support and skin around the rank's
+// brick. list: of what lies around a block of particles half is listed. The constants are measured (docs/simulation.md); a prediction is good
+// to 20 %.
+#pragma once
+#include "simulation/case.hpp"
+
+namespace corpuscle::simulation {
+
+// By the lattice and the meshes' edge lengths.
+struct ParticleEstimate {
+    long fluid = 0, walls = 0, nodes = 0, bodies = 0;  // nodes: of membranes that are particles too (dual identity)
+    long all() const { return fluid + walls + nodes + bodies; }
+};
+ParticleEstimate estimateParticles(const Case& input);
+
+long estimateNodes(const CellSettings& cell);  // of its mesh
+
+// Bytes: memory of a run in all ranks together, one written time, one checkpoint.
+struct SizeEstimate {
+    double memory = 0, perWrite = 0, checkpoint = 0;
+    long writes = 0;
+};
+SizeEstimate estimateSize(const Case& input, int ranks);
+
+}  // namespace corpuscle::simulation

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+"""checkCase on one screen, and true: lines, groups, kinds of cells, warnings with their cure, memory and disk against a run.
+
+    checkCaseScreen.py BIN TEST      BIN: directory of the applications
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "simulation"))
+from runs import BIN, BODY_CASE, CELL_CASE, FLUID_CASE, IMPLICIT_CASE, make, run
+
+SECTIONS = ["Case", "Dimensionless groups", "Resolution", "Memory and disk", "Step and cost"]
+FLUID = {**FLUID_CASE, "system/control.yaml": "application: sphFlow\nendTime: 0.05 s\nwrite: {time: 0.01 s}\n"}
+
+
+def screen(case, *options):
+    done = subprocess.run([BIN / "checkCase", "-case", case, *options], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout.splitlines(), done.stderr
+
+
+def prepared(folder, files):
+    case = make(folder, files)
+    if "constant/membranes.yaml" in files or "constant/bodies.yaml" in files:
+        run(case, "membraneMesh")
+    run(case, "particleFill")
+    return case
+
+
+def test_screen(folder):
+    """Every kind of case fits: 50 lines of 120 columns, groups in order, nothing of what the case does not have."""
+    for name, files, absent in (("implicit", IMPLICIT_CASE, ("rkl2", "bodies", "membrane nodes 0", "on membranes")),
+                                ("dual", CELL_CASE, ("rkl2", "bodies")), ("body", BODY_CASE, ("rkl2", "cells", "membrane")),
+                                ("fluid", FLUID, ("cells", "membrane", "bodies", "coupling"))):
+        case = prepared(folder / name, files)
+        lines, warned = screen(case)
+        text = "\n".join(lines)
+        assert len(lines) <= 50 and max(map(len, lines)) <= 120, f"{name}: {len(lines)} lines, {max(map(len, lines))} columns\n{text}"
+        assert [line for line in lines if line in SECTIONS] == SECTIONS, text
+        for word in absent:
+            assert word not in text, f"{name}: '{word}' in\n{text}"
+        assert lines[-1] == "Case OK." and "predicted:" in text and "limits of the step:" in text, text
+        assert "edge is" not in warned and "sets the density" not in warned, warned
+        found = json.loads(run(case, "checkCase", "-json").stdout)
+        assert {"particles", "groups", "integrators", "memory_B", "disk_B", "limits_s", "binding", "steps", "predicted_s", "warnings"} <= set(found), found
+        assert set(found["integrators"]) == {"velocityVerlet", "rkl2", "implicit"}, "-json keeps all integrators"
+
+
+def test_cells(folder):
+    """Sixteen cells of one type take the lines of one, of two types those of two; the nodes are counted."""
+    def cells(count, membranes):
+        entries = [f"{{name: c{n}, membrane: {membranes[n % len(membranes)]}, shape: {{type: sphere, radius: 2 um}}, edge: 0.8 um, "
+                   f"centre: [{6 * (n % 4) - 9} um, {6 * (n // 4) - 9} um, 0 um]}}" for n in range(count)]
+        law = CELL_CASE["constant/membranes.yaml"].split("\n", 1)[1]
+        files = {**IMPLICIT_CASE, "constant/membranes.yaml": "".join(f"{name}:\n{law}" for name in membranes),
+                 "system/mesh.yaml": "domain: {size: [24 um, 24 um, 10 um], periodic: [true, true, false]}\ncells: [" + ", ".join(entries) + "]\n"}
+        return prepared(folder / f"{count}{len(membranes)}", files)
+    one, sixteen, two = (screen(cells(*given))[0] for given in ((1, ["rbc"]), (16, ["rbc"]), (16, ["rbc", "other"])))
+    assert len(one) == len(sixteen), "\n".join(sixteen)
+    assert len(two) <= len(one) + 3, "\n".join(two)
+    assert any("16 of rbc" in line for line in sixteen) and sum("8 of" in line for line in two) == 2, "\n".join(sixteen + two)
+
+
+def test_warnings(folder):
+    """Meshes far from the spacing, both ways, and a density that only Re asks for: one warning each that says what to write."""
+    case = make(folder, IMPLICIT_CASE)
+    assert "edge is" not in screen(case)[1]
+    for edge, words in (("0.08 dx", ("edge is 0.08 dx", "156 nodes for each particle")), ("0.4 um", ("edge is 0.4 dx",)),
+                        ("3.5 dx", ("edge is 3.5 dx", "do not hold them back"))):
+        warned = screen(case, "-set", f"system/mesh.yaml:/cells/0/edge={edge}")[1]
+        assert all(word in warned for word in (*words, "edge: 1 dx", "system/mesh.yaml")), warned
+    for changes, words in ((("Ca=1e-4",), ("sets the density to", "inertia: physical", "1/s")), (("Ca=30000",), ("sets the density to",)),
+                           (("Ca=0.3", "inertia={Re: 500}"), ("sets the density to",))):
+        warned = screen(case, *(word for change in changes for word in ("-set", f"constant/flow.yaml:/{change}")))[1]
+        assert all(word in warned for word in words), warned
+    assert "sets the density" not in screen(case, "-set", "constant/flow.yaml:/inertia=physical", "-set", "constant/flow.yaml:/Ca=1e-4")[1]
+
+
+def peak(case, application):
+    """Peak memory of a run [B]."""
+    process = subprocess.Popen([BIN / application, "-case", case, "-quiet"])
+    _, status, usage = os.wait4(process.pid, 0)
+    assert status == 0, status
+    return 1024 * usage.ru_maxrss
+
+
+def test_size(folder):
+    """Memory within 20 %, results and checkpoints within 30 % of what a run takes; of small cases, whose larger part is the program's own."""
+    sanitized = b"libasan" in subprocess.run(["ldd", BIN / "dmpFlow"], capture_output=True).stdout
+    small = {"system/control.yaml": "application: dmpFlow\nendStrain: 0.3\nwrite: {strain: 0.05}\ncheckpoint: {wallClock: never, keep: 1}\n"}
+    finer = {"system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("spacing: 1 um", "spacing: 0.5 um"),
+             "system/mesh.yaml": IMPLICIT_CASE["system/mesh.yaml"].replace("edge: 1 um", "edge: 0.6 um")}
+    for name, files, application in (("fluid", {**FLUID, "system/numerics.yaml": FLUID["system/numerics.yaml"].replace("62.5", "31.25")}, "sphFlow"),
+                                     ("implicit", {**IMPLICIT_CASE, **finer, **small}, "dmpFlow")):
+        case = prepared(folder / name, files)
+        predicted = json.loads(run(case, "checkCase", "-json").stdout)
+        measured = peak(case, application)
+        disk = sum(path.stat().st_size for part in ("results", "checkpoints") for path in (case / part).rglob("*") if path.suffix in (".vtp", ".h5"))
+        assert sanitized or abs(predicted["memory_B"] / measured - 1) < 0.2, f"{name}: {predicted['memory_B']:.3g} B of {measured:.3g}"
+        kept = predicted["disk_B"]
+        assert abs(kept / disk - 1) < 0.3, f"{name}: disk {kept:.3g} B of {disk:.3g}"
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as folder:
+        globals()["test_" + sys.argv[2]](pathlib.Path(folder))

@@ -1,0 +1,196 @@
+// Every byte of a checkpoint, and of a file of 0/, flipped in turn: what is then read is what was written, or an error.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "core/atomicFile.hpp"
+#include "core/error.hpp"
+#include "io/checkpointFile.hpp"
+#include "io/dataChecksum.hpp"
+#include "io/polyData.hpp"
+#include "temporaryFolder.hpp"
+
+namespace corpuscle::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct State {
+    std::vector<double> place;
+    std::vector<std::int64_t> id, bonds;
+    double time = 0;
+    std::int64_t step = 0;
+    std::string scheme;
+    bool operator==(const State&) const = default;
+};
+
+State someState() {
+    State s;
+    std::mt19937 random(7);
+    for (int i = 0; i < 60; ++i) {
+        s.place.push_back(std::uniform_real_distribution(-1e-5, 1e-5)(random));
+        if (i % 3 == 0) s.id.push_back(i / 3);
+    }
+    s.bonds = {1, 1, 0, 1};
+    s.time = 1.25e-3, s.step = 4711, s.scheme = "implicit";
+    return s;
+}
+
+void save(const fs::path& path, const State& s) {
+    CheckpointWriter file(MPI_COMM_WORLD, path);
+    file.attribute("time", s.time);
+    file.attribute("step", s.step);
+    file.attribute("scheme", s.scheme);
+    file.writeDistributed("particles/place", std::span<const double>(s.place), 3);
+    file.writeDistributed("particles/id", std::span<const std::int64_t>(s.id));
+    file.writeReplicated("cells/rbc/bonds", std::span<const std::int64_t>(s.bonds));
+    file.finish();
+}
+
+State load(const fs::path& path) {
+    CheckpointReader file(MPI_COMM_WORLD, path);
+    State s;
+    s.time = file.attribute<double>("time");
+    s.step = file.attribute<std::int64_t>("step");
+    s.scheme = file.attribute<std::string>("scheme");
+    s.place = file.readDistributed<double>("particles/place", 3);
+    s.id = file.readDistributed<std::int64_t>("particles/id");
+    s.bonds = file.readReplicated<std::int64_t>("cells/rbc/bonds");
+    return s;
+}
+
+struct Damage {
+    long accepted = 0, found = 0, changed = 0;  // accepted: what is read is what was written
+};
+
+// check(): 0 accepted, 1 found, 2 changed.
+template <class Check>
+Damage flipAll(const fs::path& path, std::size_t stride, Check&& check) {
+    Damage damage;
+    const std::string whole = readFile(path);
+    std::mt19937 random(11);
+    for (std::size_t at = 0; at < whole.size(); at += stride) {
+        std::string flipped = whole;
+        flipped[at] = static_cast<char>(flipped[at] ^ (1 << (random() % 8)));
+        std::ofstream(path, std::ios::binary) << flipped;
+        const int result = check();
+        ++(result == 0 ? damage.accepted : result == 1 ? damage.found : damage.changed);
+        if (result == 2) ADD_FAILURE() << "byte " << at << " of " << whole.size() << " was changed unseen";
+    }
+    std::ofstream(path, std::ios::binary) << whole;
+    return damage;
+}
+
+TEST(Damage, ofACheckpointIsHarmlessOrFound) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path() / "checkpoints");
+    const fs::path path = folder.path() / "checkpoints" / "000003.h5";
+    const State state = someState();
+    save(path, state);
+    ASSERT_EQ(checkCheckpoint(path), "");
+    ASSERT_EQ(load(path), state);
+    const Damage damage = flipAll(path, 5, [&] {
+        const bool found = !checkCheckpoint(path).empty();
+        try {
+            const State read = load(path);
+            // What a search for an intact one would accept must be so.
+            return read == state ? 0 : 2;
+        } catch (const Failure&) {
+            return found ? 1 : 2;  // or it would block a restart instead of being passed over
+        }
+    });
+    EXPECT_GT(damage.found, 300);
+    EXPECT_GT(damage.accepted, 0);  // bytes that HDF5 does not use
+    RecordProperty("found", static_cast<int>(damage.found));
+    RecordProperty("accepted", static_cast<int>(damage.accepted));
+}
+
+TEST(Damage, ofOneCheckpointLeavesTheOneBefore) {
+    const TemporaryFolder folder;
+    const fs::path before = folder.path() / "checkpoints" / "000000.h5",
+                   last = folder.path() / "checkpoints" / "000001.h5";
+    save(before, someState());
+    save(last, someState());
+    const std::string whole = readFile(last);
+    for (const std::string word : {"scheme", "implicit", "step", "contents", "checksum", "place"}) {
+        std::string changed = whole;
+        const std::size_t at = changed.find(word);
+        ASSERT_NE(at, std::string::npos) << word;
+        changed[at] ^= 4;
+        std::ofstream(last, std::ios::binary) << changed;
+        const CheckpointSearch found = latestCheckpoint(MPI_COMM_WORLD, folder.path());
+        EXPECT_EQ(found.path, before) << word;
+        ASSERT_EQ(found.warnings.size(), 1u) << word;
+        EXPECT_NE(found.warnings[0].find("000001.h5"), std::string::npos);
+    }
+    std::ofstream(before, std::ios::binary) << whole.substr(0, whole.size() / 2);
+    try {
+        latestCheckpoint(MPI_COMM_WORLD, folder.path());
+        FAIL() << "no checkpoint is intact";
+    } catch (const Failure& failure) {
+        const std::string text = failure.what();
+        for (const char* word :
+             {"none of the 2 checkpoints is intact", "000000.h5", "000001.h5", "startFrom: firstTime"})
+            EXPECT_NE(text.find(word), std::string::npos) << text;
+    }
+}
+
+PolyData sphereOfFour() {
+    PolyData data;
+    data.points = {Vec3(0, 0, 0), Vec3(1e-6, 0, 0), Vec3(0, 1e-6, 0), Vec3(0, 0, 1e-6)};
+    data.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    data.point.integers["id"] = {0, 1, 2, 3};
+    data.point.scalars["spacing"] = {5e-7, 5e-7, 5e-7, 5e-7};
+    data.point.vectors["velocity"] = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9), Vec3(1, 1, 1)};
+    data.field = {{"TimeValue", 0}, {"strain", 0}};
+    data.texts = {{"cell.edge", "6e-07 m"}, {"cell.shape.type", "spheroid"}};
+    return data;
+}
+
+TEST(Damage, ofAStartIsHarmlessOrFound) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "rbc.vtp";
+    const PolyData before = sphereOfFour();
+    writeVtp(path, before);
+    ASSERT_TRUE(readVtp(path).verified);
+    const std::string whole = dataChecksum(before);
+    // The text's structure, which VTK's parser believes, is left to tests/fuzz: here are the numbers, the names and the values.
+    const std::string bytes = readFile(path);
+    const std::size_t data = bytes.find("<AppendedData");
+    const Damage damage = flipAll(path, 1, [&, at = std::size_t{0}]() mutable {
+        if (at++ < data + 28) return 1;
+        try {
+            const PolyData after = readVtp(path);
+            return !after.verified || dataChecksum(after) == whole ? 0 : 2;
+        } catch (const Failure&) {
+            return 1;
+        }
+    });
+    EXPECT_GT(damage.found, 300);
+}
+
+TEST(Damage, ofNamesAndValuesChangesTheChecksum) {
+    const PolyData before = sphereOfFour();
+    const std::string whole = dataChecksum(before);
+    EXPECT_EQ(whole.size(), 16u);
+    const auto differs = [&](const auto& change) {
+        PolyData after = before;
+        change(after);
+        return dataChecksum(after) != whole;
+    };
+    EXPECT_TRUE(differs([](PolyData& d) { d.points[2][1] = std::nextafter(d.points[2][1], 1.0); }));
+    EXPECT_TRUE(differs([](PolyData& d) { std::swap(d.points[0], d.points[1]); }));
+    EXPECT_TRUE(differs([](PolyData& d) { std::swap(d.triangles[0][0], d.triangles[0][1]); }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.triangles.pop_back(); }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.point.integers["id"][3] = 4; }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.point.scalars["spacinf"] = d.point.scalars.extract("spacing").mapped(); }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.point.vectors.clear(); }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.field["strain"] = 1e-300; }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.texts["cell.edge"] = "6e-07 n"; }));
+    EXPECT_TRUE(differs([](PolyData& d) { d.texts["cell"] = ""; }));
+    EXPECT_FALSE(differs([](PolyData& d) { d.texts["checksum"] = "any"; }));
+}
+
+}  // namespace
+}  // namespace corpuscle::io
