@@ -249,8 +249,7 @@ void Application::reportFailure(ExitCode code, const std::exception& error, bool
             list.push_back({{"message", error.what()}});
         nlohmann::ordered_json json{{"problems", list}};
         if (caseError && caseError->more()) json["more"] = caseError->more();
-        const std::string text = json.dump(
-            2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+        const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
         std::fputs((text + "\n").c_str(), stdout);
         std::fflush(stdout);
     }

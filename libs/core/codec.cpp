@@ -48,9 +48,10 @@ bool inRange(const Node& node, double value, Dimension dimension, const Range& r
 // Why a text that people write for a number is not one; "" where there is nothing to say about it in particular.
 std::string whyNoNumber(const std::string& text) {
     static const std::regex notFinite("[+-]?[.]?(?:nan|inf|infinity)(?: .*)?", std::regex::icase),
-        hexadecimal("[+-]?0[xX].*"), octal("0o[0-7]+.*"), comma("([+-]?[0-9]+),([0-9]+)(.*)"), grouped("[+-]?[0-9]+(?:_[0-9]+)+.*"),
-        variable("[$%#@]\\{?[A-Za-z].*|\\{\\{.*"), expression("[+-]?[0-9.]+ ?(?:[*/x+]|\xC3\x97|\\*\\*) ?[0-9].*|sqrt.*|pi.*"),
-        percent("[+-]?[0-9.]+ ?%"), ending("(.*[^ ]) *[;,]"), minus("(?:\xE2\x88\x92|\xE2\x80\x93).*");
+        hexadecimal("[+-]?0[xX].*"), octal("0o[0-7]+.*"), comma("([+-]?[0-9]+),([0-9]+)(.*)"),
+        grouped("[+-]?[0-9]+(?:_[0-9]+)+.*"), variable("[$%#@]\\{?[A-Za-z].*|\\{\\{.*"),
+        expression("[+-]?[0-9.]+ ?(?:[*/x+]|\xC3\x97|\\*\\*) ?[0-9].*|sqrt.*|pi.*"), percent("[+-]?[0-9.]+ ?%"),
+        ending("(.*[^ ]) *[;,]"), minus("(?:\xE2\x88\x92|\xE2\x80\x93).*");
     std::smatch part;
     if (text.size() > 200) return "it is too long for one";
     if (std::regex_match(text, notFinite)) return "it is not a finite number";
@@ -60,7 +61,8 @@ std::string whyNoNumber(const std::string& text) {
         return fmt::format("decimals are written with a point, '{}.{}{}'", part[1].str(), part[2].str(), part[3].str());
     if (std::regex_match(text, percent)) return "percentages are not read: divide by 100";
     if (std::regex_match(text, grouped)) return "digits are not grouped with '_'";
-    if (std::regex_match(text, variable)) return "there are no variables in a dictionary: write the value out, or give it with -set";
+    if (std::regex_match(text, variable))
+        return "there are no variables in a dictionary: write the value out, or give it with -set";
     if (std::regex_match(text, expression)) return "expressions are not evaluated: write their value";
     if (std::regex_match(text, minus)) return "its first sign is a dash, write '-'";
     return "";
@@ -72,7 +74,8 @@ bool isBeyond(const std::string& text) {
     double number = 0;
     const auto [end, error] = std::from_chars(first, text.data() + text.size(), number);
     const double size = std::abs(number);
-    return error == std::errc::result_out_of_range || (error == std::errc() && size != 0 && !(size >= leastNumber && size < largestNumber));
+    return error == std::errc::result_out_of_range ||
+           (error == std::errc() && size != 0 && !(size >= leastNumber && size < largestNumber));
 }
 
 std::string unitsOf(Dimension dimension) {
@@ -97,21 +100,25 @@ std::optional<double> readNumber(const Node& node, Dimension dimension, const Ra
     if (const std::string why = whyNoNumber(text); !why.empty())
         return wrong(fmt::format("'{}' is not a number: {}; {} is expected", found, why, expected));
     if (isBeyond(text))
-        return wrong(fmt::format("'{}' is beyond what can be computed with: numbers lie between {} and {} in size", found,
-                                 leastNumber, largestNumber));
+        return wrong(fmt::format("'{}' is beyond what can be computed with: numbers lie between {} and {} in size",
+                                 found, leastNumber, largestNumber));
     Quantity q;
     try {
         q = parseQuantity(text);
     } catch (const std::invalid_argument&) {
         const std::string unit = unitOf(text);
-        if (unit == text) return wrong(fmt::format("'{}' does not start with a number; {} is expected", found, expected));
-        if (si.empty()) return wrong(fmt::format("'{}' has something after the number; a number without unit is expected", found));
+        if (unit == text)
+            return wrong(fmt::format("'{}' does not start with a number; {} is expected", found, expected));
+        if (si.empty())
+            return wrong(fmt::format("'{}' has something after the number; a number without unit is expected", found));
         const std::string nearest = nearestUnit(unit, dimension);
         return wrong(fmt::format("unknown unit '{}'.{} Known for {}: {}", shown(unit),
-                                 nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest), si, unitsOf(dimension)));
+                                 nearest.empty() ? "" : fmt::format(" Did you mean '{}'?", nearest), si,
+                                 unitsOf(dimension)));
     }
     if (q.inSpacings)
-        return wrong(fmt::format("'{}' is in particle spacings, which are not allowed here; {} is expected", found, expected));
+        return wrong(
+            fmt::format("'{}' is in particle spacings, which are not allowed here; {} is expected", found, expected));
     if (!q.hasUnit && !si.empty()) return wrong(fmt::format("'{}' has no unit; {} is expected", found, expected));
     if (si.empty() && q.hasUnit) return wrong(fmt::format("'{}' has a unit, but this is a number without one", found));
     if (q.dimension != dimension)
@@ -240,7 +247,8 @@ Codec<bool> boolean() {
                     value = false;
                 else
                     complain(node, problems,
-                             fmt::format("found {}; true or false is expected{}", node.kindText(), node.quoted ? ", without quotation marks" : ""));
+                             fmt::format("found {}; true or false is expected{}", node.kindText(),
+                                         node.quoted ? ", without quotation marks" : ""));
             },
             [](const bool& value) { return Node::word(value ? "true" : "false"); }};
 }
@@ -255,17 +263,22 @@ Codec<std::string> word(std::vector<std::string> allowed) {
 }
 
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed) {
-    return {[allowed = std::move(allowed)](const Node& node, std::vector<std::string>& values, Problems& problems) {
-                if (!isListOf(node, 0, fmt::format("a list like '[{}]'", joinWords(allowed.empty() ? std::vector<std::string>{"one", "two"} : allowed)), problems) || !hasNoUnit(node, problems)) return;
-                values.clear();
-                for (const Node& item : node.items)
-                    if (!isScalar(item, "a word", problems))
-                        continue;
-                    else if (!allowed.empty() ? isAllowed(item, allowed, problems)
-                                              : isNameOf(item, item.scalar, problems))
-                        values.push_back(item.scalar);
-            },
-            [](const std::vector<std::string>& values) { return Node::list(values); }};
+    return {
+        [allowed = std::move(allowed)](const Node& node, std::vector<std::string>& values, Problems& problems) {
+            if (!isListOf(node, 0,
+                          fmt::format("a list like '[{}]'",
+                                      joinWords(allowed.empty() ? std::vector<std::string>{"one", "two"} : allowed)),
+                          problems) ||
+                !hasNoUnit(node, problems))
+                return;
+            values.clear();
+            for (const Node& item : node.items)
+                if (!isScalar(item, "a word", problems))
+                    continue;
+                else if (!allowed.empty() ? isAllowed(item, allowed, problems) : isNameOf(item, item.scalar, problems))
+                    values.push_back(item.scalar);
+        },
+        [](const std::vector<std::string>& values) { return Node::list(values); }};
 }
 
 Codec<std::string> name() {
@@ -297,8 +310,9 @@ Codec<std::string> wordOrQuantity(std::vector<std::string> allowed, Dimension di
                 if (isWord || readNumber(node, dimension, range, own))
                     value = text;
                 else if (unitOf(text) == text)
-                    complain(node, problems, fmt::format("'{}' is not allowed.{} Allowed: {}", shown(text),
-                                                         didYouMean(text, allowed), expected));
+                    complain(node, problems,
+                             fmt::format("'{}' is not allowed.{} Allowed: {}", shown(text), didYouMean(text, allowed),
+                                         expected));
                 else
                     readNumber(node, dimension, range, problems);
             },

@@ -229,7 +229,8 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
         if (parser.HandleNextDocument(tree) && tree.hasRoot()) {
             Node read = tree.root();
             if (tableOnly && read.kind != Node::Kind::table && !read.isNothing())
-                complain(read.mark, fmt::format("found {}; a dictionary is a table of 'key: value' lines", read.kindText()), 0);
+                complain(read.mark,
+                         fmt::format("found {}; a dictionary is a table of 'key: value' lines", read.kindText()), 0);
             else if (!(tableOnly && read.isNothing()))
                 root = std::move(read);
             TreeBuilder second(shownAs, units, problems);

@@ -27,8 +27,11 @@ bool isUtf16(const std::string& text) {
 std::size_t characterAt(const std::string& text, std::size_t i) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
     const unsigned char first = byte(i);
-    const std::size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3
-                               : first >= 0xF0 && first < 0xF5 ? 4 : 0;
+    const std::size_t length = first < 0x80                    ? 1
+                               : first >= 0xC2 && first < 0xE0 ? 2
+                               : first >= 0xE0 && first < 0xF0 ? 3
+                               : first >= 0xF0 && first < 0xF5 ? 4
+                                                               : 0;
     if (length == 0 || i + length > text.size()) return 0;
     for (std::size_t k = 1; k < length; ++k)
         if ((byte(i + k) & 0xC0) != 0x80) return 0;
@@ -78,10 +81,14 @@ void refuseDirectives(const std::string& text, const std::string& shownAs, Probl
         const std::string_view all = std::string_view(text).substr(begin, end - begin);
         const std::size_t column = std::min(all.find_first_not_of(' '), all.size());
         const std::string_view rest = all.substr(column);
-        for (const std::string_view word : {"#includeEtc", "#includeIfPresent", "#include", "#calc", "#inputMode", "#remove"})
-            if (rest.starts_with(word) && (rest.size() == word.size() || rest[word.size()] == ' ' || rest[word.size()] == '"')) {
-                problems.add({shownAs, line, static_cast<int>(column) + 1}, "",
-                             fmt::format("'{}' has no effect: a line that starts with '#' is a comment. Write the keys out here", word));
+        for (const std::string_view word :
+             {"#includeEtc", "#includeIfPresent", "#include", "#calc", "#inputMode", "#remove"})
+            if (rest.starts_with(word) &&
+                (rest.size() == word.size() || rest[word.size()] == ' ' || rest[word.size()] == '"')) {
+                problems.add(
+                    {shownAs, line, static_cast<int>(column) + 1}, "",
+                    fmt::format("'{}' has no effect: a line that starts with '#' is a comment. Write the keys out here",
+                                word));
                 break;
             }
         begin = end + 1;
@@ -91,8 +98,9 @@ void refuseDirectives(const std::string& text, const std::string& shownAs, Probl
 }  // namespace
 
 std::string tooLarge(std::size_t bytes) {
-    return fmt::format("the file has {:.1f} MB; a dictionary has at most {:.0f} MB. Is it another file under this name?",
-                       1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(largestDictionary));
+    return fmt::format(
+        "the file has {:.1f} MB; a dictionary has at most {:.0f} MB. Is it another file under this name?",
+        1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(largestDictionary));
 }
 
 DictionaryText dictionaryText(std::string text, const std::string& shownAs, Problems& problems) {
@@ -178,28 +186,34 @@ DictionaryText dictionaryText(std::string text, const std::string& shownAs, Prob
 
 std::optional<Problem> foreignHabit(const std::string& text, const std::string& shownAs, int line) {
     static const std::regex comment(" *(//|/\\*).*"), ending("[^#]*; *"), noBlank(" *(?:- )?([A-Za-z]\\w*):([^ ].*)"),
-        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *"), noColon(" *(?:- )?([A-Za-z]\\w*) +([^:]*)"),
-        heading(" *\\[.*\\] *");
+        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *"),
+        noColon(" *(?:- )?([A-Za-z]\\w*) +([^:]*)"), heading(" *\\[.*\\] *");
     constexpr std::size_t longest = 200;
     constexpr int before = 2;
     std::istringstream lines(text);
     std::string now, last;
     for (int n = 1; std::getline(lines, now) && (line == 0 || n <= line); ++n) {
-        if (now.size() > longest || now.find_first_not_of(' ') == std::string::npos || now[now.find_first_not_of(' ')] == '#') continue;
+        if (now.size() > longest || now.find_first_not_of(' ') == std::string::npos ||
+            now[now.find_first_not_of(' ')] == '#')
+            continue;
         if (line == 0 || n + before >= line) {
             std::smatch part;
             const int column = static_cast<int>(now.find_first_not_of(' ')) + 1;
             const auto found = [&](const std::string& message) { return Problem{{shownAs, n, column}, "", message}; };
             if (std::regex_match(now, part, comment))
                 return found(fmt::format("a comment starts with '#', not with '{}'", part[1].str()));
-            if (std::regex_match(now, ending))
-                return found("lines do not end with ';' here: write 'key: value'");
+            if (std::regex_match(now, ending)) return found("lines do not end with ';' here: write 'key: value'");
             if (std::regex_match(now, part, equals))
                 return found(fmt::format("'=' in place of ':': write '{}: {}'", part[1].str(), part[2].str()));
             if (std::regex_match(now, part, noBlank) && !part[2].str().starts_with("//"))
-                return found(fmt::format("a blank is missing after the ':': write '{}: {}'", part[1].str(), part[2].str()));
-            if (now.substr(static_cast<std::size_t>(column) - 1) == "{" && std::regex_match(last, part, braces) && part[1].matched)
-                return found(fmt::format("a table starts with a ':' after its name: write '{}:', and its keys below, indented by two blanks, without braces", part[1].str()));
+                return found(
+                    fmt::format("a blank is missing after the ':': write '{}: {}'", part[1].str(), part[2].str()));
+            if (now.substr(static_cast<std::size_t>(column) - 1) == "{" && std::regex_match(last, part, braces) &&
+                part[1].matched)
+                return found(
+                    fmt::format("a table starts with a ':' after its name: write '{}:', and its keys below, indented "
+                                "by two blanks, without braces",
+                                part[1].str()));
         }
         last = now;
     }

@@ -49,7 +49,8 @@ void Problems::add(Mark mark, std::string key, std::string message) {
             if (static_cast<unsigned char>(c) < 0x20) c = ' ';
         return text;
     };
-    list_.push_back({std::move(mark), oneLine(shortened(key, longestKey)), oneLine(shortened(message, longestMessage))});
+    list_.push_back(
+        {std::move(mark), oneLine(shortened(key, longestKey)), oneLine(shortened(message, longestMessage))});
 }
 
 void Problems::throwIfAny() const {

@@ -21,11 +21,17 @@ constexpr const char* between = "(?: ?[*.] ?| )";  // factors
 
 // Kinds of units: an alternative of symbols each.
 const std::map<std::string, std::string>& kinds() {
-    static const std::map<std::string, std::string> all{
-        {"length", "#m"},       {"time", "(?:#s|min|h)"},  {"mass", "#g"},
-        {"force", "#(?:N|dyn)"}, {"pressure", "(?:#Pa|#bar|mmHg|[mc]mH2O)"}, {"energy", "#(?:J|erg)"},
-        {"poise", "#P"},        {"volume", "#[Ll]"},       {"frequency", "#Hz"},
-        {"power", "#W"},        {"angle", "(?:rad|deg)"}};
+    static const std::map<std::string, std::string> all{{"length", "#m"},
+                                                        {"time", "(?:#s|min|h)"},
+                                                        {"mass", "#g"},
+                                                        {"force", "#(?:N|dyn)"},
+                                                        {"pressure", "(?:#Pa|#bar|mmHg|[mc]mH2O)"},
+                                                        {"energy", "#(?:J|erg)"},
+                                                        {"poise", "#P"},
+                                                        {"volume", "#[Ll]"},
+                                                        {"frequency", "#Hz"},
+                                                        {"power", "#W"},
+                                                        {"angle", "(?:rad|deg)"}};
     return all;
 }
 
@@ -92,8 +98,7 @@ std::string patternOf(const Form& form) {
 std::string unitPattern(Dimension dimension) {
     std::string all;
     for (const Form& form : formsOf(dimension)) all += (all.empty() ? "" : "|") + patternOf(form);
-    for (std::size_t at = 0; (at = all.find('#', at)) != std::string::npos;)
-        all.replace(at, 1, "[afpnumckMG]?");
+    for (std::size_t at = 0; (at = all.find('#', at)) != std::string::npos;) all.replace(at, 1, "[afpnumckMG]?");
     return "(?:" + all + ")";
 }
 
@@ -109,11 +114,15 @@ void replaceAll(std::string& text, std::string_view from, std::string_view to) {
 }
 
 // Signs that stand for plain ones, in UTF-8.
-constexpr std::pair<const char*, const char*> signs[] = {
-    {"\xC2\xB5", "u"},  {"\xCE\xBC", "u"},                             // micro sign, Greek mu
-    {"\xC2\xB7", "*"},  {"\xE2\x8B\x85", "*"},                         // middle dot, dot operator
-    {"\xE2\x81\xBB\xC2\xB9", "^-1"}, {"\xE2\x81\xBB\xC2\xB2", "^-2"}, {"\xE2\x81\xBB\xC2\xB3", "^-3"},
-    {"\xC2\xB2", "^2"}, {"\xC2\xB3", "^3"}};
+constexpr std::pair<const char*, const char*> signs[] = {{"\xC2\xB5", "u"},
+                                                         {"\xCE\xBC", "u"},  // micro sign, Greek mu
+                                                         {"\xC2\xB7", "*"},
+                                                         {"\xE2\x8B\x85", "*"},  // middle dot, dot operator
+                                                         {"\xE2\x81\xBB\xC2\xB9", "^-1"},
+                                                         {"\xE2\x81\xBB\xC2\xB2", "^-2"},
+                                                         {"\xE2\x81\xBB\xC2\xB3", "^-3"},
+                                                         {"\xC2\xB2", "^2"},
+                                                         {"\xC2\xB3", "^3"}};
 
 }  // namespace
 
@@ -178,7 +187,8 @@ std::vector<std::string> usualUnits(Dimension d) {
     if (is(1, 0, -2))
         return Words{"N/m", "mN/m", "uN/m", "nN/m", "pN/um", "pN/nm", "dyn/cm", "mdyn/cm", "J/m^2", "mJ/m^2"};
     if (is(1, -1, -2))
-        return Words{"Pa", "kPa", "MPa", "GPa", "mPa", "bar", "mbar", "mmHg", "mmH2O", "cmH2O", "dyn/cm^2", "N/m^2", "pN/um^2"};
+        return Words{"Pa",   "kPa",   "MPa",   "GPa",      "mPa",   "bar",    "mbar",
+                     "mmHg", "mmH2O", "cmH2O", "dyn/cm^2", "N/m^2", "pN/um^2"};
     if (is(1, -1, -1)) return Words{"Pa s", "mPa s", "uPa s", "cP", "P", "N s/m^2", "kg/m/s", "g/cm/s", "dyn s/cm^2"};
     if (is(1, 2, -2)) return Words{"J", "aJ", "fJ", "pJ", "pN nm", "pN um", "nN nm", "N m", "N m/rad", "erg"};
     if (is(1, 0, -1)) return Words{"N s/m", "uN s/m", "nN s/m", "pN s/um", "dyn s/cm", "mPa s m", "kg/s"};
@@ -187,15 +197,15 @@ std::vector<std::string> usualUnits(Dimension d) {
 
 std::string nearestUnit(const std::string& unit, Dimension dimension) {
     static const std::map<std::string, std::string> spelled{
-        {"micron", "um"},    {"microns", "um"},     {"micrometer", "um"}, {"micrometre", "um"}, {"micrometers", "um"},
-        {"meter", "m"},      {"metre", "m"},        {"meters", "m"},      {"metres", "m"},      {"nanometer", "nm"},
-        {"millimeter", "mm"}, {"sec", "s"},         {"second", "s"},      {"seconds", "s"},     {"secs", "s"},
-        {"msec", "ms"},      {"usec", "us"},        {"minutes", "min"},   {"minute", "min"},    {"mins", "min"},
-        {"hours", "h"},      {"hour", "h"},         {"hr", "h"},          {"hrs", "h"},         {"poise", "P"},
-        {"Poise", "P"},      {"centipoise", "cP"},  {"dyne", "dyn"},      {"dynes/cm", "dyn/cm"}, {"dyne/cm", "dyn/cm"},
-        {"pascal", "Pa"},    {"Pascal", "Pa"},      {"newton", "N"},      {"Newton", "N"},      {"joule", "J"},
-        {"Joule", "J"},      {"Pas", "Pa s"},       {"mPas", "mPa s"},    {"torr", "mmHg"},     {"Torr", "mmHg"},
-        {"gcm-3", "g/cm^3"}, {"cc", "cm^3"},        {"cps", "cP"},        {"per second", "1/s"}};
+        {"micron", "um"},     {"microns", "um"},    {"micrometer", "um"}, {"micrometre", "um"},   {"micrometers", "um"},
+        {"meter", "m"},       {"metre", "m"},       {"meters", "m"},      {"metres", "m"},        {"nanometer", "nm"},
+        {"millimeter", "mm"}, {"sec", "s"},         {"second", "s"},      {"seconds", "s"},       {"secs", "s"},
+        {"msec", "ms"},       {"usec", "us"},       {"minutes", "min"},   {"minute", "min"},      {"mins", "min"},
+        {"hours", "h"},       {"hour", "h"},        {"hr", "h"},          {"hrs", "h"},           {"poise", "P"},
+        {"Poise", "P"},       {"centipoise", "cP"}, {"dyne", "dyn"},      {"dynes/cm", "dyn/cm"}, {"dyne/cm", "dyn/cm"},
+        {"pascal", "Pa"},     {"Pascal", "Pa"},     {"newton", "N"},      {"Newton", "N"},        {"joule", "J"},
+        {"Joule", "J"},       {"Pas", "Pa s"},      {"mPas", "mPa s"},    {"torr", "mmHg"},       {"Torr", "mmHg"},
+        {"gcm-3", "g/cm^3"},  {"cc", "cm^3"},       {"cps", "cP"},        {"per second", "1/s"}};
     const std::string plain = plainUnits(unit);
     const std::string pattern = unitPattern(dimension);
     if (const auto found = spelled.find(plain); found != spelled.end() && matches(found->second, pattern))
@@ -206,7 +216,8 @@ std::string nearestUnit(const std::string& unit, Dimension dimension) {
 std::string unitOf(const std::string& quantity) {
     static const std::regex number(std::string(" *[+-]?") + digits + "(?:[eE][+-]?[0-9]+)? *");
     std::smatch found;
-    if (quantity.size() > 200 || !std::regex_search(quantity, found, number, std::regex_constants::match_continuous)) return quantity;
+    if (quantity.size() > 200 || !std::regex_search(quantity, found, number, std::regex_constants::match_continuous))
+        return quantity;
     return found.suffix();
 }
 

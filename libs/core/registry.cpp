@@ -34,9 +34,9 @@ std::optional<std::string> modelName(const Node& node, const std::string& family
     }
     for (const std::string& k : known)
         if (k == name->scalar) return k;
-    problems.add(
-        name->mark, name->path,
-        fmt::format("unknown {} '{}'.{} Known: {}", family, shortened(name->scalar, 80), didYouMean(name->scalar, known), list));
+    problems.add(name->mark, name->path,
+                 fmt::format("unknown {} '{}'.{} Known: {}", family, shortened(name->scalar, 80),
+                             didYouMean(name->scalar, known), list));
     return std::nullopt;
 }
 

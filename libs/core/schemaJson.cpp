@@ -54,6 +54,7 @@ class Writer {
             Json property{{"description", f.text}};
             if (!f.fallback.empty()) property["default"] = defaultValue(f.fallback);
             property.update(value(f));
+            property["description"] = f.text;  // of the key, not of the table that it holds
             properties[f.key] = std::move(property);
             if (f.required) required.push_back(f.key);
         }
@@ -93,7 +94,8 @@ class Writer {
                                     {"allOf", std::move(branches)}};
         }
         std::string pointer = family;
-        for (auto at = pointer.find(' '); at != std::string::npos; at = pointer.find(' ')) pointer.replace(at, 1, "%20");
+        for (auto at = pointer.find(' '); at != std::string::npos; at = pointer.find(' '))
+            pointer.replace(at, 1, "%20");
         return {{"$ref", "#/definitions/" + pointer}};
     }
 
@@ -143,7 +145,8 @@ class Writer {
         std::vector<std::string> words;
         if (!f.alternative.empty()) words.push_back(f.alternative);
         if (f.type == "quantity") return quantity(f, words);
-        if (f.type == "length") return text(orWords(words, lengthPattern(f.range)), f.description() + ", such as 3.0 dx");
+        if (f.type == "length")
+            return text(orWords(words, lengthPattern(f.range)), f.description() + ", such as 3.0 dx");
         if (f.type == "integer") return number("integer", f.range, orWords(words, integerPattern(f.range)), f);
         if (f.type == "word or quantity")
             return text(orWords(f.words, quantityPattern(f.dimension, f.range)), f.description());
@@ -169,7 +172,9 @@ class Writer {
             return {{"type", "array"}, {"items", f.words.empty() ? text(nameText()) : Json{{"enum", f.words}}}};
         if (f.type == "list") return {{"type", "array"}, {"items", item(f)}};
         if (f.type == "map" || f.type == "models")
-            return {{"type", "object"}, {"propertyNames", {{"pattern", whole(nameText())}}}, {"additionalProperties", item(f)}};
+            return {{"type", "object"},
+                    {"propertyNames", {{"pattern", whole(nameText())}}},
+                    {"additionalProperties", item(f)}};
         return item(f);
     }
 
@@ -200,7 +205,8 @@ nlohmann::ordered_json jsonSchema(const SchemaInfo& info) {
     return json;
 }
 
-nlohmann::ordered_json jsonSchemaOfModel(const std::string& title, const std::string& description, const std::string& family) {
+nlohmann::ordered_json jsonSchemaOfModel(const std::string& title, const std::string& description,
+                                         const std::string& family) {
     Writer writer;
     const Json model = writer.reference(family);
     return {{"$schema", "http://json-schema.org/draft-07/schema#"},

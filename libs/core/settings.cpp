@@ -172,8 +172,9 @@ void SchemaBase::eachEntry(const Node& node, Problems& problems,
     }
     for (const auto& [key, value] : node.entries)
         if (!isName(key))
-            problems.add(value.place(), value.path,
-                         fmt::format("'{}' is not a name: a letter, then letters, digits, '-' and '_'", shortened(key, 80)));
+            problems.add(
+                value.place(), value.path,
+                fmt::format("'{}' is not a name: a letter, then letters, digits, '-' and '_'", shortened(key, 80)));
         else if (matches(key, reservedWords))
             problems.add(value.place(), value.path,
                          fmt::format("'{}' is not a name: YAML reads it as true, false or nothing; take another", key));
@@ -196,14 +197,16 @@ namespace {
 std::string quotedList(const std::vector<std::string>& keys) { return fmt::format("'{}'", joinWords(keys, "', '")); }
 
 // What is wrong with a scalar is said together with the word that may stand in its place.
-void readOr(const std::string& word, const Node& value, Problems& problems, const std::function<void(Problems&)>& read) {
+void readOr(const std::string& word, const Node& value, Problems& problems,
+            const std::function<void(Problems&)>& read) {
     if (word.empty() || value.kind != Node::Kind::scalar) return read(problems);
     Problems own;
     read(own);
     try {
         own.throwIfAny();
     } catch (const CaseError& error) {
-        for (const Problem& p : error.problems()) problems.add(p.mark, p.key, fmt::format("{}, or {}", p.message, word));
+        for (const Problem& p : error.problems())
+            problems.add(p.mark, p.key, fmt::format("{}, or {}", p.message, word));
     }
 }
 
@@ -267,19 +270,23 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
                 advice = fmt::format(" Did you mean '{}'?", nearest);
             } else if (nearest = nearestWord(key, known); !nearest.empty()) {
                 const Mark& there = node.find(nearest)->place();
-                advice = fmt::format(" '{}' is given already{}: keep one.", nearest, there.line ? fmt::format(" in line {}", there.line) : "");
+                advice = fmt::format(" '{}' is given already{}: keep one.", nearest,
+                                     there.line ? fmt::format(" in line {}", there.line) : "");
             }
         }
         misspelt.push_back(nearest);
-        problems.add(value.place(), value.path, fmt::format("unknown key '{}'.{} {}", shortened(key, 80), advice, allowed));
+        problems.add(value.place(), value.path,
+                     fmt::format("unknown key '{}'.{} {}", shortened(key, 80), advice, allowed));
     }
 
     for (const Field& f : fields_) {
         if (&f == rest) {
             if (const std::string key = withoutName(others, f.info); !key.empty())
-                problems.add(others.find(key)->place(), node.path,
-                             fmt::format("'{0}' stands without the name that it belongs to: each entry has a name of its "
-                                         "own, 'NAME: {{{0}: ...}}'. An entry is {1}", key, f.info.text));
+                problems.add(
+                    others.find(key)->place(), node.path,
+                    fmt::format("'{0}' stands without the name that it belongs to: each entry has a name of its "
+                                "own, 'NAME: {{{0}: ...}}'. An entry is {1}",
+                                key, f.info.text));
             else
                 f.read(object, others, problems);
         } else if (const Node* value = node.find(f.info.key)) {

@@ -117,8 +117,7 @@ Case Case::read(const Application& app) {
     readInto(c.numerics, "system/numerics.yaml");
     readCells(app, misnamed, c, problems);
     readInto(c.fluid, "constant/fluid.yaml");
-    if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml"))
-        readInto(c.bodies, "constant/bodies.yaml");
+    if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml")) readInto(c.bodies, "constant/bodies.yaml");
     if (!misnamed.contains("constant/flow.yaml")) {
         const std::size_t before = problems.count();
         const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);

@@ -22,8 +22,7 @@ std::string lowered(std::string text) {
 
 // In upper case with any ending: README.md, LICENSE, NOTES.txt. Or hidden, or an editor's copy.
 bool isPassedOver(const std::string& name) {
-    static const std::vector<std::string> copies{".swp", ".swo",  ".bak", ".orig", ".rej", ".old",
-                                                 ".tmp", ".save"};
+    static const std::vector<std::string> copies{".swp", ".swo", ".bak", ".orig", ".rej", ".old", ".tmp", ".save"};
     if (name.front() == '.' || name.front() == '#' || name.back() == '~') return true;
     const std::filesystem::path path(name);
     if (isOneOf(lowered(path.extension().string()), copies)) return true;
@@ -62,8 +61,14 @@ Finding find(const std::string& file, const std::vector<std::string>& absent) {
     if (!isLike) return {};
     if (isOneOf(stem, here)) {
         const std::string right = folder + stem + ".yaml";
-        if (isOneOf(right, absent)) return {right, fmt::format("no program reads this file: dictionaries end with '.yaml'. Rename it to {}", right)};
-        return {"", fmt::format("no program reads this file, since {} is there; remove it, or add '.bak' to its name to keep a copy", right)};
+        if (isOneOf(right, absent))
+            return {right,
+                    fmt::format("no program reads this file: dictionaries end with '.yaml'. Rename it to {}", right)};
+        return {
+            "",
+            fmt::format(
+                "no program reads this file, since {} is there; remove it, or add '.bak' to its name to keep a copy",
+                right)};
     }
     std::vector<std::string> missing;
     for (const std::string& d : absent)
@@ -71,8 +76,9 @@ Finding find(const std::string& file, const std::vector<std::string>& absent) {
     std::string nearest = nearestWord(stem, missing);
     if (nearest.empty() && !isYaml && !ending.empty()) return {};
     const std::string meant = nearest.empty() ? "" : folder + nearest + ".yaml";
-    return {meant, fmt::format("no program reads this file.{} Dictionaries of {}: {}. A copy to keep may end with '.bak'",
-                               meant.empty() ? "" : fmt::format(" Did you mean '{}'?", meant), folder, joinWords(here))};
+    return {meant,
+            fmt::format("no program reads this file.{} Dictionaries of {}: {}. A copy to keep may end with '.bak'",
+                        meant.empty() ? "" : fmt::format(" Did you mean '{}'?", meant), folder, joinWords(here))};
 }
 
 }  // namespace

@@ -353,7 +353,8 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
     for (const auto& [what, size, dimension] :
          {Value{"the density of the fluid", c.flow.density, unit::kilogramPerMetre3},
           Value{"the shear modulus of the membrane", shearModulus, unit::newtonPerMetre},
-          Value{"the shear rate", c.flow.shearRate, unit::perSecond}, Value{"the speed", c.flow.speed, unit::metrePerSecond},
+          Value{"the shear rate", c.flow.shearRate, unit::perSecond},
+          Value{"the speed", c.flow.speed, unit::metrePerSecond},
           Value{"the rate of the flow", c.flow.rate, unit::perSecond},
           Value{"the time in which the flow changes", c.flow.transient, unit::second},
           Value{"the speed of sound", soundSpeed, unit::metrePerSecond},

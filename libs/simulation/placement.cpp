@@ -186,7 +186,14 @@ Placed placed(const SurfaceSettings& settings, bool isBody, std::size_t number, 
 }  // namespace
 
 std::vector<Problem> misplaced(const Case& input, const std::vector<Placed>& all) {
-    return Clearance(input, all).problems();
+    Problems problems;
+    for (const Problem& p : Clearance(input, all).problems()) problems.add(p.mark, p.key, p.message);
+    try {
+        input.throwIfAny(problems);
+    } catch (const CaseError& error) {  // with lines and columns now
+        return error.problems();
+    }
+    return {};
 }
 
 std::vector<Placed> placedOf(const Case& input, const std::vector<geometry::TriangleMesh>& cells,

@@ -73,8 +73,7 @@ std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
         files.push_back(input.directory / "results" / name / (name + "_000000") /
                         fmt::format(".{}_000000_{}.vtp.part", name, ranks - 1));
     for (const auto& observer : input.observers.models)
-        files.push_back(input.directory / "postProcessing" / observer.first / "0.123456789" /
-                        "observer.csv.0000000.tmp");
+        files.push_back(input.directory / "postProcessing" / observer.first / "observer.csv.0000000.tmp");
     return files;
 }
 

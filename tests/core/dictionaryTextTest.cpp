@@ -34,7 +34,9 @@ std::string repeated(const std::string& text, std::size_t n) {
 }
 
 TEST(DictionaryText, byteOrderMarkAndLineEndings) {
-    for (const std::string text : {"\xEF\xBB\xBF" "a: 1\nb: 2\n", "a: 1\r\nb: 2\r\n", "a: 1\rb: 2\r", "a: 1\nb: 2"}) {
+    for (const std::string text : {"\xEF\xBB\xBF"
+                                   "a: 1\nb: 2\n",
+                                   "a: 1\r\nb: 2\r\n", "a: 1\rb: 2\r", "a: 1\nb: 2"}) {
         Problems problems;
         const Node root = parseDictionary(text, "f.yaml", problems);
         EXPECT_TRUE(problems.empty()) << faults(text);
@@ -46,9 +48,19 @@ TEST(DictionaryText, byteOrderMarkAndLineEndings) {
 }
 
 TEST(DictionaryText, whatIsNoTextIsSaidOnce) {
-    expectOne(std::string("\xFF\xFE" "a\0:\0 \0" "1\0", 10), "UTF-16");
-    expectOne(std::string("\xFE\xFF\0a\0:\0 \0" "1", 10), "UTF-16");
-    expectOne(std::string("a\0:\0 \0" "1\0\n\0", 10), "UTF-16");
+    expectOne(std::string("\xFF\xFE"
+                          "a\0:\0 \0"
+                          "1\0",
+                          10),
+              "UTF-16");
+    expectOne(std::string("\xFE\xFF\0a\0:\0 \0"
+                          "1",
+                          10),
+              "UTF-16");
+    expectOne(std::string("a\0:\0 \0"
+                          "1\0\n\0",
+                          10),
+              "UTF-16");
     expectOne(std::string("a: 1\n\0\0\0\0", 9), "f.yaml:2:1: control character 0x00");
     expectOne("a: 1\nb: \xE4\n", "f.yaml:2:4: byte 0xE4 is not UTF-8");
     expectOne("a: \xC3", "not UTF-8");
@@ -70,7 +82,8 @@ TEST(DictionaryText, deepNesting) {
 struct Few {
     double a = 0;
     static const Schema<Few>& schema() {
-        static const Schema<Few> s = Schema<Few>("few", "").quantity("alpha", &Few::a, unit::metre, "a", {.fallback = "1 m"});
+        static const Schema<Few> s =
+            Schema<Few>("few", "").quantity("alpha", &Few::a, unit::metre, "a", {.fallback = "1 m"});
         return s;
     }
 };
@@ -102,7 +115,9 @@ TEST(DictionaryText, manyFaultsTakeLittleTimeAndFewLines) {
 
 TEST(DictionaryText, longTextsAreShortenedInMessages) {
     Problems problems;
-    read<Few>(parseDictionary("alpha: " + std::string(1000000, 'x') + "\n" + std::string(900, 'k') + ": 1\n", "f.yaml", problems), problems);
+    read<Few>(parseDictionary("alpha: " + std::string(1000000, 'x') + "\n" + std::string(900, 'k') + ": 1\n", "f.yaml",
+                              problems),
+              problems);
     try {
         problems.throwIfAny();
         ADD_FAILURE();
@@ -114,7 +129,8 @@ TEST(DictionaryText, longTextsAreShortenedInMessages) {
 }
 
 TEST(DictionaryText, habitsOfOtherFormats) {
-    expectOne("density:1000 kg/m^3\nviscosity: 1\n", "f.yaml:1:1: a blank is missing after the ':': write 'density: 1000 kg/m^3'");
+    expectOne("density:1000 kg/m^3\nviscosity: 1\n",
+              "f.yaml:1:1: a blank is missing after the ':': write 'density: 1000 kg/m^3'");
     expectOne("a: 1\nb:2\nc: 3\n", "f.yaml:2:1: a blank is missing");
     expectOne("a: {b:1}\n", "write 'b: 1'");
     expectOne("a = 1\nb = 2\n", "'=' in place of ':': write 'a: 1'");

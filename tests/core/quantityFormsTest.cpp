@@ -10,10 +10,11 @@ bool takes(const std::string& text, Dimension dimension, const Range& range = an
 }
 
 TEST(QuantityForms, whatIsTakenIsOfTheDimensionAndUsualUnitsAre) {
-    for (const Dimension d : {unit::metre, unit::second, unit::perSecond, unit::metrePerSecond, unit::metrePerSecond2,
-                              unit::kilogramPerMetre3, unit::pascal, unit::pascalSecond, unit::newton, unit::newtonPerMetre,
-                              unit::joule, unit::newtonSecondPerMetre, unit::metre2PerSecond, unit::metre.power(2),
-                              unit::metre.power(3), unit::metre.power(-1), Dimension{1, 2, -3}, Dimension{1, 0, 0}}) {
+    for (const Dimension d :
+         {unit::metre, unit::second, unit::perSecond, unit::metrePerSecond, unit::metrePerSecond2,
+          unit::kilogramPerMetre3, unit::pascal, unit::pascalSecond, unit::newton, unit::newtonPerMetre, unit::joule,
+          unit::newtonSecondPerMetre, unit::metre2PerSecond, unit::metre.power(2), unit::metre.power(3),
+          unit::metre.power(-1), Dimension{1, 2, -3}, Dimension{1, 0, 0}}) {
         EXPECT_TRUE(takes("0.1 " + d.si(), d)) << d.si();
         for (const std::string& u : usualUnits(d)) {
             EXPECT_TRUE(takes("0.1 " + u, d)) << u;

@@ -139,7 +139,7 @@ TEST(VtpFile, WhatAFileSaysOfItselfIsCheckedAgainstItsBytes) {
     expectFault(replaced(wild, ends, bytesOf(std::vector<std::int64_t>{3, 2}, true)), "not between 3 and 6");
     expectFault(replaced(wild, ends, bytesOf(std::vector<std::int64_t>{2, 5}, true)),
                 "has 6 corners, its offsets name 5");
-    expectFault(replaced(Writer({}).file(), "binary", "ascii"), "numbers are there, 12 are needed");
+    expectFault(replaced(Writer({}).file(), "binary", "ascii"), "is not a number");
 }
 
 TEST(VtpFile, XmlThatIsNoneIsNamed) {

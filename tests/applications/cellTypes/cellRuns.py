@@ -48,8 +48,8 @@ def check(programs, cell, case):
             faults.append(f"{what}: exit code {done.returncode}: {done.stderr}")
             continue
         record = json.loads((case / "run.json").read_text())
-        with open(case / "postProcessing/deformation/0/rbc.csv") as file:
-            rows = list(csv.DictReader(file))
+        with open(case / "postProcessing/deformation/rbc.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         D = float(rows[-1]["D12_inertia"])
         print(f"{what}: {record['performance']['steps']} steps, {record['performance']['wallClock_s']:.1f} s, "
               f"{record['performance']['retreats']} rollbacks, D12 {float(rows[0]['D12_inertia']):.4f} -> {D:.4f}", flush=True)

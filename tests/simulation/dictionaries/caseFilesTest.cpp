@@ -5,8 +5,9 @@
 namespace corpuscle::simulation {
 namespace {
 
-const std::vector<std::string> good{"system/",          "constant/",          "system/control.yaml", "system/numerics.yaml",
-                                    "system/mesh.yaml", "constant/fluid.yaml", "constant/flow.yaml"};
+const std::vector<std::string> good{
+    "system/",          "constant/",           "system/control.yaml", "system/numerics.yaml",
+    "system/mesh.yaml", "constant/fluid.yaml", "constant/flow.yaml"};
 
 struct Outcome {
     std::vector<Problem> problems;
@@ -33,7 +34,9 @@ Outcome with(const std::vector<std::string>& more, const std::vector<std::string
 
 TEST(CaseFiles, whatBelongsThereAndWhatIsPassedOver) {
     EXPECT_EQ(with({}).text, "");
-    EXPECT_EQ(with({"system/observers.yaml", "system/relax.yaml", "constant/membranes.yaml", "constant/bodies.yaml"}).text, "");
+    EXPECT_EQ(
+        with({"system/observers.yaml", "system/relax.yaml", "constant/membranes.yaml", "constant/bodies.yaml"}).text,
+        "");
     EXPECT_EQ(with({"system/.mesh.yaml.swp", "system/mesh.yaml~", "system/#mesh.yaml#", "system/mesh.yaml.orig",
                     "system/mesh.yaml.bak", "system/README", "system/README.md", "constant/NOTES.txt",
                     "constant/cell.stl", "constant/stressFree.vtp", "constant/inflow.csv", "constant/old/",
@@ -73,7 +76,8 @@ TEST(CaseFiles, oneMessageForAFolder) {
     const std::vector<std::string> system{"system/", "system/control.yaml", "system/numerics.yaml", "system/mesh.yaml"};
     const Outcome o = with({"System/", "constants/"}, system);
     ASSERT_EQ(o.problems.size(), 1u) << o.text;
-    EXPECT_NE(o.text.find("System/: no program reads this folder. Did you mean 'system/'?"), std::string::npos) << o.text;
+    EXPECT_NE(o.text.find("System/: no program reads this folder. Did you mean 'system/'?"), std::string::npos)
+        << o.text;
     EXPECT_TRUE(o.meant.contains("system/control.yaml"));
     EXPECT_FALSE(o.meant.contains("constant/fluid.yaml"));
 }

@@ -203,7 +203,8 @@ int main(int argc, char* argv[]) {
     return app.run([&] {
         if (!app.communicator().isRoot()) return ExitCode::done;
         if (const auto folder = app.value("schema"))
-            for (const std::filesystem::path& file : simulation::writeSchemas(*folder)) std::cout << file.string() << '\n';
+            for (const std::filesystem::path& file : simulation::writeSchemas(*folder))
+                std::cout << file.string() << '\n';
         else if (app.has("markdown"))
             std::cout << referencePage(simulation::dictionaries()) << restartPage(simulation::restartDictionaries()) << tablesPage();
         else if (!app.arguments().empty())
