@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "bodies/extrapolation.hpp"
+#include "geometry/period.hpp"
+#include "particles/period.hpp"
 
 namespace corpuscle::bodies {
 
@@ -24,6 +26,17 @@ Vec3 nearestImage(const particles::Box& box, Vec3 to, const Vec3& from) {
             if (lengths != 0) to[k] += lengths * length;
         }
     return to;
+}
+
+// f(arm) from the centre to each periodic image of a particle within `reach` of the sphere around the body.
+template <class F>
+void forArms(const ParticleSystem& system, const Body& body, int particle, double reach, F&& f) {
+    const double radius = body.solid.radius() + reach;
+    const Vec3 all = Vec3::Constant(radius),
+               from = system.store().position(static_cast<std::size_t>(particle)) - body.state.centre;
+    geometry::forImagesWithin(from, -all, all, particles::periodOf(system.box()), [&](const Vec3& arm) {
+        if (arm.squaredNorm() < radius * radius) f(arm);
+    });
 }
 
 }  // namespace
@@ -102,21 +115,18 @@ void Bodies::findMembers(const ParticleSystem& system) {
     }
 }
 
-Vec3 Bodies::arm(const ParticleSystem& system, const Body& body, int particle) const {
-    return system.box().minimumImage(system.store().position(static_cast<std::size_t>(particle)) - body.state.centre);
-}
-
 // Until the next rebuild a particle and a body each move by no more than the skin from where they are now.
 void Bodies::findCandidates(const ParticleSystem& system) {
     candidates_.clear();
     const double margin = system.support() + 2 * system.skin();
-    std::vector<double> reach2;
-    for (const Body& body : bodies_) reach2.push_back(std::pow(body.solid.radius() + margin, 2));
     for (int i = 0; i < system.owned(); ++i) {
         if (particles::isBoundary(system.store().kindOf(static_cast<std::size_t>(i)))) continue;
         Candidate candidate{i, {}};
-        for (std::size_t b = 0; b < bodies_.size(); ++b)
-            if (arm(system, bodies_[b], i).squaredNorm() < reach2[b]) candidate.bodies.push_back(static_cast<int>(b));
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            bool isNear = false;
+            forArms(system, bodies_[b], i, margin, [&](const Vec3&) { isNear = true; });
+            if (isNear) candidate.bodies.push_back(static_cast<int>(b));
+        }
         if (!candidate.bodies.empty()) candidates_.push_back(std::move(candidate));
     }
 }
@@ -133,12 +143,13 @@ void Bodies::updateNear(const ParticleSystem& system) {
         double whole = 0;
         for (const int b : candidate.bodies) {
             const Body& body = bodies_[static_cast<std::size_t>(b)];
-            const Vec3 from = arm(system, body, candidate.particle);
-            const double distance = std::max(0.0, body.distance.at(body.inBody(from)));
-            if (distance >= reach) continue;
-            surfaces.push_back({distance, share(distance, reach)});
-            whole += surfaces.back().weight;
-            groups_.near.push_back({candidate.particle, b, 0, from});
+            forArms(system, body, candidate.particle, reach, [&](const Vec3& from) {
+                const double distance = std::max(0.0, body.distance.at(body.inBody(from)));
+                if (distance >= reach) return;
+                surfaces.push_back({distance, share(distance, reach)});
+                whole += surfaces.back().weight;
+                groups_.near.push_back({candidate.particle, b, 0, from});
+            });
         }
         auto near = groups_.near.end() - static_cast<std::ptrdiff_t>(surfaces.size());
         for (const Surface& surface : surfaces) {

@@ -54,7 +54,6 @@ class Bodies : public sph::Load {
   private:
     void findCandidates(const particles::ParticleSystem& system);
     void updateNear(const particles::ParticleSystem& system);
-    Vec3 arm(const particles::ParticleSystem& system, const Body& body, int particle) const;
 
     std::vector<Body> bodies_;
     Medium medium_;

@@ -39,7 +39,7 @@ struct Body {
     Body(std::string name, std::string type, const geometry::TriangleMesh& mesh, double density,
          std::shared_ptr<const BodyMotion> behaviour, double reach, double spacing);
 
-    // Takes up its particles where they stand at t = 0, images nearest to the centre; volume: of one of them.
+    // Takes up its particles where they stand at t = 0, the images inside its surface; volume: of one of them.
     void fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach);
 
     Vec3 inBody(const Vec3& fromCentre) const { return state.orientation.conjugate() * fromCentre; }

@@ -30,9 +30,5 @@ inline Vec3 middleOf(const Cell& cell) {  // of its bounds
     for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
     return 0.5 * (low + high);
 }
-// The image of a position that is nearest to the cell of that middle.
-inline Vec3 imageNear(const particles::Box& box, const Vec3& x, const Vec3& middle) {
-    return middle + box.minimumImage(x - middle);
-}
 
 }  // namespace corpuscle::coupling

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/periodicSurface.hpp"
+#include "particles/period.hpp"
+
 namespace corpuscle::coupling {
 
 using particles::Kind;
@@ -28,13 +31,12 @@ void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vecto
     grids_.resize(cells.size());
     candidates_.assign(cells.size(), {});
     const ParticleStore& s = system.store();
+    const geometry::Period period = particles::periodOf(system.box());
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (!cells[c].held || cells[c].membrane.network().isOpen()) continue;
-        const geometry::TriangleGrid& surface = grid(cells[c], c);
-        const Vec3 middle = middleOf(cells[c]);
+        const geometry::NearestImages surface(grid(cells[c], c), cells[c].membrane.position, period);
         for (int i = 0; i < system.owned(); ++i)
-            if (s.kindOf(i) == Kind::fluid && surface.nearest(imageNear(system.box(), s.position(i), middle)))
-                candidates_[c].push_back(i);
+            if (s.kindOf(i) == Kind::fluid && surface.nearest(s.position(i))) candidates_[c].push_back(i);
     }
 }
 
@@ -45,11 +47,9 @@ void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cell
 void LeakageGuard::putBack(ParticleSystem& system, const Cell& cell, std::size_t index) {
     if (!cell.held || cell.membrane.network().isOpen() || candidates_[index].empty()) return;
     ParticleStore& s = system.store();
-    const geometry::TriangleGrid& surface = grid(cell, index);
-    const Vec3 middle = middleOf(cell);
+    const geometry::NearestImages surface(grid(cell, index), cell.membrane.position, particles::periodOf(system.box()));
     for (const int i : candidates_[index]) {
-        const Vec3 x = imageNear(system.box(), s.position(i), middle);
-        const geometry::SurfacePoint at = surface.nearest(x);
+        const auto [at, x] = surface.nearest(s.position(i));
         if (!at) continue;
         const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
         if (own * at.distance >= 0) continue;

@@ -1,12 +1,11 @@
 #include "coupling/noFlux.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
+#include "geometry/periodicSurface.hpp"
 #include "membrane/surface.hpp"
+#include "particles/period.hpp"
 
 namespace corpuscle::coupling {
 
@@ -14,7 +13,7 @@ using particles::Kind;
 using particles::ParticleSystem;
 
 namespace {
-constexpr double reachInSpacings = 0.5 * NoFlux::imageMarginInSpacings;
+constexpr double reachInSpacings = 1;
 
 // Sign of the distance on the particle's side.
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
@@ -49,31 +48,16 @@ Vec3 NoFlux::velocity(const Near& near) const {
     return v;
 }
 
-void NoFlux::checkLength(const particles::Box& box, const Cell& cell) const {
-    Vec3 low = cell.membrane.position.front(), high = low;
-    for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    for (int k = 0; k < 3; ++k)
-        if (box.periodic[static_cast<std::size_t>(k)] &&
-            high[k] - low[k] > box.size()[k] - imageMarginInSpacings * spacing_)
-            throw Failure(ExitCode::numerics,
-                          fmt::format("the cell '{}' has become {:.4g} m long along {} and comes within {} spacings of "
-                                      "its image in the periodic box: particles at its ends could no longer be told "
-                                      "from those at its image's. Start again with a longer box",
-                                      cell.membrane.name, high[k] - low[k], "xyz"[k], imageMarginInSpacings));
-}
-
 void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidates) {
     const particles::ParticleStore& s = system.store();
+    const geometry::Period period = particles::periodOf(system.box());
     near_.clear();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         if (cells_[c].membrane.network().isOpen()) continue;
-        checkLength(system.box(), cells_[c]);
-        const geometry::TriangleGrid& grid = surface(c);
-        const Vec3 middle = middleOf(cells_[c]);
+        const geometry::NearestImages images(surface(c), cells_[c].membrane.position, period);
         for (const int i : candidates) {
             if (s.kindOf(static_cast<std::size_t>(i)) != Kind::fluid) continue;
-            const Vec3 x = imageNear(system.box(), s.position(static_cast<std::size_t>(i)), middle);
-            const geometry::SurfacePoint at = grid.nearest(x);
+            const auto [at, x] = images.nearest(s.position(static_cast<std::size_t>(i)));
             if (!at) continue;
             const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
             near_.push_back({i, c, at, sideOf(s, i, cells_[c]), chi * chi, normal(cells_[c], at, x)});
@@ -83,17 +67,16 @@ void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidat
 
 void NoFlux::keepSides(ParticleSystem& system) {
     particles::ParticleStore& s = system.store();
+    const geometry::Period period = particles::periodOf(system.box());
     const double least = leastDistanceInSpacings * spacing_;
     for (std::size_t k = 0; k < near_.size();) {  // near_ is ordered by cells
         const std::size_t c = near_[k].cell;
         const Cell& cell = cells_[c];
-        const geometry::TriangleGrid& grid = surface(c);
-        const Vec3 middle = middleOf(cell);
+        const geometry::NearestImages images(surface(c), cell.membrane.position, period);
         for (; k < near_.size() && near_[k].cell == c; ++k) {
             const auto i = static_cast<std::size_t>(near_[k].particle);
             const double own = near_[k].side;
-            const Vec3 x = imageNear(system.box(), s.position(i), middle);
-            const geometry::SurfacePoint at = grid.nearest(x);
+            const auto [at, x] = images.nearest(s.position(i));
             if (!at || own * at.distance >= least) continue;
             if (own * at.distance < 0) ++crossings_, deepest_ = std::max(deepest_, std::abs(at.distance));
             s.setPosition(i, s.position(i) + (at.point + own * least * normal(cell, at, x) - x));

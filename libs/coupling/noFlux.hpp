@@ -17,13 +17,13 @@ namespace corpuscle::coupling {
 
 class NoFlux {
   public:
-    static constexpr double imageMarginInSpacings = 2;  // between a cell and its image: twice the reach
+    static constexpr double imageMarginInSpacings =
+        2;  // that a case must leave between a cell and its image: twice the reach
     static constexpr double leastDistanceInSpacings = 0.05;
 
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 
-    // Which of `candidates`, particles of this rank, are near a membrane now. Throws Failure(numerics), on all ranks, where a closed cell
-    // is so long that a particle near it has two nearest images.
+    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to them.
     void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
     // Those that were found, with the velocity that nodes have now.
     template <class F>
@@ -46,7 +46,6 @@ class NoFlux {
         Vec3 normal;
     };
     geometry::TriangleGrid& surface(std::size_t cell);
-    void checkLength(const particles::Box& box, const Cell& cell) const;
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
 

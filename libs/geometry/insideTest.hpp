@@ -4,8 +4,10 @@
 // +1 and inwards as -1. A ray that passes within rounding of an edge, or a point within rounding of the surface, is
 // decided by the generalised winding number instead (the sum of the solid angles of all triangles over 4 pi).
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "geometry/period.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::geometry {
@@ -17,6 +19,9 @@ class InsideTest {
   public:
     explicit InsideTest(const TriangleMesh& mesh);  // keeps a copy
     bool inside(const Vec3& x) const;
+    // In a periodic box: the image of x that is inside, empty: none is; and whether there is one.
+    std::optional<Vec3> imageInside(const Vec3& x, const Period& period) const;
+    bool inside(const Vec3& x, const Period& period) const { return imageInside(x, period).has_value(); }
 
   private:
     TriangleMesh mesh_;

@@ -11,38 +11,18 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
-#include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/periodicSurface.hpp"
 
 namespace corpuscle::geometry {
 namespace {
 
 constexpr double largestDeviation = 1e-3;
 
-Vec3 nearestImage(Vec3 x, const Vec3& to, const Period& period) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (period[axis] > 0) x[axis] -= period[axis] * std::round((x[axis] - to[axis]) / period[axis]);
-    return x;
-}
-
 // All periodic images of the nodes that lie between low and high.
 std::vector<Vec3> imagesNear(const std::vector<Vec3>& nodes, const Vec3& low, const Vec3& high, const Period& period) {
     std::vector<Vec3> images;
-    for (const Vec3& x : nodes) {
-        Index3 from{}, to{};
-        for (int axis = 0; axis < 3; ++axis)
-            if (period[axis] > 0) {
-                from[axis] = static_cast<int>(std::ceil((low[axis] - x[axis]) / period[axis]));
-                to[axis] = static_cast<int>(std::floor((high[axis] - x[axis]) / period[axis]));
-            }
-        for (int i = from[0]; i <= to[0]; ++i)
-            for (int j = from[1]; j <= to[1]; ++j)
-                for (int k = from[2]; k <= to[2]; ++k) {
-                    const Vec3 image = x + Vec3(i, j, k).cwiseProduct(period);
-                    if ((image.array() >= low.array()).all() && (image.array() <= high.array()).all())
-                        images.push_back(image);
-                }
-    }
+    for (const Vec3& x : nodes)
+        forImagesWithin(x, low, high, period, [&](const Vec3& image) { images.push_back(image); });
     return images;
 }
 
@@ -149,9 +129,8 @@ std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<Tri
     std::vector<int> side(points.size(), 0);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const InsideTest test(meshes[m]);
-        const Vec3 middle = meshes[m].centroid();
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!test.inside(nearestImage(points[i], middle, period))) continue;
+            if (!test.inside(points[i], period)) continue;
             if (side[i] != 0)
                 throw Failure(
                     ExitCode::invalidCase,
@@ -169,10 +148,9 @@ std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, con
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const TriangleMesh& mesh = meshes[m];
         const TriangleGrid grid(mesh, least);
-        const Vec3 middle = mesh.centroid();
+        const NearestImages surface(grid, mesh.nodes, period);
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const Vec3 x = nearestImage(points[i], middle, period);
-            const SurfacePoint at = grid.nearest(x);
+            const auto [at, x] = surface.nearest(points[i]);
             const double own = side[i] == static_cast<int>(m) + 1 ? -1 : 1;
             if (!at || own * at.distance >= least) continue;
             const Index3& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/period.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::geometry {
@@ -33,9 +34,6 @@ struct Lattice {
 
 // Throws Failure(invalidCase) for a size that is no whole number of spacings, naming the nearest sizes that fit.
 Lattice fillLattice(const LatticeBox& box);
-
-// Periods of a box; 0: not periodic along that axis.
-using Period = Vec3;
 
 // The `count` points nearest to any of the nodes, to be taken out so that the volume of the removed particles is that
 // of the membrane's nodes. Sorted indices; points at the same distance go by index. Throws Failure(invalidCase) when

@@ -4,6 +4,7 @@
 
 #include "core/communicator.hpp"
 #include "membrane/surface.hpp"
+#include "particles/period.hpp"
 
 namespace corpuscle::observers {
 
@@ -75,23 +76,18 @@ geometry::TriangleMesh closedSurface(const Cell& cell) {
     return mesh;
 }
 
-TrueSides::TrueSides(const Scene& scene) : scene_(scene), surfaces_(scene.cells.size()) {
+TrueSides::TrueSides(const Scene& scene)
+    : scene_(scene), period_(particles::periodOf(scene.system->box())), surfaces_(scene.cells.size()) {
     for (std::size_t c = 0; c < scene.cells.size(); ++c) {
         if (!scene.cells[c].held) continue;
         const geometry::TriangleMesh mesh = closedSurface(scene.cells[c]);
         if (mesh.nodes.empty()) continue;
-        Vec3 low = mesh.nodes.front(), high = low;
-        for (const Vec3& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-        surfaces_[c].emplace(Surface{0.5 * (low + high), 0.5 * (high - low), geometry::InsideTest(mesh)});
+        surfaces_[c].emplace(mesh);
     }
 }
 
 bool TrueSides::inside(std::size_t cell, const Vec3& x) const {
-    const auto& surface = surfaces_[cell];
-    if (!surface) return false;
-    const Vec3 away = scene_.system->box().minimumImage(x - surface->middle);
-    if ((away.array().abs() > surface->half.array()).any()) return false;
-    return surface->test.inside(surface->middle + away);
+    return surfaces_[cell] && surfaces_[cell]->inside(x, period_);
 }
 
 int TrueSides::side(const Vec3& x) const {

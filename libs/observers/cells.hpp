@@ -28,8 +28,7 @@ std::vector<double> gatherNumbers(const coupling::Scene& scene, const std::vecto
 geometry::TriangleMesh closedSurface(const coupling::Cell& cell);
 
 // Where particles really are, whatever their `side` says: against the closed surfaces of the cells that this rank holds. Right
-// for particles of this rank, wherever they stand; periodic images are taken to be those nearest to the cell, which asks for cells
-// shorter than the box.
+// for particles of this rank, wherever they stand: all of their periodic images that fall into a cell's bounds are tested.
 class TrueSides {
   public:
     explicit TrueSides(const coupling::Scene& scene);
@@ -37,12 +36,9 @@ class TrueSides {
     int side(const Vec3& x) const;                       // 0 outside, n inside cell number n
 
   private:
-    struct Surface {
-        Vec3 middle, half;  // of the bounding box
-        geometry::InsideTest test;
-    };
     const coupling::Scene& scene_;
-    std::vector<std::optional<Surface>> surfaces_;  // empty: not held
+    geometry::Period period_;
+    std::vector<std::optional<geometry::InsideTest>> surfaces_;  // empty: not held
 };
 
 }  // namespace corpuscle::observers

@@ -108,7 +108,7 @@ void Retreat::report(const Fault& fault) {
     faultTime_ = inRow_ > 0 ? std::max(faultTime_, time_.t) : time_.t;
     if (inRow_ == 0) failed_ = tried_;
     const long most = input_.numerics.retreats;
-    if (inRow_ < most) {
+    if (inRow_ < most && !fault.isGeometric) {
         ++inRow_, ++count_;
         schedule_.record().set("performance", "retreats", count_);
         if (inRow_ > 2 && good_[1].step >= 0) std::swap(good_[0], good_[1]), good_[1].step = -1;
@@ -122,14 +122,16 @@ void Retreat::report(const Fault& fault) {
     if (most > 0) {
         goBack(good_[0]);
         schedule_.saveCheckpoint(scene_, time_);
-        where += fmt::format(
-            ", and a checkpoint of the last good state, t = {:.6g} s, is written. {} retreats with steps down to 1/{} "
-            "did not help",
-            time_.t, most, 1L << most);
+        where += fmt::format(", and a checkpoint of the last good state, t = {:.6g} s, is written", time_.t);
+        where += fault.isGeometric
+                     ? ". A shorter step would not help"
+                     : fmt::format(". {} retreats with steps down to 1/{} did not help", most, 1L << most);
     }
     schedule_.record().set("fault", "text", fault.text);
     schedule_.record().set("fault", "time_s", faultTime_);
     schedule_.record().set("fault", "place_m", std::vector<double>(fault.place.data(), fault.place.data() + 3));
+    if (fault.isGeometric)
+        throw Failure(ExitCode::numerics, fault.text + where + ": place cells further apart, or end the run earlier");
     throw Failure(ExitCode::numerics,
                   fault.text + where +
                       fmt::format(": take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing",

@@ -1,6 +1,8 @@
 #include "simulation/sceneBuilder.hpp"
 
-#include "geometry/insideTest.hpp"
+#include "geometry/periodicSurface.hpp"
+#include "particles/period.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/startFiles.hpp"
 #include "simulation/stressFree.hpp"
 
@@ -52,9 +54,7 @@ std::vector<Cell> readCells(const Case& input) {
 int cellAround(const Scene& scene, const Vec3& x) {
     for (const Cell& cell : scene.cells) {
         const geometry::TriangleMesh mesh{cell.membrane.position, cell.membrane.network().triangles()};
-        const Vec3 middle = mesh.centroid();
-        if (geometry::InsideTest(mesh).inside(middle + scene.fluidBox.minimumImage(x - middle)))
-            return cell.membrane.cell;
+        if (geometry::InsideTest(mesh).inside(x, particles::periodOf(scene.fluidBox))) return cell.membrane.cell;
     }
     return 0;
 }
@@ -67,13 +67,14 @@ void addBodies(const Case& input, Scene& scene) {
         const io::PolyData mesh = readStart(input, place.name);
         bodies::Body body(place.name, place.type(), {mesh.points, mesh.triangles}, input.densityOf(place),
                           input.bodyOf(place).motion.model, input.support(), input.spacing());
-        const Vec3& centre = body.solid.startCentre();
+        const geometry::PeriodicSurface surface({mesh.points, mesh.triangles}, input.support(),
+                                                particles::periodOf(scene.fluidBox));
         std::vector<Vec3> places;
         for (std::size_t k = 0; k < number.size(); ++k)
             if (number[k] == static_cast<std::int64_t>(all.size()) + 1)
-                places.push_back(centre + scene.fluidBox.minimumImage(filling.points[k] - centre));
+                places.push_back(surface.at(filling.points[k]).image);
         body.axis = place.axis.normalized();
-        body.cell = cellAround(scene, centre);
+        body.cell = cellAround(scene, mesh.points.front());
         body.viscosity = input.fluid.viscosity;
         if (body.cell > 0) {
             Cell& around = scene.cells[static_cast<std::size_t>(body.cell) - 1];
@@ -145,6 +146,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
 
 Scene buildScene(const Case& input, MPI_Comm comm) {
     Scene scene = emptyScene(input, comm);
+    requireClear(input, scene);
     ParticleStore& s = scene.store();
     const sph::FluidModel& model = scene.model();
     std::int64_t firstId = 0;

@@ -8,12 +8,13 @@
 
 #include "core/communicator.hpp"
 #include "core/together.hpp"
+#include "geometry/crossings.hpp"
 #include "geometry/triangleMesh.hpp"
+#include "particles/period.hpp"
 
 namespace corpuscle::simulation {
 
 using coupling::Cell;
-using coupling::middleOf;
 using coupling::Scene;
 using membrane::Bond;
 using membrane::Membrane;
@@ -22,10 +23,11 @@ using particles::Kind;
 namespace {
 
 constexpr double largestDensityChange = 0.3, largestSpeedUp = 10, largestVolumeChange = 1.0 / 3;
-constexpr double largestBondChange = 0.3;                      // of ln l between two looks
-constexpr double sharpestFold = -0.5;                          // cosine between the normals of neighbours
-constexpr double beyondWall = 2;                               // spacings
-constexpr long looksBetweenPairs = 5;                          // that membranes are compared with each other
+constexpr double largestBondChange = 0.3;  // of ln l between two looks
+constexpr double sharpestFold = -0.5;      // cosine between the normals of neighbours
+constexpr double beyondWall = 2;           // spacings
+constexpr double mostPeriods = 3;          // of a cell's length
+constexpr const char* noContact = "there is no contact law in this version";
 constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
 
 double length(const Membrane& m, const Bond& bond) {
@@ -71,15 +73,18 @@ Fault Watch::find(const Scene& scene, const Time& time) {
     for (std::size_t c = 0; c < scene.cells.size() && !fault; ++c) {
         if (isMine(scene, c)) {
             fault = ofCell(scene, c, time);
-            if (!fault && lookedAt_ % looksBetweenPairs == 0) fault = ofPairs(scene, c, time);
         } else
             lengths_[c].clear();  // old by the time that this rank holds the cell again
     }
-    const std::vector<double> most = ranks.max({fault ? 1.0 : 0.0, fastest2});
+    if (!fault) fault = ofSurfaces(scene, time);
+    // Surfaces that meet are the cause only where nothing else is wrong, on any rank: a node that was thrown out of its place may cross another cell.
+    const double own = !fault ? 0 : fault.isGeometric ? 1 : 2;
+    const std::vector<double> most = ranks.max({own, fastest2});
     const long count = ranks.sum(static_cast<long>(scene.system->owned()));
     if (most[0] > 0) {
-        const int first = firstFailed(comm, static_cast<bool>(fault), fault.text);
+        const int first = firstFailed(comm, own == most[0], fault.text);
         MPI_Bcast(fault.place.data(), 3, MPI_DOUBLE, first, comm);
+        fault.isGeometric = most[0] == 1;
         return fault;
     }
     if (count != particles_)
@@ -179,35 +184,80 @@ Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     return {when() + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
 }
 
-// With the cells after it that this rank holds, the nearest image of each. Asked where their bounds meet.
-Fault Watch::ofPairs(const Scene& scene, std::size_t index, const Time& time) {
-    const Membrane& m = scene.cells[index].membrane;
-    if (m.network().isOpen()) return {};
-    const Vec3 middle = middleOf(scene.cells[index]);
-    const auto bounds = [](const std::vector<Vec3>& nodes) {
-        Eigen::AlignedBox3d box;
-        for (const Vec3& x : nodes) box.extend(x);
-        return box;
+// Of closed cells that this rank holds and of bodies, against each other, their periodic images and walls. Where all ranks know all, each looks at
+// its share.
+Fault Watch::ofSurfaces(const Scene& scene, const Time& time) const {
+    struct Surface {
+        std::string name;
+        geometry::SurfaceView view;
+        bool isCell;
     };
-    const auto own = bounds(m.position);
-    for (std::size_t other = index + 1; other < scene.cells.size(); ++other) {
-        const Cell& cell = scene.cells[other];
-        if (!cell.held || cell.membrane.network().isOpen()) continue;
-        const Vec3 theirs = middleOf(cell), shift = coupling::imageNear(scene.system->box(), theirs, middle) - theirs;
-        auto box = bounds(cell.membrane.position);
-        if (!own.intersects(box.translate(shift))) continue;
-        geometry::TriangleMesh both{m.position, m.network().triangles()};
-        const int nodes = static_cast<int>(both.nodes.size()), triangles = static_cast<int>(both.triangles.size());
-        for (const Vec3& x : cell.membrane.position) both.nodes.push_back(x + shift);
-        for (const Index3& t : cell.membrane.network().triangles())
-            both.triangles.push_back({t[0] + nodes, t[1] + nodes, t[2] + nodes});
-        for (const auto& [a, b] : geometry::selfIntersections(both))
-            if ((a < triangles) != (b < triangles)) {
-                const Vec3& x = both.nodes[static_cast<std::size_t>(both.triangles[static_cast<std::size_t>(a)][0])];
-                return {fmt::format("step {}, t = {:.6g} s: the membranes '{}' and '{}' cut each other at {}",
-                                    time.step, time.t, m.name, cell.membrane.name, words(x)),
-                        x};
-            }
+    std::vector<Surface> surfaces;
+    std::vector<std::vector<Vec3>> nodesOfBodies;
+    for (const Cell& cell : scene.cells)
+        if (cell.held && !cell.membrane.network().isOpen())
+            surfaces.push_back({fmt::format("'{}'", cell.membrane.name),
+                                {&cell.membrane.position, &cell.membrane.network().triangles()},
+                                true});
+    if (scene.bodies) {
+        nodesOfBodies.reserve(scene.bodies->all().size());
+        for (const bodies::Body& body : scene.bodies->all()) {
+            nodesOfBodies.push_back(body.nodes());
+            surfaces.push_back(
+                {fmt::format("'{}'", body.name), {&nodesOfBodies.back(), &body.solid.surface.triangles}, false});
+        }
+    }
+    const particles::Box& box = scene.system->box();
+    const particles::Decomposition& ranks = scene.system->decomposition();
+    const auto isShare = [&](std::size_t n) {
+        return !input_.numerics.isImmersed() ||
+               n % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
+    };
+    const auto fault = [&](const Vec3& place, const std::string& text, const std::string& cause) {
+        const Vec3 x = box.wrap(place), um = 1e6 * x;
+        return Fault{fmt::format("step {}, t = {:.6g} s{}: {} at ({:.4g}, {:.4g}, {:.4g}) um; {}", time.step, time.t,
+                                 time.shearRate > 0 ? fmt::format(", strain {:.4g}", time.strain()) : "", text, um[0],
+                                 um[1], um[2], cause),
+                     x, true};
+    };
+    const sph::Walls& walls = scene.model().walls;
+    const geometry::Period period = particles::periodOf(box);
+    std::vector<geometry::Bounds> bounds;
+    for (std::size_t n = 0; n < surfaces.size(); ++n) {
+        const geometry::Bounds& own = bounds.emplace_back(surfaces[n].view.bounds());
+        if (own.isEmpty()) continue;
+        for (int k = 0; k < 3; ++k)
+            if (period[k] > 0 && own.sizes()[k] > mostPeriods * period[k])
+                return fault(own.center(),
+                             fmt::format("the {} {} has become {:.4g} um long along {}, more than {} times the box",
+                                         surfaces[n].isCell ? "cell" : "body", surfaces[n].name, 1e6 * own.sizes()[k],
+                                         "xyz"[k], mostPeriods),
+                             "the box is too short for it");
+        if (!walls.exist() || !isShare(n)) continue;
+        if (own.min()[walls.axis] >= walls.low && own.max()[walls.axis] <= walls.high) continue;
+        for (const Vec3& x : *surfaces[n].view.nodes)
+            if (x[walls.axis] < walls.low || x[walls.axis] > walls.high)
+                return fault(x,
+                             fmt::format("the {} {} crosses the wall along {}", surfaces[n].isCell ? "cell" : "body",
+                                         surfaces[n].name, "xyz"[walls.axis]),
+                             noContact);
+    }
+    for (const geometry::ImagePair& pair : geometry::neighbours(bounds, period)) {
+        const Surface &one = surfaces[pair.first], &other = surfaces[pair.second];
+        if (!isShare(pair.first)) continue;
+        const auto found = geometry::crossing(one.view, other.view, pair.shift);
+        if (!found) continue;
+        if (pair.first == pair.second)
+            return fault(found->place,
+                         fmt::format("the {} {} touches or crosses its own periodic image",
+                                     one.isCell ? "cell" : "body", one.name),
+                         "the box is too short for it");
+        return fault(
+            found->place,
+            one.isCell == other.isCell
+                ? fmt::format("the {} {} and {} touch or cross", one.isCell ? "cells" : "bodies", one.name, other.name)
+                : fmt::format("the cell {} and the body {} touch or cross", one.name, other.name),
+            noContact);
     }
     return {};
 }

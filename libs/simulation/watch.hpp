@@ -10,7 +10,8 @@
 // volume of a closed membrane             | a third from that at the start
 // triangles of a closed membrane          | two that cut each other (geometry::selfIntersections), asked where neighbours fold by more than 120
 //                                         | degrees, and from time to time
-// triangles of two closed membranes       | the same, every fifth look, where their bounds meet
+// surfaces of cells and bodies            | two that touch or cross, a surface and its own periodic image among them (geometry/crossings.hpp), or one beyond a
+//                                         | wall: nothing but fluid keeps them apart, so no shorter step cures it (isGeometric)
 // A membrane that has broken is not asked for its volume and its cuts: its surface is open.
 #pragma once
 #include <optional>
@@ -26,6 +27,7 @@ namespace corpuscle::simulation {
 struct Fault {
     std::string text;  // empty: none
     Vec3 place = Vec3::Zero();
+    bool isGeometric = false;  // of how things lie: a shorter step does not cure it
     explicit operator bool() const { return !text.empty(); }
 };
 
@@ -46,7 +48,7 @@ class Watch {
     bool isMine(const coupling::Scene& scene, std::size_t index) const;
     static const membrane::Bond* compareBonds(const membrane::Membrane& membrane, std::vector<double>& lengths);
     Fault ofCell(const coupling::Scene& scene, std::size_t index, const Time& time);
-    static Fault ofPairs(const coupling::Scene& scene, std::size_t index, const Time& time);
+    Fault ofSurfaces(const coupling::Scene& scene, const Time& time) const;
     bool isSuspicious(const membrane::Membrane& membrane) const;
 
     const Case& input_;

@@ -144,7 +144,7 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     io::writeVtp(at("0/fluid.vtp"), fluid);
     const Result broken = run("checkMesh");
     EXPECT_EQ(broken.code, 2);
-    EXPECT_TRUE(contains(broken.err, "1 fluid particles have the wrong side")) << broken.err;
+    EXPECT_TRUE(contains(broken.err, "1 fluid particles have the wrong side (first: particle 5 at (")) << broken.err;
     EXPECT_TRUE(contains(broken.err, "overlap: two fluid particles are 0.010 dx apart")) << broken.err;
     EXPECT_TRUE(contains(broken.err, "2 checks failed.")) << broken.err;
 
@@ -164,10 +164,10 @@ TEST_F(Utilities, CellsInEachOtherAreRefused) {
     const Result mesh = run("membraneMesh", cells);
     EXPECT_EQ(mesh.code, 0) << mesh.err;
     EXPECT_TRUE(contains(mesh.out, "cell b: the same mesh")) << mesh.out;
-    EXPECT_TRUE(contains(mesh.err, "lie inside the cell")) << mesh.err;
+    EXPECT_TRUE(contains(mesh.err, "the cell 'a' and the cell 'b' overlap at (")) << mesh.err;
     const Result fill = run("particleFill", cells);
     EXPECT_EQ(fill.code, 2);
-    EXPECT_TRUE(contains(fill.err, "of the cell 'b' lie inside the cell 'a'")) << fill.err;
+    EXPECT_TRUE(contains(fill.err, "cells[1].centre: the cell 'a' and the cell 'b' overlap at (")) << fill.err;
 }
 
 TEST_F(Utilities, FluidAloneNeedsNoMesh) {

@@ -306,7 +306,7 @@ TEST(Immersed, spreadForcesKeepTheirTorque) {
         double scale = 0;
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec3 f = Vec3::Map(spread.data() + 4 * i),
-                       arm = imageNear(scene.system->box(), s.position(i), middle) - middle;
+                       arm = scene.system->box().minimumImage(s.position(i) - middle);
             force += f, torque += arm.cross(f), scale += arm.norm() * f.norm();
         }
         scale = sph::testing::sumOverRanks(scale);

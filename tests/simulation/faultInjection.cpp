@@ -9,6 +9,8 @@
 // node      | it is thrown across the cell, to the other side of its middle
 // triangle  | it goes to the other side of the opposite edge of one of its triangles, which turns that over
 // cells     | the first cell of two goes half of the way to the second, with all of its nodes
+// wall      | the first cell goes to the upper wall along z
+// image     | the first cell is stretched to 1.3 of its length along x, and made thinner
 // The seed picks them, the same ones on any number of ranks. -always: at each time that the run comes to this step.
 #include <Eigen/Geometry>
 #include <random>
@@ -34,7 +36,7 @@ class Injection {
         if (step != at_ || (done_ && !always_)) return;
         done_ = true;
         std::mt19937_64 random = random_;  // the same choice each time
-        if (kind_ == "cells")
+        if (kind_ == "cells" || kind_ == "wall" || kind_ == "image")
             moveCell(scene);
         else if (kind_ == "node" || kind_ == "triangle")
             moveNode(scene, random);
@@ -61,13 +63,17 @@ class Injection {
                 s.density[i] *= 0.5;
             else
                 throw Failure(ExitCode::usage,
-                              "-kind " + kind_ + ": there are nan, speed, density, node, triangle, cells");
+                              "-kind " + kind_ + ": there are nan, speed, density, node, triangle, cells, wall, image");
         }
     }
 
-    static void moveCell(Scene& scene) {
-        const Vec3 way = 0.5 * (coupling::middleOf(scene.cells.at(1)) - coupling::middleOf(scene.cells[0]));
-        for (Vec3& x : scene.cells[0].membrane.position) x += way;
+    void moveCell(Scene& scene) const {
+        const Vec3 middle = coupling::middleOf(scene.cells.at(0));
+        Vec3 way = Vec3::Zero(), stretch = Vec3::Ones();
+        if (kind_ == "cells") way = 0.5 * (coupling::middleOf(scene.cells.at(1)) - middle);
+        if (kind_ == "wall") way[2] = scene.model().walls.high - middle[2];
+        if (kind_ == "image") stretch = Vec3(1.3, 0.88, 0.88);
+        for (Vec3& x : scene.cells[0].membrane.position) x = middle + way + stretch.cwiseProduct(x - middle);
     }
 
     void moveNode(Scene& scene, std::mt19937_64& random) const {
@@ -101,7 +107,7 @@ class Injection {
 
 int main(int argc, char* argv[]) {
     std::vector<Option> options = solverOptions();
-    options.push_back({"kind", "KIND", "nan, speed, density, node, triangle or cells."});
+    options.push_back({"kind", "KIND", "nan, speed, density, node, triangle, cells, wall or image."});
     options.push_back({"at", "STEP", "Before the step after this one."});
     options.push_back({"seed", "N", "Picks the place."});
     options.push_back({"always", "", "Each time that the run comes to this step."});

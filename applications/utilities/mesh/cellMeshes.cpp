@@ -43,51 +43,6 @@ std::vector<TriangleMesh> readMeshes(const Case& input, const Surfaces& surfaces
 std::vector<TriangleMesh> readCellMeshes(const Case& input) { return readMeshes(input, input.mesh.cells); }
 std::vector<TriangleMesh> readBodyMeshes(const Case& input) { return readMeshes(input, input.mesh.bodies); }
 
-geometry::Period periodOf(const particles::Box& box) {
-    geometry::Period period = box.size();
-    for (int k = 0; k < 3; ++k)
-        if (!box.periodic[static_cast<std::size_t>(k)]) period[k] = 0;
-    return period;
-}
-
-std::vector<std::string> misplaced(const Case& input, const std::vector<TriangleMesh>& cells,
-                                   const std::vector<TriangleMesh>& bodies) {
-    struct Placed {
-        std::string name;
-        const TriangleMesh* mesh;
-        bool isBody;
-    };
-    std::vector<Placed> all;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        all.push_back({"cell '" + input.mesh.cells[c].name + "'", &cells[c], false});
-    for (std::size_t b = 0; b < bodies.size(); ++b)
-        all.push_back({"body '" + input.mesh.bodies[b].name + "'", &bodies[b], true});
-    std::vector<std::string> faults;
-    const particles::Box box = input.fluidBox();
-    for (const Placed& one : all) {
-        Vec3 low = one.mesh->nodes.front(), high = low;
-        for (const Vec3& x : one.mesh->nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-        for (int k = 0; k < 3; ++k) {
-            const char axis = "xyz"[k];
-            if (box.periodic[static_cast<std::size_t>(k)] ? high[k] - low[k] > box.size()[k]
-                                                          : low[k] < box.low[k] || high[k] > box.high[k])
-                faults.push_back(
-                    fmt::format("the {} reaches from {} to {} along {}, and the box from {} to {}", one.name,
-                                formatQuantity(low[k], unit::metre), formatQuantity(high[k], unit::metre), axis,
-                                formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre)));
-        }
-        for (const Placed& other : all) {
-            if (other.mesh == one.mesh) continue;
-            const std::vector<int> side = geometry::tagSides(other.mesh->nodes, {*one.mesh}, periodOf(box));
-            const auto inside = static_cast<std::size_t>(std::count(side.begin(), side.end(), 1));
-            const bool included = other.isBody && !one.isBody && inside == side.size();
-            if (inside > 0 && !included)
-                faults.push_back(fmt::format("{} nodes of the {} lie inside the {}", inside, other.name, one.name));
-        }
-    }
-    return faults;
-}
-
 membrane::NetworkModuli moduliOf(const TriangleMesh& mesh, const membrane::MembraneSettings& laws) {
     return membrane::measureModuli(membrane::Network(mesh.nodes, mesh.triangles), laws);
 }

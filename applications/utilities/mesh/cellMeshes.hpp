@@ -2,7 +2,6 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
-#include "geometry/latticeFill.hpp"
 #include "geometry/mesher.hpp"
 #include "membrane/moduli.hpp"
 #include "simulation/startFiles.hpp"
@@ -19,12 +18,6 @@ geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulatio
 // All cells of the case, in its order. Throws as simulation::readStart.
 std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
 std::vector<geometry::TriangleMesh> readBodyMeshes(const simulation::Case& input);
-
-geometry::Period periodOf(const particles::Box& box);
-
-// Cells and bodies that lie in each other or reach out of the box, in plain words; empty: none. A body may lie inside a cell.
-std::vector<std::string> misplaced(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& cells,
-                                   const std::vector<geometry::TriangleMesh>& bodies);
 
 membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);
 

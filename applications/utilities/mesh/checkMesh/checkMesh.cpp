@@ -1,7 +1,7 @@
 // checkMesh: whether what stands in 0/ is sound and belongs to the case.
 //
-// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and not in each other. Particles: on the lattice's count, sides
-// right by an inside test, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
+// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and clear of each other. Particles: on the lattice's count, sides
+// right by an inside test other than particleFill's, as many in a cell as its volume asks for, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
 //
 // Sample runs:
 //     checkMesh -case tutorials/rbcShear/Ca0.02
@@ -10,7 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "../cellMeshes.hpp"
+#include "geometry/latticeFill.hpp"
+#include "geometry/sidesByRays.hpp"
 #include "neighbours.hpp"
+#include "particles/period.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 using namespace corpuscle;
@@ -26,14 +30,19 @@ constexpr double surfaceTolerance = 1e-6;   // of nodes from the shape, over the
 constexpr double leastDistance = 0.25;      // of two particles, in spacings
 constexpr double leastNodeDistance = 0.1;   // of a fluid particle and a node
 constexpr double leastCellDistance = 0.25;  // of the nodes of two cells
+constexpr double facesOffLattice = 0.25;  // a flat face between two layers of the lattice: layers, at most, of its area
 
 using Faults = std::vector<std::string>;
 
-geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, const TriangleMesh& mesh,
+// isSound: cleared where the mesh is no closed surface.
+geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, const TriangleMesh& mesh, bool& isSound,
                                    const std::function<void(const std::string&)>& fault) {
     geometry::MeshQuality quality =
         geometry::meshQuality(utilities::inShapeFrame(mesh, surface), surface.shape.model.get());
-    for (const std::string& text : geometry::checkClosedManifold(mesh)) fault(text);
+    for (const std::string& text : geometry::checkClosedManifold(mesh)) {
+        isSound = false;
+        fault(text);
+    }
     if (quality.euler != 2)
         fault(fmt::format("Euler characteristic {} instead of 2: not one surface without handles", quality.euler));
     if (quality.angleMin < leastAngle)
@@ -47,12 +56,14 @@ geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, c
     return quality;
 }
 
-void checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
+// Whether all meshes are closed surfaces; likewise of bodies.
+bool checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
                 Faults& faults) {
+    bool areSound = true;
     for (std::size_t c = 0; c < meshes.size(); ++c) {
         const simulation::CellSettings& cell = input.mesh.cells[c];
         const auto fault = [&](const std::string& text) { faults.push_back("cell '" + cell.name + "': " + text); };
-        const geometry::MeshQuality quality = checkSurface(cell, meshes[c], fault);
+        const geometry::MeshQuality quality = checkSurface(cell, meshes[c], areSound, fault);
         app.log().info("cell {}\n{}", cell.name, utilities::indented(quality.text()));
         json["cells"][cell.name] = {{"quality", utilities::toJson(quality)}};
         try {
@@ -63,19 +74,23 @@ void checkCells(Application& app, const Case& input, const std::vector<TriangleM
             fault(failure.what());
         }
     }
+    return areSound;
 }
 
-void checkBodies(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
+bool checkBodies(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
                  Faults& faults) {
+    bool areSound = true;
     for (std::size_t b = 0; b < meshes.size(); ++b) {
         const simulation::BodyPlaceSettings& body = input.mesh.bodies[b];
-        const geometry::MeshQuality quality = checkSurface(
-            body, meshes[b], [&](const std::string& text) { faults.push_back("body '" + body.name + "': " + text); });
+        const geometry::MeshQuality quality = checkSurface(body, meshes[b], areSound, [&](const std::string& text) {
+            faults.push_back("body '" + body.name + "': " + text);
+        });
         const bodies::Solid solid(meshes[b], input.densityOf(body));
         app.log().info("body {}\n{}\n{}", body.name, utilities::indented(quality.text()),
                        utilities::indented(utilities::describe(solid)));
         json["bodies"][body.name] = {{"quality", utilities::toJson(quality)}, {"solid", utilities::toJson(solid)}};
     }
+    return areSound;
 }
 
 // The number of lattice points is that of the fluid, of the bodies, and of the fluid that the nodes displace.
@@ -114,24 +129,76 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
                                      walls, wantedWalls));
 }
 
-void checkSides(const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
-                ordered_json& json, Faults& faults) {
+// Counts particles of which something is wrong and keeps the first.
+struct Wrong {
+    long count = 0;
+    std::string first;
+    void add(const io::PolyData& fluid, std::size_t i, const std::string& what) {
+        const Vec3 x = 1e6 * fluid.points[i];
+        if (count++ == 0)
+            first = fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) um, {}", fluid.point.integer("id")[i], x[0],
+                                x[1], x[2], what);
+    }
+};
+
+// Sides are those of cells: bodies hold no fluid. What particleFill found by one inside test is held against another (sidesByRays.hpp), and the
+// number of particles in each cell against its volume. Meshes are sound and clear of each other.
+void checkSides(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
+                const std::vector<Vec3>& ofBodies, ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
-    // Sides are those of cells: bodies hold no fluid.
+    const geometry::Period period = particles::periodOf(box);
     const auto out = std::count_if(fluid.points.begin(), fluid.points.end(),
                                    [&](const Vec3& x) { return particles::distanceSquared(x, box.low, box.high) > 0; });
     if (out > 0) faults.push_back(fmt::format("{} fluid particles lie outside the box", out));
-    const std::vector<int> side = geometry::tagSides(fluid.points, meshes, utilities::periodOf(box));
+    const std::vector<geometry::RaySide> rays = geometry::sidesByRays(fluid.points, meshes, box.low, box.high, period);
     const auto& written = fluid.point.integer("side");
-    long wrong = 0;
-    for (std::size_t i = 0; i < side.size(); ++i) wrong += side[i] != written[i];
-    if (wrong > 0)
-        faults.push_back(
-            fmt::format("{} fluid particles have the wrong side by the inside test: run particleFill again", wrong));
+    Wrong wrong, differ, twice;
     std::vector<long> inside(meshes.size() + 1, 0);
-    for (const int s : side) ++inside[static_cast<std::size_t>(s)];
-    json["sides"] = {{"outside", inside[0]}, {"wrong", wrong}};
-    for (std::size_t c = 0; c < meshes.size(); ++c) json["sides"]["inside"][input.mesh.cells[c].name] = inside[c + 1];
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ++inside[static_cast<std::size_t>(rays[i].mesh)];
+        if (rays[i].isInSeveral) twice.add(fluid, i, fmt::format("side {}", written[i]));
+        if (!rays[i].onSurface && rays[i].mesh != written[i])
+            wrong.add(fluid, i, fmt::format("side {} in 0/fluid.vtp, {} by a ray", written[i], rays[i].mesh));
+    }
+    const std::vector<int> columns = geometry::tagSides(fluid.points, meshes, period);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!rays[i].onSurface && rays[i].mesh != columns[i])
+            differ.add(fluid, i, fmt::format("side {} by columns, {} by a ray", columns[i], rays[i].mesh));
+    if (wrong.count > 0)
+        faults.push_back(fmt::format("{} fluid particles have the wrong side (first: {}): run particleFill again",
+                                     wrong.count, wrong.first));
+    if (differ.count > 0)
+        faults.push_back(
+            fmt::format("the two inside tests differ on {} fluid particles (first: {}): one of them "
+                        "fails on this mesh; please report it with the case",
+                        differ.count, differ.first));
+    if (twice.count > 0)
+        faults.push_back(fmt::format("{} fluid particles lie in two cells, or in a cell and its own image (first: {})",
+                                     twice.count, twice.first));
+    json["sides"] = {{"outside", inside[0]}, {"wrong", wrong.count}, {"differ", differ.count}};
+
+    const std::vector<geometry::RaySide> solid = geometry::sidesByRays(ofBodies, meshes, box.low, box.high, period);
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t c = 0; c < meshes.size(); ++c) {
+        const std::string& name = input.mesh.cells[c].name;
+        const double dx = input.spacing(), V = input.particleVolume(), area = meshes[c].area();
+        const auto bodies = std::count_if(
+            solid.begin(), solid.end(), [&](const geometry::RaySide& s) { return s.mesh == static_cast<int>(c) + 1; });
+        // Half of each node that is a particle lies inside.
+        const double found = static_cast<double>(inside[c + 1] + bodies),
+                     expected = (meshes[c].volume() - (input.numerics.isImmersed() ? 0 : 0.5 * area * dx)) / V,
+                     tolerance = facesOffLattice * area / (dx * dx) + 2;
+        rows.push_back({name, fmt::format("{:.0f}", found), fmt::format("{:.1f}", std::max(0.0, expected)),
+                        fmt::format("{:+.2f} %", 100 * (found / expected - 1))});
+        json["sides"]["inside"][name] = inside[c + 1];
+        json["sides"]["expected"][name] = expected;
+        if (std::abs(found - std::max(0.0, expected)) > tolerance)
+            faults.push_back(
+                fmt::format("in the cell '{}' there are {:.0f} particles, but its volume asks for {:.0f} "
+                            "(a lattice can be off by {:.0f}): run particleFill again",
+                            name, found, std::max(0.0, expected), tolerance));
+    }
+    if (!rows.empty()) app.log().table({"particles inside", "number", "by volume", "difference"}, rows);
 }
 
 void checkDistances(Application& app, const Case& input, const utilities::Members& members, ordered_json& json,
@@ -170,10 +237,16 @@ int main(int argc, char* argv[]) {
         utilities::Members members;
         const std::vector<TriangleMesh> meshes = utilities::readCellMeshes(input);
         for (const TriangleMesh& mesh : meshes) members.cells.push_back(mesh.nodes);
-        checkCells(app, input, meshes, json, faults);
+        const bool areCellsSound = checkCells(app, input, meshes, json, faults);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
-        checkBodies(app, input, bodies, json, faults);
-        for (const std::string& text : utilities::misplaced(input, meshes, bodies)) faults.push_back(text);
+        // Of meshes that are no closed surfaces there are no questions of inside and outside.
+        const bool areSound = checkBodies(app, input, bodies, json, faults) && areCellsSound;
+        bool areClear = areSound;
+        if (areSound)
+            for (const Problem& p : simulation::misplaced(input, simulation::placedOf(input, meshes, bodies))) {
+                faults.push_back(p.text());
+                areClear = false;
+            }
 
         if (!(meshes.empty() && bodies.empty()) && !std::filesystem::exists(simulation::startFile(input, "fluid"))) {
             app.log().info(
@@ -185,7 +258,10 @@ int main(int argc, char* argv[]) {
             if (!bodies.empty()) members.bodies = simulation::readStart(input, "bodies").points;
             checkLattice(app, input, meshes, members.fluid.size(), members.walls.size(), members.bodies.size(), json,
                          faults);
-            checkSides(input, meshes, fluid, json, faults);
+            if (areClear)
+                checkSides(app, input, meshes, fluid, members.bodies, json, faults);
+            else
+                app.log().info("sides are not checked: the meshes are not sound, or not clear of each other");
             checkDistances(app, input, members, json, faults);
         }
 

@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "simulation/placement.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -105,7 +106,8 @@ int main(int argc, char* argv[]) {
                     return utilities::describe(solid);
                 },
                 json));
-        for (const std::string& fault : utilities::misplaced(input, cells, bodies)) app.log().warning("{}", fault);
+        for (const Problem& fault : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
+            app.log().warning("{}", fault.text());
         if (cells.empty() && bodies.empty())
             app.log().info("system/mesh.yaml has neither cells nor bodies: nothing to mesh");
         app.log().info("Next: particleFill{}", std::filesystem::exists(simulation::startFile(input, "fluid"))

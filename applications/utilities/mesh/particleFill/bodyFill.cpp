@@ -4,28 +4,23 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/periodicSurface.hpp"
+#include "particles/period.hpp"
 
 namespace corpuscle::utilities {
 
 std::vector<int> bodyOfEach(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& bodies,
                             const std::vector<Vec3>& points) {
     std::vector<int> taken(points.size(), 0);
-    const particles::Box box = input.fluidBox();
+    const geometry::Period period = particles::periodOf(input.fluidBox());
     const double reach = std::numbers::sqrt3 * input.spacing();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const geometry::TriangleGrid surface(bodies[b], reach);
-        const geometry::InsideTest inside(bodies[b]);
-        const Vec3 middle = bodies[b].centroid();
+        const geometry::PeriodicSurface surface(bodies[b], reach, period);
         std::vector<std::pair<double, std::size_t>> order;  // distance from the surface and number
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (taken[i] > 0) continue;
-            const Vec3 x = middle + box.minimumImage(points[i] - middle);
-            if (const geometry::SurfacePoint nearest = surface.nearest(x))
-                order.emplace_back(nearest.distance, i);
-            else if (inside.inside(x))
-                order.emplace_back(-reach, i);
+            if (const double distance = surface.at(points[i]).distance; std::isfinite(distance))
+                order.emplace_back(distance, i);
         }
         const auto count = static_cast<std::size_t>(std::lround(bodies[b].volume() / input.particleVolume()));
         if (count == 0 || count > order.size())

@@ -21,8 +21,11 @@
 #include "../cellMeshes.hpp"
 #include "bodyFill.hpp"
 #include "coupling/noFlux.hpp"
+#include "geometry/latticeFill.hpp"
+#include "particles/period.hpp"
 #include "relaxation.hpp"
 #include "simulation/memoryLimit.hpp"
+#include "simulation/placement.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 using namespace corpuscle;
@@ -52,7 +55,7 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
         std::vector<Vec3> points;
         points.reserve(from.size());
         for (const int i : from) points.push_back(f.fluid[static_cast<std::size_t>(i)]);
-        for (const int k : geometry::carve(points, nodes, count, utilities::periodOf(input.fluidBox())))
+        for (const int k : geometry::carve(points, nodes, count, particles::periodOf(input.fluidBox())))
             kept[static_cast<std::size_t>(from[static_cast<std::size_t>(k)])] = 0;
     };
     std::vector<Vec3> nodes;
@@ -115,12 +118,12 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
             f.nodes += cell.nodes.size();
         }
     f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
-    f.side = geometry::tagSides(f.fluid, cells, utilities::periodOf(input.fluidBox()));
+    f.side = geometry::tagSides(f.fluid, cells, particles::periodOf(input.fluidBox()));
     fillBodies(input, bodies, f);
     if (input.numerics.isImmersed()) {
         f.heldOff =
             geometry::holdOff(f.fluid, f.side, cells, coupling::NoFlux::leastDistanceInSpacings * input.spacing(),
-                              utilities::periodOf(input.fluidBox()));
+                              particles::periodOf(input.fluidBox()));
         for (Vec3& x : f.fluid) x = input.particleBox().wrap(x);
     } else {
         takeOut(input, cells, f);
@@ -141,7 +144,7 @@ void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& ce
     std::vector<Vec3> places;
     places.reserve(moved.size());
     for (const auto& [i, x] : moved) places.push_back(x);
-    const std::vector<int> side = geometry::tagSides(places, cells, utilities::periodOf(input.fluidBox()));
+    const std::vector<int> side = geometry::tagSides(places, cells, particles::periodOf(input.fluidBox()));
     const particles::Box fluidBox = input.fluidBox();
     for (std::size_t k = 0; k < moved.size(); ++k) {
         const auto& [i, x] = moved[k];
@@ -290,10 +293,10 @@ int main(int argc, char* argv[]) {
         simulation::requireMemory(app.communicator(), input);
         const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
-        if (const auto faults = utilities::misplaced(input, cells, bodies); !faults.empty())
-            throw Failure(ExitCode::invalidCase,
-                          joinWords(faults, "\n") +
-                              "\nmove the cells and bodies in system/mesh.yaml, then run membraneMesh again");
+        Problems problems;
+        for (const Problem& p : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
+            problems.add(p.mark, p.key, p.message + ", then run membraneMesh again");
+        input.throwIfAny(problems);
         Filling filling = placeParticles(input, cells, bodies);
         if (!cells.empty() && !input.numerics.isImmersed()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);

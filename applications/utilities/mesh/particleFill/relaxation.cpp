@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "../cellMeshes.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/periodicSurface.hpp"
+#include "particles/period.hpp"
 #include "particles/sumOverPairs.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -19,29 +20,14 @@ constexpr double strength = 0.02, largestInSpacings = 0.1;
 
 // Of each point to the nearest membrane, infinity beyond `reach`; periodic images included.
 std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach,
-                              const Vec3& period) {
+                              const geometry::Period& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
     for (const TriangleMesh& cell : cells) {
         const geometry::TriangleGrid grid(cell, reach);
-        Vec3 low = cell.nodes.front(), high = low;
-        for (const Vec3& x : cell.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-        low.array() -= reach, high.array() += reach;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            // The images in the box around the cell: `first`, and as many periods on.
-            Vec3 first = points[i];
-            Index3 most{};
-            for (int k = 0; k < 3; ++k)
-                if (period[k] > 0) {
-                    first[k] -= period[k] * std::floor((first[k] - low[k]) / period[k]);
-                    most[static_cast<std::size_t>(k)] = static_cast<int>(std::floor((high[k] - first[k]) / period[k]));
-                }
-            for (int a = 0; a <= most[0]; ++a)
-                for (int b = 0; b <= most[1]; ++b)
-                    for (int c = 0; c <= most[2]; ++c)
-                        if (const geometry::SurfacePoint nearest =
-                                grid.nearest(first + Vec3(a, b, c).cwiseProduct(period)))
-                            distance[i] = std::min(distance[i], std::abs(nearest.distance));
-        }
+        const geometry::NearestImages images(grid, cell.nodes, period);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (const auto nearest = images.nearest(points[i]))
+                distance[i] = std::min(distance[i], std::abs(nearest.at.distance));
     }
     return distance;
 }
@@ -68,7 +54,7 @@ Relaxation::Relaxation(const simulation::Case& input, MPI_Comm comm, const std::
       system_(comm, input.particleBox(), {.mass = true}, input.support(), input.skin(), input.spacing()) {
     const double near = reachInSpacings * input.spacing(), beyond = near + input.support(),
                  rim = beyond + input.support();
-    const Vec3 period = periodOf(input.particleBox());
+    const Vec3 period = particles::periodOf(input.particleBox());
     const std::vector<double> fluidDistance = distances(fluid, cells, rim, period),
                               wallDistance = distances(walls, cells, rim, period);
     for (std::size_t i = 0; i < fluid.size(); ++i)

@@ -1,0 +1,33 @@
+// Whether cells, rigid bodies and walls are clear of each other at the start. A body may lie inside a cell.
+//
+// what                                            | how it is found
+// surfaces that touch or cross, images included   | triangles of neighbours (geometry/crossings.hpp)
+// one surface inside another                      | a node of it, by the inside test
+// surfaces closer than 0.1 spacings               | nodes against the triangles of neighbours: no particle between them could stay on its side
+// a surface across a wall, or longer than a periodic box | its bounds
+// Particles are filled in and runs begin from what passes; during a run Watch looks at the same (watch.hpp).
+#pragma once
+#include "core/error.hpp"
+#include "coupling/scene.hpp"
+#include "geometry/crossings.hpp"
+#include "simulation/case.hpp"
+
+namespace corpuscle::simulation {
+
+struct Placed {
+    std::string name, key;  // "cell 'a'", "cells[0]"
+    bool isBody;
+    geometry::SurfaceView surface;
+};
+
+// Everything that is wrong, with the keys of system/mesh.yaml; empty: nothing.
+std::vector<Problem> misplaced(const Case& input, const std::vector<Placed>& all);
+
+// All cells and bodies of a case in its order, from their meshes, which must stay where they are.
+std::vector<Placed> placedOf(const Case& input, const std::vector<geometry::TriangleMesh>& cells,
+                             const std::vector<geometry::TriangleMesh>& bodies);
+
+// Throws CaseError where cells, bodies or walls of a scene at t = 0 are not clear of each other.
+void requireClear(const Case& input, const coupling::Scene& scene);
+
+}  // namespace corpuscle::simulation
