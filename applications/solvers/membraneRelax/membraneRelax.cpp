@@ -138,11 +138,11 @@ int main(int argc, char* argv[]) {
         requireWritable(app.communicator(), {app.path("run.json.0000000.tmp"), app.path("results/.file.part"),
                                              app.path("postProcessing/.file.part")});
         const Input input = Input::read(app);  // 1. strict dictionaries, SI from here on
-        simulation::refreshSchemas(app);
         membrane::Membrane membrane =
             input.relax.makeMembrane(app.caseDirectory(), input.membranes);  // 2. the membrane
         app.lockCase();
         app.openLog();
+        simulation::refreshSchemas(app);
         app.log().info("{}: {} nodes, edge {}; protocol {}, {} stages", membrane.name, membrane.position.size(),
                        formatQuantity(input.relax.edge(), unit::metre), input.relax.protocol.name,
                        input.relax.protocol->stages());

@@ -291,7 +291,6 @@ int main(int argc, char* argv[]) {
         app.announce();
         const auto begin = std::chrono::steady_clock::now();
         const Case input = Case::read(app);
-        simulation::refreshSchemas(app);
         simulation::requireMemory(app.communicator(), input);
         simulation::requireStartWritable(app.communicator(), input);
         app.lockCase();
@@ -302,6 +301,7 @@ int main(int argc, char* argv[]) {
             problems.add(p.mark, p.key, p.message + ", then run membraneMesh again");
         input.throwIfAny(problems);
         app.openLog();
+        simulation::refreshSchemas(app);
         Filling filling = placeParticles(input, cells, bodies);
         if (!cells.empty() && !input.numerics.isImmersed()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
