@@ -49,7 +49,8 @@ Bounds SurfaceView::bounds() const {
 }
 
 std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Period& period, double margin) {
-    // Each surface as its image with the lower corner of its bounds in the first period, and all images of it that may meet one of these.
+    // Each surface as its image with the lower corner of its bounds in the first period, and all images of it that may
+    // meet one of these.
     struct Image {
         std::size_t surface;
         Vec3 shift;  // of the surface as it stands

@@ -77,7 +77,8 @@ Fault Watch::find(const Scene& scene, const Time& time) {
             lengths_[c].clear();  // old by the time that this rank holds the cell again
     }
     if (!fault) fault = ofSurfaces(scene, time);
-    // Surfaces that meet are the cause only where nothing else is wrong, on any rank: a node that was thrown out of its place may cross another cell.
+    // Surfaces that meet are the cause only where nothing else is wrong, on any rank: a node that was thrown out of its
+    // place may cross another cell.
     const double own = !fault ? 0 : fault.isGeometric ? 1 : 2;
     const std::vector<double> most = ranks.max({own, fastest2});
     const long count = ranks.sum(static_cast<long>(scene.system->owned()));
@@ -184,8 +185,8 @@ Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     return {when() + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
 }
 
-// Of closed cells that this rank holds and of bodies, against each other, their periodic images and walls. Where all ranks know all, each looks at
-// its share.
+// Of closed cells that this rank holds and of bodies, against each other, their periodic images and walls. Where all
+// ranks know all, each looks at its share.
 Fault Watch::ofSurfaces(const Scene& scene, const Time& time) const {
     struct Surface {
         std::string name;

@@ -1,4 +1,5 @@
-// A cell's mesh that was moved into another after particleFill: checkMesh, checkCase and the solver each see it for themselves, on 1 and 2 ranks.
+// A cell's mesh that was moved into another after particleFill: checkMesh, checkCase and the solver each see it for
+// themselves, on 1 and 2 ranks.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

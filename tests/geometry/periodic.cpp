@@ -1,5 +1,5 @@
-// Cells that reach further than half a box from their centroid, and surfaces that meet: sides, distances and crossings through periodic
-// boundaries against sums over all images.
+// Cells that reach further than half a box from their centroid, and surfaces that meet: sides, distances and crossings
+// through periodic boundaries against sums over all images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -225,7 +225,8 @@ TEST(Crossings, aSurfaceAndItsOwnImage) {
     }
 }
 
-// Each pair of images once, whatever boxes the cells have drifted to, and the number of pairs grows with the number of cells.
+// Each pair of images once, whatever boxes the cells have drifted to, and the number of pairs grows with the number of
+// cells.
 TEST(Crossings, neighboursOfALattice) {
     for (const int n : {3, 6}) {
         std::vector<Bounds> bounds;

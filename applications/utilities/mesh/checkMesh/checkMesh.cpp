@@ -1,7 +1,8 @@
 // checkMesh: whether what stands in 0/ is sound and belongs to the case.
 //
-// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and clear of each other. Particles: on the lattice's count, sides
-// right by an inside test other than particleFill's, as many in a cell as its volume asks for, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
+// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and clear of each other. Particles:
+// on the lattice's count, sides right by an inside test other than particleFill's, as many in a cell as its volume asks
+// for, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
 //
 // Sample runs:
 //     checkMesh -case tutorials/rbcShear/Ca0.02
@@ -141,8 +142,9 @@ struct Wrong {
     }
 };
 
-// Sides are those of cells: bodies hold no fluid. What particleFill found by one inside test is held against another (sidesByRays.hpp), and the
-// number of particles in each cell against its volume. Meshes are sound and clear of each other.
+// Sides are those of cells: bodies hold no fluid. What particleFill found by one inside test is held against another
+// (sidesByRays.hpp), and the number of particles in each cell against its volume. Meshes are sound and clear of each
+// other.
 void checkSides(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
                 const std::vector<Vec3>& ofBodies, ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
