@@ -169,7 +169,8 @@ std::optional<std::string> without(const std::string& text, const std::string& u
     if (text.size() <= unit.size() || !text.ends_with(unit)) return std::nullopt;
     std::string number = text.substr(0, text.size() - unit.size());
     number.erase(number.find_last_not_of(' ') + 1);
-    return number;
+    const bool isNumber = !number.empty() && (number.back() == '.' || (number.back() >= '0' && number.back() <= '9'));
+    return isNumber ? std::optional(number) : std::nullopt;
 }
 
 bool isNameOf(const Node& node, const std::string& text, Problems& problems) {
@@ -347,7 +348,8 @@ Codec<Index3> integers(Range range) {
     return {[=](const Node& node, Index3& value, Problems& problems) {
                 if (!isListOf(node, 3, "three whole numbers like '[1, 2, 3]'", problems) || !hasNoUnit(node, problems))
                     return;
-                for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t before = problems.count();
+                for (std::size_t k = 0; k < 3 && problems.count() == before; ++k) {
                     long read = value[k];
                     one.read(node.items[k], read, problems);
                     value[k] = static_cast<int>(read);
@@ -364,7 +366,9 @@ Codec<std::array<bool, 3>> booleans() {
                 if (!isListOf(node, 3, "three of true or false like '[true, true, false]'", problems) ||
                     !hasNoUnit(node, problems))
                     return;
-                for (std::size_t k = 0; k < 3; ++k) one.read(node.items[k], value[k], problems);
+                const std::size_t before = problems.count();  // one message for what all three have wrong
+                for (std::size_t k = 0; k < 3 && problems.count() == before; ++k)
+                    one.read(node.items[k], value[k], problems);
             },
             [=](const std::array<bool, 3>& v) {
                 Node node = Node::list({});

@@ -71,8 +71,6 @@ bool isName(const std::string& text) {
 
 namespace {
 
-// Deeper than any dictionary; recursion over nodes stays far from the end of the stack.
-constexpr std::size_t deepest = 64;
 struct TooDeep {
     Mark mark;
 };
@@ -131,7 +129,7 @@ class TreeBuilder : public YAML::EventHandler {
     };
 
     void open(Node node) {
-        if (open_.size() == deepest) throw TooDeep{node.mark};
+        if (open_.size() == deepestDictionary) throw TooDeep{node.mark};
         open_.push_back({.node = std::move(node)});
     }
 
@@ -204,7 +202,8 @@ class TreeBuilder : public YAML::EventHandler {
 std::string hint(const std::string& message) {
     if (message.find("anchor is not defined") != std::string::npos)
         return "an alias (*name); write the value out, anchors and aliases are not part of a dictionary";
-    if (message.find("end of map") != std::string::npos || message.find("illegal map value") != std::string::npos)
+    const auto has = [&](const char* part) { return message.find(part) != std::string::npos; };
+    if (has("end of map") || has("end of sequence not found") || has("illegal map value"))
         return message + "; is a ':' missing, or a line indented wrongly?";
     return message;
 }
@@ -238,7 +237,7 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
                 problems.add(root.mark, "", "more than one document ('---'); one file holds one dictionary");
         }
     } catch (const TooDeep& there) {
-        problems.add(there.mark, "", fmt::format("nested more than {} levels deep; no dictionary needs that", deepest));
+        problems.add(there.mark, "", tooDeep());
     } catch (const YAML::Exception& e) {
         if (const auto& opened = units.unclosed)
             problems.add({shownAs, opened->line + 1, opened->column + 1}, "",

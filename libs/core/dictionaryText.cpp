@@ -103,6 +103,10 @@ std::string tooLarge(std::size_t bytes) {
         1e-6 * static_cast<double>(bytes), 1e-6 * static_cast<double>(largestDictionary));
 }
 
+std::string tooDeep() {
+    return fmt::format("nested more than {} levels deep; no dictionary needs that", deepestDictionary);
+}
+
 DictionaryText dictionaryText(std::string text, const std::string& shownAs, Problems& problems) {
     DictionaryText result;
     if (text.size() > largestDictionary) {
@@ -157,7 +161,13 @@ DictionaryText dictionaryText(std::string text, const std::string& shownAs, Prob
             quote = c;
             quotation = {c, line, here};
         }
-        if ((c == '[' || c == '{') && (startsToken || !open.empty())) open.push_back({c, line, here});
+        if ((c == '[' || c == '{') && (startsToken || !open.empty())) {
+            open.push_back({c, line, here});
+            if (open.size() > deepestDictionary) {
+                problems.add({shownAs, line + 1, here + 1}, "", tooDeep());
+                return result;
+            }
+        }
         if ((c == ']' || c == '}') && !open.empty()) {
             const Opened opened = open.back();
             open.pop_back();
@@ -186,13 +196,12 @@ DictionaryText dictionaryText(std::string text, const std::string& shownAs, Prob
 
 std::optional<Problem> foreignHabit(const std::string& text, const std::string& shownAs, int line) {
     static const std::regex comment(" *(//|/\\*).*"), ending("[^#]*; *"), noBlank(" *(?:- )?([A-Za-z]\\w*):([^ ].*)"),
-        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *"),
-        noColon(" *(?:- )?([A-Za-z]\\w*) +([^:]*)"), heading(" *\\[.*\\] *");
+        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *");
     constexpr std::size_t longest = 200;
-    constexpr int before = 2;
+    constexpr int before = 2, after = 1;  // lines
     std::istringstream lines(text);
     std::string now, last;
-    for (int n = 1; std::getline(lines, now) && (line == 0 || n <= line); ++n) {
+    for (int n = 1; std::getline(lines, now) && (line == 0 || n <= line + after); ++n) {
         if (now.size() > longest || now.find_first_not_of(' ') == std::string::npos ||
             now[now.find_first_not_of(' ')] == '#')
             continue;

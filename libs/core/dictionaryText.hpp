@@ -10,6 +10,8 @@
 namespace corpuscle {
 
 inline constexpr std::size_t largestDictionary = 4 << 20;  // [bytes]
+// Levels: recursion over nodes stays far from the end of the stack.
+inline constexpr std::size_t deepestDictionary = 64;
 
 struct Opened {
     char character;    // a bracket or a quotation mark
@@ -29,9 +31,11 @@ struct DictionaryText {
 DictionaryText dictionaryText(std::string text, const std::string& shownAs, Problems& problems);
 
 std::string tooLarge(std::size_t bytes);  // the message for a file above largestDictionary
+std::string tooDeep();                    // the message for more levels than deepestDictionary
 
 // The habit of another format that makes this text unreadable as YAML: a missing blank after ':', '=' for ':', a final
-// ';', comments with '//'. Looked for in the line (from 1) and in the two before it; in all lines for 0.
+// ';', comments with '//'. Looked for in the line (from 1), in the two before and
+// in the one after it; in all lines for 0.
 std::optional<Problem> foreignHabit(const std::string& text, const std::string& shownAs, int line);
 
 }  // namespace corpuscle

@@ -270,7 +270,7 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
                 advice = fmt::format(" Did you mean '{}'?", nearest);
             } else if (nearest = nearestWord(key, known); !nearest.empty()) {
                 const Mark& there = node.find(nearest)->place();
-                advice = fmt::format(" '{}' is given already{}: keep one.", nearest,
+                advice = fmt::format(" Did you mean '{}'? It is given already{}.", nearest,
                                      there.line ? fmt::format(" in line {}", there.line) : "");
             }
         }

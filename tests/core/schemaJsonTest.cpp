@@ -57,13 +57,30 @@ TEST(JsonSchema, tellsTypesLimitsAndRules) {
     EXPECT_EQ(json["properties"]["porosity"]["maximum"], 1);
     EXPECT_EQ(json["required"], (std::vector<std::string>{"porosity", "size"}));
     EXPECT_EQ(json["additionalProperties"], false);
-    EXPECT_EQ(json["allOf"][0]["oneOf"].size(), 2u);
-    EXPECT_EQ(json["properties"]["shape"]["anyOf"][0]["$ref"], "#/definitions/test%20shape");
-    EXPECT_EQ(json["properties"]["shape"]["default"], "none");
-    const auto& models = json["definitions"]["test shape"]["anyOf"];
-    ASSERT_EQ(models.size(), 3u);  // ball as a table, the bare word ball, group as a table only
-    EXPECT_EQ(models[1]["const"], "ball");
-    EXPECT_EQ(models[2]["properties"]["of"]["$ref"], "#/definitions/test%20shape");
+    // Without shearRate Ca is required, and both together are refused.
+    EXPECT_EQ(json["allOf"].size(), 2u);
+    EXPECT_EQ(json["allOf"][0]["then"]["required"][0], "Ca");
+    EXPECT_EQ(json["allOf"][1]["not"]["required"].size(), 2u);
+    const auto& shape = json["properties"]["shape"];
+    EXPECT_EQ(shape["then"]["enum"], (std::vector<std::string>{"none", "ball"}));  // group is not a word alone
+    EXPECT_EQ(shape["else"]["$ref"], "#/definitions/test%20shape");
+    EXPECT_EQ(shape["default"], "none");
+    EXPECT_EQ(shape["description"], "its shape");
+    const auto& family = json["definitions"]["test shape"];
+    EXPECT_EQ(family["properties"]["type"]["enum"], (std::vector<std::string>{"ball", "group"}));
+    ASSERT_EQ(family["allOf"].size(), 2u);
+    EXPECT_EQ(family["allOf"][0]["if"]["properties"]["type"]["const"], "ball");
+    EXPECT_EQ(family["allOf"][1]["then"]["properties"]["of"]["else"]["$ref"], "#/definitions/test%20shape");
+    EXPECT_EQ(family["allOf"][0]["then"]["additionalProperties"], false);
+}
+
+TEST(JsonSchema, quantitiesHaveTheirDimension) {
+    const auto size = jsonSchema(Domain::schema().info())["properties"]["size"];
+    EXPECT_EQ(size["minItems"], 3);
+    const std::string pattern = size["items"]["pattern"];
+    EXPECT_NE(pattern.find("]?m"), std::string::npos) << pattern;
+    EXPECT_EQ(pattern.find("Pa"), std::string::npos) << pattern;
+    EXPECT_LT(pattern.size(), 200u) << pattern;  // it stands in the messages of other programs
 }
 
 TEST(JsonSchema, dictionariesAsJson) {

@@ -217,7 +217,7 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("steps: inf", "steps", {"not a finite number"});
     expect("steps: 1e400", "steps", {"is not a whole number"});
     expect("on: 'true'", "on", {"without quotation marks"});
-    expect("Viscosity: 1 Pa s", "Viscosity", {"'viscosity' is given already in line 1"});
+    expect("Viscosity: 1 Pa s", "Viscosity", {"Did you mean 'viscosity'? It is given already in line 1"});
     expect("porosity: 50 um", "porosity", {"has a unit"});
     expect("porosity: 1.5", "porosity", {"0 to 1"});
     expect("steps: 0", "steps", {"at least 1"});

@@ -129,7 +129,7 @@ CASES = [
     case("unitOnNumber", replace(FLOW, "Ca: 0.02", "Ca: 0.02 Pa"), FLOW, "Ca", "0.02 Pa", "has a unit", "number without one"),
     case("wrongDimension", replace(FLUID, "1.0e-3 Pa s", "1.0e-3 Pa"), FLUID, "viscosity", "1.0e-3 Pa", "is in Pa", "in Pa s"),
     case("unknownUnit", replace(MESH, "edge: 0.8 um", "edge: 0.8 mu"), MESH, "cells[0].edge", "0.8 mu", "unknown unit 'mu'",
-         "Did you mean 'um'?", "Known:"),
+         "Did you mean 'um'?", "Known for m: um, nm"),
     case("spacingsNotAllowed", replace(MESH, "d: 8 um", "d: 8 dx"), MESH, "cells[0].shape.d", "8 dx", "particle spacings", "not allowed"),
     case("listWithoutUnit", replace(MESH, "[20 um, 16 um, 16 um]", "[20, 16, 16]"), MESH, "domain.size[0]", "20", "no unit"),
 

@@ -44,7 +44,7 @@ HOSTILE = {
     "utf16": ("constant/fluid.yaml", fluid.encode("utf-16"), ["UTF-16", "UTF-8"], 1),
     "utf16bigEndian": ("constant/fluid.yaml", fluid.encode("utf-16-be"), ["UTF-16"], 1),
     "utf32": ("constant/fluid.yaml", fluid.encode("utf-32"), ["UTF-16"], 1),
-    "large": ("constant/fluid.yaml", None, ["105 MB", "at most 4 MB"], 1),
+    "large": ("constant/fluid.yaml", None, ["105.0 MB", "at most 4 MB"], 1),
     "longValue": ("constant/fluid.yaml", "density: " + "x" * 1000000 + "\nviscosity: 1 Pa s\n", ["density"], 1),
     "longKey": ("constant/fluid.yaml", fluid + "x" * 900 + ": 1\n", ["unknown key"], 1),
     "longName": ("system/mesh.yaml", "domain: {size: [20 um, 16 um, 16 um], periodic: [true, true, false]}\ncells: [{name: " + "n" * 500000 + "}]\n", ["missing"], None),
