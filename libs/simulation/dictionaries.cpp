@@ -6,6 +6,7 @@
 #include "core/schemaJson.hpp"
 #include "observers/observers.hpp"
 #include "simulation/caseSettings.hpp"
+#include "simulation/readyCell.hpp"
 #include "simulation/relaxSettings.hpp"
 
 namespace corpuscle::simulation {
@@ -27,8 +28,13 @@ SchemaInfo flowInfo() {
 
 std::string schemaText(const SchemaInfo& info) { return schemaOf(info).dump(2) + "\n"; }
 
-std::filesystem::path schemaPath(const std::filesystem::path& folder, const std::string& file) {
-    return folder / std::filesystem::path(file).filename().replace_extension(".json");
+// All, by the file's name.
+std::vector<std::pair<std::string, SchemaInfo>> schemas() {
+    std::vector<std::pair<std::string, SchemaInfo>> all;
+    for (const auto& [file, info] : dictionaries())
+        all.emplace_back(std::filesystem::path(file).stem().string() + ".json", info);
+    all.emplace_back("cell.json", readyCellInfo());
+    return all;
 }
 
 }  // namespace
@@ -51,10 +57,12 @@ nlohmann::ordered_json schemaOf(const SchemaInfo& info) {
     return info.name == "flow" ? jsonSchemaOfModel(info.name, info.text, sph::Flow::familyName) : jsonSchema(info);
 }
 
+SchemaInfo readyCellInfo() { return ReadyCell::schema().info(); }
+
 std::vector<std::filesystem::path> writeSchemas(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> written;
-    for (const auto& [file, info] : dictionaries()) {
-        written.push_back(schemaPath(folder, file));
+    for (const auto& [name, info] : schemas()) {
+        written.push_back(folder / name);
         writeFileAtomically(written.back(), schemaText(info));
     }
     return written;
@@ -62,9 +70,8 @@ std::vector<std::filesystem::path> writeSchemas(const std::filesystem::path& fol
 
 void refreshSchemas(const Application& app) {
     if (!app.communicator().isRoot()) return;
-    const std::filesystem::path folder = app.path(".schema");
-    for (const auto& [file, info] : dictionaries()) {
-        const std::filesystem::path path = schemaPath(folder, file);
+    for (const auto& [name, info] : schemas()) {
+        const std::filesystem::path path = app.path(".schema") / name;
         const std::string text = schemaText(info);
         try {
             if (!std::filesystem::exists(path) || readFile(path) != text) writeFileAtomically(path, text);

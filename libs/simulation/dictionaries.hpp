@@ -19,9 +19,12 @@ namespace corpuscle::simulation {
 // "system/control.yaml", ... with what is declared for it.
 const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries();
 
+// "cell", of constant/cells/NAME.yaml, which is read where system/mesh.yaml names it.
+SchemaInfo readyCellInfo();
+
 nlohmann::ordered_json schemaOf(const SchemaInfo& dictionary);
 
-// One "<name>.json" for each dictionary; returns their paths.
+// One "<name>.json" for each dictionary and "cell.json"; returns their paths.
 std::vector<std::filesystem::path> writeSchemas(const std::filesystem::path& folder);
 
 // Brings .schema/ of the case up to date where it differs. Without it a case runs as well, so that a folder that cannot

@@ -114,6 +114,14 @@ std::optional<Node> readReady(const Application& app, const Node& name, Problems
 
 }  // namespace
 
+const Schema<ReadyCell>& ReadyCell::schema() {
+    static const Schema<ReadyCell> s =
+        Schema<ReadyCell>("cell", "constant/cells/NAME.yaml: a ready cell, for 'cell: NAME' in system/mesh.yaml")
+            .model("shape", &ReadyCell::shape, "its stress-free shape; axis along z")
+            .table("membrane", &ReadyCell::membrane, "the laws of its membrane");
+    return s;
+}
+
 bool namesReadyCells(const Node& mesh) {
     const Node* cells = mesh.kind == Node::Kind::table ? mesh.find("cells") : nullptr;
     return cells && std::any_of(cells->items.begin(), cells->items.end(),

@@ -10,8 +10,18 @@
 // model of another type takes the place of the ready cell's. From here on nothing knows of ready cells: used.yaml has the values.
 #pragma once
 #include "core/application.hpp"
+#include "core/registry.hpp"
+#include "geometry/shape.hpp"
+#include "membrane/membraneSettings.hpp"
 
 namespace corpuscle::simulation {
+
+// The keys of such a file, for its JSON schema.
+struct ReadyCell {
+    Choice<geometry::Shape> shape;
+    membrane::MembraneSettings membrane;
+    static const Schema<ReadyCell>& schema();
+};
 
 // Puts the values in place of the names in both dictionaries. membranes: an empty table where the case has no such file. Collective.
 void insertReadyCells(const Application& app, Node& mesh, Node& membranes, Problems& problems);

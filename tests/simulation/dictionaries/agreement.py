@@ -21,6 +21,7 @@ READER_ONLY = [re.compile(p) for p in (
     r"only decimal numbers are read",                          # 0x10 and 0o17 are 16 and 15 to YAML
     r"not a finite number",                                    # .nan
     r"stands twice|a blank is missing after",                  # of the text, before there is data
+    r"that of 'cell'",                                         # of a ready cell, which is put in before a case is read
     r"the zero vector", r"needs at least one value", r"an even number", r"all zero",
     r"more than one of|give either size|a rectangle has two|too coarse for this sheet|no particles here",
     r"local.*global|thickness|write held|through the glass",

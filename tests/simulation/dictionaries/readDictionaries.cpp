@@ -12,6 +12,7 @@
 #include "observers/observers.hpp"
 #include "simulation/caseSettings.hpp"
 #include "simulation/dictionaries.hpp"
+#include "simulation/readyCell.hpp"
 #include "simulation/relaxSettings.hpp"
 
 using namespace corpuscle;
@@ -32,6 +33,7 @@ const std::map<std::string, std::function<void(const Node&, Problems&)>> readers
     {"constant/fluid.yaml", readAs<simulation::FluidSettings>},
     {"constant/membranes.yaml", readAs<simulation::MembranesSettings>},
     {"constant/bodies.yaml", readAs<bodies::BodiesSettings>},
+    {"constant/cells/cell.yaml", readAs<simulation::ReadyCell>},
     {"constant/flow.yaml", [](const Node& node, Problems& problems) { readChoice<sph::Flow>(node, problems); }}};
 
 }  // namespace

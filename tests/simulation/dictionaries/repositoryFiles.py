@@ -28,18 +28,19 @@ def dictionaries(source):
 
 
 def kind(file):
-    if file.parent == pathlib.Path("etc/cells"):
-        return "constant/membranes.yaml"
+    if file.parent.name == "cells":
+        return "constant/cells/cell.yaml"
     return f"{file.parent.name}/{file.name}" if file.parent.name in ("system", "constant") else None
 
 
 def check(source, file, reader, schemas):
     text = (source / file).read_text()
     name = kind(file)
-    if name is None or FOLDER.get(pathlib.PurePath(name).stem) != pathlib.PurePath(name).parent.name:
+    if name is None or FOLDER.get(pathlib.PurePath(name).stem, "cells") != pathlib.PurePath(name).parent.name:
         return [f"{file}: no dictionary stands there"]
     faults = [f"{file}: reader: {p}" for p in reader.problems(name, text)]
-    first = f"# yaml-language-server: $schema=../.schema/{pathlib.PurePath(name).stem}.json"
+    up = "../.." if name.startswith("constant/cells/") else ".."
+    first = f"# yaml-language-server: $schema={up}/.schema/{pathlib.PurePath(name).stem}.json"
     if text.split("\n")[0] != first:
         faults.append(f"{file}: the first line is not '{first}'")
     for which, load in (("YAML 1.1", yaml.safe_load), ("YAML 1.2", yaml12.load)):
