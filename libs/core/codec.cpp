@@ -229,11 +229,11 @@ Codec<long> integer(Range range) {
                 const char* const last = text.data() + text.size();
                 double real = 0;  // "1e6" is a whole number too
                 const auto [end, error] = std::from_chars(first, last, real);
-                constexpr double largest = 9e15;
                 if (error != std::errc() || end != last || real != std::floor(real)) return wrong("");
-                if (std::abs(real) > largest) return wrong(fmt::format(" that can be counted to; at most {}", largest));
+                if (std::abs(real) > largestInteger)
+                    return wrong(fmt::format(" that can be counted to; at most {}", largestInteger));
                 if (!inRange(node, real, unit::none, range, problems)) return;
-                if (!matches(text, integerPattern(range))) return wrong(": write its digits");
+                if (node.quoted && !matches(text, integerPattern(range))) return wrong(": write its digits");
                 value = static_cast<long>(real);
             },
             [](const long& value) { return Node::word(fmt::format("{}", value)); }};

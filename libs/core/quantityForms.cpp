@@ -17,6 +17,7 @@ namespace {
 constexpr const char* digits = "(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)";
 constexpr const char* exponent = "(?:[eE][+-]?0*[0-9]{1,2})?";
 constexpr const char* notZero = "(?=[0.]*[1-9])";
+constexpr const char* gap = "(?: +|(?!1))";        // before the unit; "81/s" is not 8 1/s
 constexpr const char* between = "(?: ?[*.] ?| )";  // factors
 
 // Kinds of units: an alternative of symbols each.
@@ -128,21 +129,21 @@ constexpr std::pair<const char*, const char*> signs[] = {{"\xC2\xB5", "u"},
 
 std::string quantityPattern(Dimension dimension, const Range& range) {
     if (dimension.isDimensionless()) return signedNumber(range);
-    return signedNumber(range) + " *" + unitPattern(dimension);
+    return signedNumber(range) + gap + unitPattern(dimension);
 }
 
 std::string lengthPattern(const Range& range) {
-    return signedNumber(range) + " *(?:dx|" + unitPattern(unit::metre) + ")";
+    return signedNumber(range) + gap + "(?:dx|" + unitPattern(unit::metre) + ")";
 }
 
 std::string intervalPattern() {
-    return "never|" + signedNumber(positive) + " *(?:strain|" + unitPattern(unit::second) + ")|\\+?" + notZero +
+    return "never|" + signedNumber(positive) + gap + "(?:strain|" + unitPattern(unit::second) + ")|\\+?" + notZero +
            "[0-9]+\\.?0*(?:[eE]\\+?0*[0-9]{1,2})? *steps?";
 }
 
 std::string integerPattern(const Range& range) {
     return std::string(range.low >= 0 ? "\\+?" : "[+-]?") + (range.low > 0 ? notZero : "") +
-           "[0-9]+\\.?0*(?:[eE]\\+?0*[0-9]{1,2})?";
+           "[0-9]+\\.?0*(?:[eE]\\+?0*(?:[0-9]|1[0-2]))?";
 }
 
 std::string withUnicode(std::string pattern) {

@@ -15,6 +15,7 @@ namespace corpuscle {
 
 // Numbers lie between these in size, or are zero.
 inline constexpr double leastNumber = 1e-100, largestNumber = 1e100;
+inline constexpr double largestInteger = 9e15;
 
 // What a scalar has to match as a whole (ECMA 262, without ^ and $), after `plainUnits` for the reader. Where the text
 // is a number alone its value is checked against the range too; of a quantity with a unit the pattern knows the sign.

@@ -116,8 +116,10 @@ class Writer {
     // A bare number in its range. As a text (in quotes, or 1e-3 for readers of YAML 1.1) only its form is checked.
     static Json number(const char* type, Range range, const std::string& pattern, const FieldInfo& f) {
         Json json{{"type", {type, "string"}}};
-        if (!std::isfinite(range.low)) range.low = -largestNumber, range.lowOpen = true;
-        if (!std::isfinite(range.high)) range.high = largestNumber, range.highOpen = true;
+        const bool isWhole = std::string_view(type) == "integer";
+        const double largest = isWhole ? largestInteger : largestNumber;
+        if (!std::isfinite(range.low)) range.low = -largest, range.lowOpen = !isWhole;
+        if (!std::isfinite(range.high)) range.high = largest, range.highOpen = !isWhole;
         if (range.low == 0 && range.lowOpen) range = {leastNumber, range.high, false, range.highOpen};
         json[range.lowOpen ? "exclusiveMinimum" : "minimum"] = range.low;
         json[range.highOpen ? "exclusiveMaximum" : "maximum"] = range.high;
