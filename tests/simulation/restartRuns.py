@@ -3,9 +3,9 @@
 
     restartRuns.py BIN TEST    BIN: directory of the applications
 """
+import atexit
 import hashlib
 import json
-import os
 import pathlib
 import re
 import shutil
@@ -20,7 +20,7 @@ from runs import BIN, CELL_CASE, FLUID_CASE, copied, last_checkpoint, make, prep
 
 # A few steps of a second at most, the spring and the fluid explicit. The density does not depend on the flow.
 CASE = {**CELL_CASE, "constant/flow.yaml": "type: shear\nCa: 0.1\n",
-        "constant/fluid.yaml": "density: 30000 kg/m^3\nviscosity: 1.0e-3 Pa s\n",
+        "constant/fluid.yaml": "density: 5700 kg/m^3\nviscosity: 1.0e-3 Pa s\n",
         "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.03").replace("{strain: 0.05}", "{strain: 0.01}")}
 TWO_CELLS = {**CASE, "system/mesh.yaml": """domain: {size: [12 um, 11 um, 10 um], periodic: [true, true, false]}
 cells:
@@ -54,6 +54,13 @@ def said(case, *options):
     return done.stdout
 
 
+def started(*command, **options):
+    """A program beside this one, ended with it at the latest."""
+    process = subprocess.Popen(command, **options)
+    atexit.register(lambda: process.poll() is None and process.kill())
+    return process
+
+
 MORE = "system/control.yaml:/endStrain=0.05"
 
 
@@ -64,17 +71,17 @@ def test_fixed(folder):
     for change, key, now, before in (
             ("system/numerics.yaml:/kernel={type: lucy, support: 2.4 dx}", "kernel", "{type: lucy, support: 2.4 dx}", "{type: wendlandC2, support: 2.4 dx}"),
             ("system/numerics.yaml:/kernel/support=2.5 dx", "kernel.support", "2.5 dx", "2.4 dx"),
-            (("system/numerics.yaml:/coupling=immersed", "system/numerics.yaml:/shifting={coefficient: 0.5}"), "coupling", "immersed", "dualIdentity"),
+            ("system/numerics.yaml:/shifting=none", "shifting", "none", "{coefficient: 0.5, steps: 7}"),
             ("system/numerics.yaml:/skin=0.4 dx", "skin", "0.4 dx", "0.3 dx"),
             ("system/mesh.yaml:/cells/0/centre=[4 um, 0 um, 0 um]", "cells[0].centre", "[4 um, 0 m, 0 m]", "[5 um, 0 m, 0 m]"),
             ("system/mesh.yaml:/cells/0/shape/d=7.9 um", "cells[0].shape.d", "7.9 um", "8 um"),
             ("system/mesh.yaml:/cells/0/edge=0.7 um", "cells[0].edge", "700 nm", "800 nm"),
             ("system/mesh.yaml:/fill={seed: 2}", "fill.seed", "2", "1"),
             ("system/mesh.yaml:/domain/size=[12 um, 12 um, 10 um]", "domain.size", "[12 um, 12 um, 10 um]", "[12 um, 11 um, 10 um]"),
-            ("constant/fluid.yaml:/density=20000 kg/m^3", "density", "20000 kg/m^3", "30000 kg/m^3"),
+            ("constant/fluid.yaml:/density=4000 kg/m^3", "density", "4000 kg/m^3", "5700 kg/m^3"),
             ("constant/membranes.yaml:/rbc/interior={viscosityRatio: 5}", "rbc.interior.viscosityRatio", "5", "1"),
             ("constant/flow.yaml:/start=rest", "start", "rest", "linear")):
-        found = unchanged(case, "dmpFlow", *sets(*([change] if isinstance(change, str) else change), MORE), code=2).stderr
+        found = unchanged(case, "dmpFlow", *sets(change, MORE), code=2).stderr
         for part in (f"{key}: the case now has {now}, but ", f"was written with {before}; start from firstTime, or give the old value"):
             assert part in found, f"{change}: {part} is not in\n{found}"
     # All at once, and the same on two ranks, each where it stands in its file.
@@ -121,30 +128,17 @@ def test_meshes(folder):
             assert f": {key}: the case now has " in found, f"{name}: {key}\n{found}"
     # A surface from a file that has been changed under the same name: no setting differs, the mesh does.
     file_case = {**CASE, "system/mesh.yaml": "domain: {size: [12 um, 11 um, 10 um], periodic: [true, true, false]}\n"
-                 "cells: [{name: rbc, shape: {type: file, file: constant/cell.off}, edge: 0.9 um}]\n"}
-    corners = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
-    for _ in range(3):  # an octahedron, refined on the sphere
-        middles, finer = {}, []
-        def middle(i, j):
-            key = (min(i, j), max(i, j))
-            if key not in middles:
-                x = [a + b for a, b in zip(corners[i], corners[j])]
-                length = sum(c * c for c in x) ** 0.5
-                middles[key] = len(corners)
-                corners.append(tuple(c / length for c in x))
-            return middles[key]
-        for i, j, k in faces:
-            ij, jk, ki = middle(i, j), middle(j, k), middle(k, i)
-            finer += [(i, ij, ki), (ij, j, jk), (ki, jk, k), (ij, jk, ki)]
-        faces = finer
-    def off(stretch):
-        points = [f"{3 * x * stretch} {3 * y} {3 * z / stretch}" for x, y, z in corners]
-        return f"OFF\n{len(points)} {len(faces)} 0\n" + "\n".join(points + [f"3 {a} {b} {c}" for a, b, c in faces]) + "\n"
-    case = make(folder / "file", {**file_case, "constant/cell.off": off(1)})
+                 "cells: [{name: rbc, shape: {type: file, file: constant/cell.vtp, scale: 1 m}, edge: 0.9 um}]\n"}
+    shapes = {}
+    for shape in ("sphere, radius: 3 um", "spheroid, a: 3.2 um, c: 2.6 um"):
+        source = make(folder / ("made" + shape[:6]), {**CASE, "system/mesh.yaml": text % f"{{name: rbc, shape: {{type: {shape}}}, edge: 0.8 um}}"})
+        run(source, "membraneMesh")
+        shapes[shape[:6]] = source / "0/rbc.vtp"
+    case = make(folder / "file", file_case)
+    shutil.copy(shapes["sphere"], case / "constant/cell.vtp")
     prepared(case, file_case)
     run(case, "dmpFlow", "-steps", "3")
-    (case / "constant/cell.off").write_text(off(1.2))
+    shutil.copy(shapes["sphero"], case / "constant/cell.vtp")
     prepared(case, file_case)
     for ranks in (1, 2):
         found = unchanged(case, "dmpFlow", "-steps", "3", code=2, ranks=ranks).stderr
@@ -164,7 +158,7 @@ def test_meshes(folder):
 def test_noted(folder):
     """What may change at a restart is reported with both values, on the terminal, in the log and in run.json; what is free is not mentioned."""
     start = prepared(folder / "start", CASE)
-    run(start, "dmpFlow", "-steps", "4")
+    run(start, "dmpFlow", "-steps", "10")
     for k, (change, expected) in enumerate((
             ("constant/flow.yaml:/Ca=0.2", "constant/flow.yaml: Ca: changed at the restart, from 0.1 to 0.2"),
             ("constant/membranes.yaml:/rbc/bonds/k=4e-4 N/m", "constant/membranes.yaml: rbc.bonds.k: changed at the restart, from 500 uN/m to 400 uN/m"),
@@ -173,12 +167,13 @@ def test_noted(folder):
             ("system/numerics.yaml:/shifting/coefficient=1", "system/numerics.yaml: shifting.coefficient: changed at the restart, from 0.5 to 1"))):
         case = copied(start, folder / f"noted{k}")
         text = said(case, "-steps", "2", *sets(change))
-        for place in (text, (case / "log.dmpFlow").read_text(), "\n".join(json.loads((case / "run.json").read_text())["parameters"]["changedAtRestart"])):
-            assert expected in place, f"{expected}\n{place}"
+        recorded = json.loads((case / "run.json").read_text())["parameters"].get("changedAtRestart", [])
+        for place in (text, (case / "log.dmpFlow").read_text(), "\n".join(recorded)):
+            assert expected in place, f"{change}: {expected}\n{place}"
     for k, change in enumerate(("system/control.yaml:/endStrain=0.5", "system/control.yaml:/write/strain=0.02", "system/control.yaml:/checkpoint/keep=3",
                                 "system/observers.yaml:/deformation/every=0.02 strain", "system/numerics.yaml:/retreats=2")):
         text = said(copied(start, folder / f"free{k}"), "-steps", "2", *sets(change))
-        assert "Restart from" in text and "changed at the restart" not in text, text
+        assert "Restart from" in text and "changed" not in text, text
     # The laws go with the cell, whatever their entry is called.
     laws = start / "constant/membranes.yaml"
     laws.write_text(laws.read_text().replace("rbc:", "healthy:") + "unused:\n  bonds: {type: harmonic, k: 1e-4 N/m}\n")
@@ -195,12 +190,11 @@ def times(case, stream):
 
 
 def stretches(case, killed=False):
-    """Streams of the results with the number of their times, and of the checkpoints. A killed run may leave the folder of what it was writing."""
+    """Streams of the results with the number of their times, and of the checkpoints. A run that was killed may leave a piece that no index names."""
     files = {stream.stem: len(times(case, stream.stem)) for stream in (case / "results").glob("*.pvd")}
     for name, count in files.items():
         pieces = list((case / "results" / name).glob(f"{name}_*.pvtp"))
-        folders = len([p for p in (case / "results" / name).iterdir() if p.is_dir()])
-        assert count <= len(pieces) <= folders and folders <= count + killed, (name, count, pieces, folders)
+        assert killed or len(pieces) == count == len([p for p in (case / "results" / name).iterdir() if p.is_dir()]), (name, count, pieces)
     return files, len(list((case / "checkpoints").glob("*.h5")))
 
 
@@ -215,8 +209,7 @@ def test_anew(folder):
     lines = TWO_CELLS["system/mesh.yaml"].splitlines(keepends=True)
     prepared(case, {**TWO_CELLS, "system/mesh.yaml": "".join(lines[:3])})
     anew = "system/control.yaml:/startFrom=firstTime"
-    process = subprocess.Popen([str(BIN / "dmpFlow"), "-case", str(case), *sets(anew, "system/control.yaml:/endStrain=50")],
-                               stdout=subprocess.PIPE, text=True)
+    process = started(str(BIN / "dmpFlow"), "-case", str(case), *sets(anew, "system/control.yaml:/endStrain=50"), stdout=subprocess.PIPE, text=True)
     deadline = time.time() + 60
     while (case / "results/other.pvd").exists() and time.time() < deadline:
         time.sleep(0.02)
@@ -232,15 +225,13 @@ def test_anew(folder):
     # A restart before later output: on another number of ranks too.
     for ranks in (1, 2):
         case = prepared(folder / f"earlier{ranks}", CASE)
-        run(case, "dmpFlow", "-steps", "5")
+        run(case, "dmpFlow", "-steps", "30")
         first = json.loads((case / "run.json").read_text())["result"]["time_s"]
         run(case, "dmpFlow")
         before = times(case, "rbc")
         assert max(before) > first and stretches(case)[1] == 2
         run(case, "dmpFlow", "-restart", f"{first!r} s", "-steps", "2", *sets("system/control.yaml:/endStrain=0.2"), ranks=ranks)
-        reached = json.loads((case / "run.json").read_text())["result"]["time_s"]
-        assert first < reached < max(before), (first, reached, before)
-        assert times(case, "rbc") == [t for t in before if t <= reached], (times(case, "rbc"), before, first)
+        assert times(case, "rbc") == [t for t in before if t <= first], (times(case, "rbc"), before, first)
         assert stretches(case)[1] == 2  # that one, and the new one
         latest = said(case, "-steps", "1", *sets("system/control.yaml:/endStrain=0.2"))
         assert "000002.h5" in latest or "000001.h5" in latest, latest
@@ -323,7 +314,7 @@ def test_lock(folder):
     lock = case / "case.lock"
     def start(ranks=1, application="dmpFlow"):
         command = [str(BIN / application), "-case", str(case), "-quiet"]
-        process = subprocess.Popen((["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []) + command)
+        process = started(*(["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []), *command)
         deadline = time.time() + 60
         while not (case / "results/fluid.pvd").exists() or not lock.exists():
             assert time.time() < deadline and process.poll() is None
@@ -343,7 +334,8 @@ def test_lock(folder):
         assert first.poll() is None and (case / "run.json").read_text() == kept["run.json"]
         assert (case / "log.dmpFlow").read_text().startswith(kept["log.dmpFlow"])
         # A copy of a case that is at work is a case of its own.
-        twin = copied(case, folder / f"twin{ranks}")
+        twin = folder / f"twin{ranks}"
+        shutil.copytree(case, twin, ignore=shutil.ignore_patterns("results", "postProcessing", "checkpoints", "*.tmp"))
         run(twin, "particleFill")
         assert "was copied along with the case" in (twin / "log.particleFill").read_text() and not (twin / "case.lock").exists()
         first.send_signal(number)
@@ -365,7 +357,7 @@ def test_lock(folder):
         run(case, "dmpFlow", *diverging, code=3, ranks=ranks)
         assert not lock.exists(), ranks
     fine = make(folder / "fine", {**CASE, "system/mesh.yaml": CASE["system/mesh.yaml"].replace("0.8 um", "0.1 um")})
-    process = subprocess.Popen([str(BIN / "membraneMesh"), "-case", str(fine), "-quiet"])
+    process = started(str(BIN / "membraneMesh"), "-case", str(fine), "-quiet")
     deadline = time.time() + 30
     while not (fine / "case.lock").exists() and process.poll() is None and time.time() < deadline:
         time.sleep(0.005)
@@ -398,6 +390,6 @@ def test_finished(folder):
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as temporary:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
     print("passed")
