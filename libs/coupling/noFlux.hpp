@@ -23,8 +23,7 @@ class NoFlux {
 
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 
-    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to
-    // them.
+    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to them.
     void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
     // Those that were found, with the velocity that nodes have now.
     template <class F>

@@ -28,8 +28,7 @@ std::vector<double> gatherNumbers(const coupling::Scene& scene, const std::vecto
 geometry::TriangleMesh closedSurface(const coupling::Cell& cell);
 
 // Where particles really are, whatever their `side` says: against the closed surfaces of the cells that this rank holds. Right
-// for particles of this rank, wherever they stand: all of their periodic images that fall into a cell's bounds are
-// tested.
+// for particles of this rank, wherever they stand: all of their periodic images that fall into a cell's bounds are tested.
 class TrueSides {
   public:
     explicit TrueSides(const coupling::Scene& scene);

@@ -10,8 +10,8 @@
 // volume of a closed membrane             | a third from that at the start
 // triangles of a closed membrane          | two that cut each other (geometry::selfIntersections), asked where neighbours fold by more than 120
 //                                         | degrees, and from time to time
-// surfaces of cells and bodies            | two that touch or cross, images included (geometry/crossings.hpp), or one beyond a wall:
-//                                         | only fluid keeps them apart, and no shorter step cures it (isGeometric)
+// surfaces of cells and bodies            | two that touch or cross, a surface and its own periodic image among them (geometry/crossings.hpp), or one beyond a
+//                                         | wall: nothing but fluid keeps them apart, so no shorter step cures it (isGeometric)
 // A membrane that has broken is not asked for its volume and its cuts: its surface is open.
 #pragma once
 #include <optional>

@@ -10,7 +10,7 @@
 #include <mpi.h>
 #include <poll.h>
 #include <sys/mman.h>
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -120,7 +120,7 @@ nlohmann::ordered_json runOne(const std::vector<std::string>& words) {
     const auto begin = std::chrono::steady_clock::now();
     const pid_t pid = fork();
     if (pid == 0) child(program->second, arguments, said);
-    pollfd waiting{pidfd_open(pid, 0), POLLIN, 0};
+    pollfd waiting{static_cast<int>(syscall(SYS_pidfd_open, pid, 0)), POLLIN, 0};
     const bool over = poll(&waiting, 1, static_cast<int>(1000 * seconds)) == 0;
     if (over) kill(pid, SIGKILL);
     int status = 0;

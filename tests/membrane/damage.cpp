@@ -70,7 +70,7 @@ TEST(Damage, ReducesToTheThreshold) {
         return read;
     };
     const std::string threshold = "{type: arealStrain, limit: 0.0625}";
-    const std::string fast = "{type: damage, onset: 0.0625, scale: 0.01, time: 1e-300 s}";
+    const std::string fast = "{type: damage, onset: 0.0625, scale: 0.01, time: 1e-90 s}";
     const std::string steep = "{type: damage, onset: 0.03125, scale: 0.03125, time: 1e-3 s, exponent: 1e12}";
     const Mesh mesh = testing::irregular(2);
     for (const std::string& damage : {fast, steep}) {

@@ -85,7 +85,7 @@ def test_strain(folder):
     for where, application, more in ((case, "dmpFlow", ()), (harmed, "faultInjection", ("-kind", "nan", "-at", "8"))):
         run(where, application, *on, *more, ranks=2)
         rows = [[float(v) for v in row] for row in runs.series(where, "deformation")]
-        assert [row[1] for row in rows] == multiples(0.1, 0.6), rows
+        assert len(rows) == 7 and all(abs(row[1] - k * 0.1) < 1e-12 for k, row in enumerate(rows)), rows  # 0.3 was an end
         assert abs(rows[-1][0] - rows[-2][0] - 0.1 / 600) < 1e-12, rows
         assert abs(record(where)["result"]["strain"] - 0.6) < 1e-15
         assert abs(record(where)["result"]["time_s"] - first - 0.3 / 600) < 1e-12
@@ -114,7 +114,7 @@ def test_creeping(folder):
     for kind, at in (("nan", "3"), ("nan", "4")):  # between two looks at the state
         case = copied(explicit, folder / f"{kind}{at}")
         said = run(case, "faultInjection", "-kind", kind, "-at", at, "-seed", at, "-steps", "5", "-set", "system/numerics.yaml:/retreats=0", code=3).stderr
-        assert "nan" in said, said
+        assert "no finite" in said, said
         assert not list(case.glob("checkpoints/*.h5")), kind
 
 
