@@ -40,7 +40,18 @@ struct Report {
     std::vector<std::string> warnings;
 
     void section(const char* title) { app.log().info("{}", title); }
-    void line(const std::string& text) { app.log().info("  {}", text); }
+    // Broken between words where it is longer than the screen, and indented as it begins.
+    void line(std::string text) {
+        constexpr std::size_t screen = 118;
+        const std::string blanks(std::min(text.find_first_not_of(' '), screen / 2), ' ');
+        while (text.size() > screen) {
+            const std::size_t end = text.rfind(' ', screen);
+            if (end == std::string::npos || end <= blanks.size()) break;
+            app.log().info("  {}", text.substr(0, end));
+            text = blanks + text.substr(end + 1);
+        }
+        app.log().info("  {}", text);
+    }
     // Aligned, without the header if it is empty.
     void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
         const std::vector<std::string> none(rows.empty() ? 0 : rows.front().size());
