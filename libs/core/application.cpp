@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -298,7 +299,8 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
     return -receive[0];
 }
 
-// JSON on standard output is a result: one that could not be written is a failure, unless the reader has closed its pipe.
+// JSON on standard output is a result: one that could not be written is a failure, unless the reader has closed its
+// pipe.
 void Application::requireOutput() const {
     if (!has("json") || !communicator_->isRoot()) return;
     errno = 0;
@@ -306,6 +308,17 @@ void Application::requireOutput() const {
 }
 
 int Application::run(const std::function<ExitCode()>& body) {
+    const int code = outcome(body);
+    if (communicator_->anyTrue(mpiStaysOpen())) {
+        lock_.reset();
+        log_.reset();
+        std::fflush(nullptr);
+        std::_Exit(code);
+    }
+    return code;
+}
+
+int Application::outcome(const std::function<ExitCode()>& body) {
     try {
         if (usageFailure_) throw Failure(*usageFailure_);
         if (has("help") || has("version")) {

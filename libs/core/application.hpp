@@ -76,11 +76,12 @@ class Application {
 
     // Name, version and command on the terminal, and later in the log.
     void announce();
-    // From here until the end of the program, no other program writes in the case (caseLock.hpp). Before a program changes any file.
-    // Collective.
+    // From here until the end of the program, no other program writes in the case (caseLock.hpp). Before a program
+    // changes any file. Collective.
     void lockCase();
-    // log.<application> in the case directory: a new one, or, of a run that continues an earlier one, the old one after a line that
-    // says so. Not before it is certain that the program does what it was asked for: a refused command changes no file.
+    // log.<application> in the case directory: a new one, or, of a run that continues an earlier one, the old one after
+    // a line that says so. Not before it is certain that the program does what it was asked for: a refused command
+    // changes no file.
     enum class LogStart { anew, continued };
     void openLog(LogStart start = LogStart::anew);
 
@@ -96,6 +97,7 @@ class Application {
     void checkOverrides() const;
     void reportFailure(ExitCode code, const std::exception& error, bool named);
     void requireOutput() const;
+    int outcome(const std::function<ExitCode()>& body);
     int endTogether(ExitCode code, const std::exception* error);
 
     std::string name_, text_, commandLine_;

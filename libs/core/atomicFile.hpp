@@ -6,11 +6,12 @@
 
 namespace corpuscle {
 
-// Creates missing directories. Failure(io) with the path and the system's reason (core/writeFailure.hpp). `room`: bytes that the disk keeps for the file,
-// whose length stays that of the text, so that overwriteFile() works on a full disk.
+// Creates missing directories. Failure(io) with the path and the system's reason (core/writeFailure.hpp). `room`: bytes
+// that the disk keeps for the file, whose length stays that of the text, so that overwriteFile() works on a full disk.
 void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room = 0);
 
-// The last resort on a full disk: puts the text in the place of the old one, in the blocks that the file has. Not atomic. False where there are too few.
+// The last resort on a full disk: puts the text in the place of the old one, in the blocks that the file has. Not
+// atomic. False where there are too few.
 bool overwriteFile(const std::filesystem::path& file, const std::string& text);
 
 // The whole file. Failure(io) when it cannot be read.

@@ -2,10 +2,11 @@
 //
 // Several limits hold at once; the smallest counts.
 //
-// limit                        | from                                                        | shared by
-// free memory of the machine   | MemAvailable in /proc/meminfo; swap is not counted          | the ranks on the machine
-// limit of the control group   | memory.max - memory.current + file cache (or those of version 1) of the group and the groups above it | the ranks on the machine
-// ulimit -v, ulimit -d         | the soft limit less what the process already has            | nobody
+// limit                      | from                                                      | shared by
+// free memory of the machine | MemAvailable in /proc/meminfo; swap is not counted        | ranks on the machine
+// control group              | memory.max - memory.current + file cache (or those of     | ranks on the machine
+//                            | version 1), of the group and of the groups above it       |
+// ulimit -v, ulimit -d       | the soft limit less what the process already has          | nobody
 #pragma once
 #include <filesystem>
 #include <limits>
@@ -29,9 +30,9 @@ struct AvailableMemory {
 AvailableMemory availableMemory(const std::filesystem::path& proc = "/proc",
                                 const std::filesystem::path& cgroups = "/sys/fs/cgroup");
 
-// Collective. `bytes` is the estimate for all ranks together, taken to be spread evenly. Empty when every machine has as much; otherwise, the same on
-// all ranks, "126 GiB of memory is needed on host (2 ranks), which has 3.1 GiB: free memory of the machine". The memory of the estimate must not have been
-// allocated yet.
+// Collective. `bytes` is the estimate for all ranks together, taken to be spread evenly. Empty when every machine has
+// as much; otherwise, the same on all ranks, "126 GiB of memory is needed on host (2 ranks), which has 3.1 GiB: free
+// memory of the machine". The memory of the estimate must not have been allocated yet.
 std::string memoryShortage(const Communicator& communicator, double bytes);
 
 std::string formatBytes(double bytes);  // "412 MiB", "3.1 GiB"

@@ -44,8 +44,8 @@ class RunRecord {
     void print() const;  // on standard output
     // Fills in status, reason and end, and writes.
     void finish(ExitCode code, const std::string& reason);
-    // The same for a run that ends by an error, from any rank that knows of it: the root may be waiting for the others. Never throws; writes on a full
-    // disk too.
+    // The same for a run that ends by an error, from any rank that knows of it: the root may be waiting for the others.
+    // Never throws; writes on a full disk too.
     void fail(ExitCode code, const std::string& reason) noexcept;
     bool finished() const { return finished_; }
 

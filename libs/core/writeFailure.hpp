@@ -7,17 +7,18 @@
 
 namespace corpuscle {
 
-// Failure(io): "cannot write results/fluid.pvd: No space left on device. ..." with the cure that belongs to the errno `reason`: how much is free on
-// its disk, the limit on the size of files, permissions, or the longest path. 0: a reason that the system did not give.
+// Failure(io): "cannot write results/fluid.pvd: No space left on device. ..." with the cure that belongs to the errno
+// `reason`: how much is free on its disk, the limit on the size of files, permissions, or the longest path. 0: a reason
+// that the system did not give.
 Failure writeFailure(const std::filesystem::path& file, int reason);
 
-// The errno of adding to the file, which it makes if it is missing, or 0 when that works; the file is as before afterwards. For libraries that write and do
-// not say why they could not.
+// The errno of adding to the file, which it makes if it is missing, or 0 when that works; the file is as before
+// afterwards. For libraries that write and do not say why they could not.
 int tryWriting(const std::filesystem::path& file);
 
-// Once, at the start of a program. The signals of a limit on file sizes (SIGXFSZ) and of a closed pipe (SIGPIPE) end a program without a word; ignored, they
-// become errors of the write that caused them. Where standard output or error is closed, what is said goes nowhere, and not into a file of the case that has
-// been given its number.
+// Once, at the start of a program. The signals of a limit on file sizes (SIGXFSZ) and of a closed pipe (SIGPIPE) end a
+// program without a word; ignored, they become errors of the write that caused them. Where standard output or error is
+// closed, what is said goes nowhere, and not into a file of the case that has been given its number.
 void prepareOutput();
 
 }  // namespace corpuscle

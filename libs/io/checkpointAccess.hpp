@@ -1,6 +1,6 @@
 // One rank's view of a checkpoint file, without MPI: reading needs no coordination at this level, so a corrupt file
-// cannot leave ranks waiting for each other. Opening a file verifies all but the numbers in its datasets, which are verified as they are read.
-// Everything throws Failure(ExitCode::io) naming file and dataset.
+// cannot leave ranks waiting for each other. Opening a file verifies all but the numbers in its datasets, which are
+// verified as they are read. Everything throws Failure(ExitCode::io) naming file and dataset.
 #pragma once
 #include <filesystem>
 #include <string>

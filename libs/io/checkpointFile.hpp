@@ -5,9 +5,10 @@
 // number of ranks gets even slabs. A replicated dataset is the same on all ranks; rank 0's is written, every rank gets
 // it back. Attributes are single values. Dataset names may hold slashes: "fluid/velocity".
 //
-// Every dataset carries a checksum (io/checksum.hpp) that is verified on each reading; attributes, names and shapes are covered by a checksum of the
-// contents (io/contents.hpp), verified when a file is opened, HDF5's own structures by those of its file format 1.10. A file is written under a temporary name, brought to
-// disk and renamed: a name that ends in .h5 is a complete checkpoint, whatever killed the program.
+// Every dataset carries a checksum (io/checksum.hpp) that is verified on each reading; attributes, names and shapes are
+// covered by a checksum of the contents (io/contents.hpp), verified when a file is opened, HDF5's own structures by
+// those of its file format 1.10. A file is written under a temporary name, brought to disk and renamed: a name that
+// ends in .h5 is a complete checkpoint, whatever killed the program.
 //
 // All functions that take a communicator are collective; what fails on one rank throws Failure(ExitCode::io) on all.
 #pragma once
@@ -91,20 +92,20 @@ std::string checkCheckpoint(const std::filesystem::path& path);
 // The readable checkpoints of a case by number (the order in which they were written). Not collective, needs no MPI.
 std::vector<CheckpointInfo> listCheckpoints(const std::filesystem::path& caseDir);
 
-// The last one written that is intact, or an empty path where there is none at all. Those passed over, and leftovers of killed runs, are named in
-// warnings. Throws where there are some and none is intact.
+// The last one written that is intact, or an empty path where there is none at all. Those passed over, and leftovers of
+// killed runs, are named in warnings. Throws where there are some and none is intact.
 struct CheckpointSearch {
     std::filesystem::path path;
     std::vector<std::string> warnings;
 };
 CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir);
 
-// The one nearest before `time`, or at it to 1e-6 of it; of equal times the last one written. Throws with the list of available times
-// where all are later. Not collective.
+// The one nearest before `time`, or at it to 1e-6 of it; of equal times the last one written. Throws with the list of
+// available times where all are later. Not collective.
 CheckpointInfo findCheckpoint(const std::filesystem::path& caseDir, double time);
 
-// Removes those later than `last` [s], or, where no time is given, all: those that cannot be read and leftovers of killed runs too.
-// Returns how many. Not collective.
+// Removes those later than `last` [s], or, where no time is given, all: those that cannot be read and leftovers of
+// killed runs too. Returns how many. Not collective.
 long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<double> last);
 
 // Removes all but the `keep` last ones (0: keeps all) and leftovers of killed runs. Call it after finish().

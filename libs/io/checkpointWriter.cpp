@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/communicator.hpp"
+#include "core/startMpi.hpp"
 #include "core/together.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/checksum.hpp"
@@ -52,12 +53,15 @@ struct CheckpointWriter::File {
     }
 
     ~File() {
-        file.close();
+        // The file is closed with the last of the two.
+        const herr_t first = attributes.close(), last = file.close();
+        if (first < 0 || last < 0) leaveMpiOpen();
         std::error_code ignored;
         if (rank == 0) std::filesystem::remove(temporary, ignored);
     }
 
-    // Runs work() on all ranks. What fails is named by the system where it can be: HDF5 knows no limits and no full disks.
+    // Runs work() on all ranks. What fails is named by the system where it can be: HDF5 knows no limits and no full
+    // disks.
     template <class Work>
     void attempt(Work&& work) {
         together(comm, [&] {
@@ -178,8 +182,11 @@ void CheckpointWriter::finish() {
     file_->attempt([&] {
         writeAttribute(file_->file, checkpoint::contentsName, file_->contents.sum());
         checked(H5Fflush(file_->file, H5F_SCOPE_GLOBAL), what);
-        file_->attributes.close();
-        checked(file_->file.close(), what);
+        checked(file_->attributes.close(), what);
+        if (const herr_t closed = file_->file.close(); closed < 0) {
+            leaveMpiOpen();
+            checked(closed, what);
+        }
     });
     onRoot(file_->comm, [&] { publish(file_->temporary, file_->path, Sync::disk); });
 }

@@ -1,5 +1,5 @@
-// The list of what a checkpoint holds: number of ranks, attributes with their values, datasets with type, shape and checksum. Its own checksum stands in
-// the file, so that nothing can be lost, renamed or changed unseen.
+// The list of what a checkpoint holds: number of ranks, attributes with their values, datasets with type, shape and
+// checksum. Its own checksum stands in the file, so that nothing can be lost, renamed or changed unseen.
 #pragma once
 #include <fmt/format.h>
 

@@ -3,8 +3,9 @@
 //     h := mix(h + S(name)),   h := mix(h + S(values)) + number of values      for each part, in this order:
 //     "points", "triangles", "lines", "<point|cell> <scalar|vector|integer> NAME" (each sorted by name), "field NAME", "text NAME"
 //
-// S is the checksum of io/checksum.hpp: of a name and a text over its bytes, of a line its length and then its points. What VTK makes
-// of a damaged file is therefore either exactly what was written or found out, however the file is compressed.
+// S is the checksum of io/checksum.hpp: of a name and a text over its bytes, of a line its length and then its points.
+// What VTK makes of a damaged file is therefore either exactly what was written or found out, however the file is
+// compressed.
 #pragma once
 #include <string>
 

@@ -1,9 +1,10 @@
 // Points, their triangles or lines and the arrays of both as one plain value, and its file: VTK's .vtp.
 //
-// A fluid is points alone; a membrane is points and triangles; rims of holes are points and lines. Everything SI. A file written here holds appended raw
-// data, compressed with lz4, with 64-bit headers; doubles keep all their bits. Points alone get one vertex
-// cell each, so that ParaView shows them. Files are written under a temporary name and renamed (io/publish.hpp). A file with texts (those of 0/) also
-// gets the text "checksum" (io/dataChecksum.hpp), which is verified wherever it is read.
+// A fluid is points alone; a membrane is points and triangles; rims of holes are points and lines. Everything SI. A
+// file written here holds appended raw data, compressed with lz4, with 64-bit headers; doubles keep all their bits.
+// Points alone get one vertex cell each, so that ParaView shows them. Files are written under a temporary name and
+// renamed (io/publish.hpp). A file with texts (those of 0/) also gets the text "checksum" (io/dataChecksum.hpp), which
+// is verified wherever it is read.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -48,15 +49,15 @@ struct PolyData {
 enum class Cells { vertices, triangles, lines };
 
 // Throws Failure(ExitCode::io) when the file cannot be written, std::invalid_argument when an array has the wrong
-// length, a triangle or line names a point that does not exist, or there are both. The second form says which cells to write (a rank without
-// triangles or lines in a stream that has some writes none) and adds numbers to the field data.
+// length, a triangle or line names a point that does not exist, or there are both. The second form says which cells to
+// write (a rank without triangles or lines in a stream that has some writes none) and adds numbers to the field data.
 void writeVtp(const std::filesystem::path& path, const PolyData& data);
 void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cells,
               const std::map<std::string, double>& field);
 
-// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, does not agree with its checksum, has cells other than vertices,
-// triangles and lines, or both of these. Numbers of any width are read: floating point with 1 or 3 components as scalars or vectors, integers with
-// 1 as integers.
+// Throws Failure(ExitCode::io) when the file is missing, truncated, no PolyData, does not agree with its checksum, has
+// cells other than vertices, triangles and lines, or both of these. Numbers of any width are read: floating point with
+// 1 or 3 components as scalars or vectors, integers with 1 as integers.
 PolyData readVtp(const std::filesystem::path& path);
 
 // All pieces of a .pvtp joined in their order. Throws as readVtp.

@@ -20,8 +20,8 @@ enum class Sync {
 // Renames `temporary` to `path`, replacing what was there. Throws Failure(ExitCode::io).
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync);
 
-// Why a library could not write `path`, found by writing to `temporary`, which is then removed (core/writeFailure.hpp). `said`: what the library gave as
-// its reason, shown where the system has none.
+// Why a library could not write `path`, found by writing to `temporary`, which is then removed (core/writeFailure.hpp).
+// `said`: what the library gave as its reason, shown where the system has none.
 Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary,
                    const std::string& said = "");
 

@@ -1,4 +1,5 @@
-// What happens after each step: observers, results, checkpoints, progress, requests to stop. Nothing here changes the state.
+// What happens after each step: observers, results, checkpoints, progress, requests to stop. Nothing here changes the
+// state.
 #pragma once
 #include <memory>
 
@@ -35,8 +36,8 @@ class Schedule {
     ~Schedule();
     // -dry-run: groups, limits, particles; writes nothing.
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
-    // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the case: what an earlier
-    // run left after the start is removed.
+    // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the
+    // case: what an earlier run left after the start is removed.
     void begin(const coupling::Scene& scene, const Time& time);
     // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);

@@ -1,8 +1,8 @@
 // The files of 0/, and what they were made for.
 //
-// 0/<cell>.vtp and 0/<body>.vtp (membraneMesh), 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp (particleFill) hold places: nodes and triangles, particles
-// and their sides. Each notes in its field data, as texts by name, the settings that its places follow from; reading
-// compares them with the case:
+// 0/<cell>.vtp and 0/<body>.vtp (membraneMesh), 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp (particleFill) hold places:
+// nodes and triangles, particles and their sides. Each notes in its field data, as texts by name, the settings that its
+// places follow from; reading compares them with the case:
 //     of a cell       cell.shape.*, cell.edge, cell.centre, cell.axis; of a body likewise
 //     of particles    mesh.domain.*, mesh.cells[n].*, mesh.bodies[n].*, numerics.spacing; of mesh.fill.* and numerics.kernel.* what counts
 // What only the run depends on (flow, Ca, Re, fluid, laws, time step) is not among them: a start holds for all such
@@ -29,8 +29,8 @@ void requireStartWritable(const Communicator& communicator, const Case& input);
 // Writes 0/<name>.vtp at t = 0 with its settings. Throws Failure(io).
 void writeStart(const Case& input, const std::string& name, io::PolyData data);
 
-// Throws Failure(io) when the file is missing, damaged, without a checksum or, of a cell or body, without triangles, and CaseError with each setting for
-// which it was not made; both say what to run.
+// Throws Failure(io) when the file is missing, damaged, without a checksum or, of a cell or body, without triangles,
+// and CaseError with each setting for which it was not made; both say what to run.
 io::PolyData readStart(const Case& input, const std::string& name);
 
 }  // namespace corpuscle::simulation

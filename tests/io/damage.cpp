@@ -155,7 +155,8 @@ TEST(Damage, ofAStartIsHarmlessOrFound) {
     writeVtp(path, before);
     ASSERT_TRUE(readVtp(path).verified);
     const std::string whole = dataChecksum(before);
-    // The text's structure, which VTK's parser believes, is left to tests/fuzz: here are the numbers, the names and the values.
+    // The text's structure, which VTK's parser believes, is left to tests/fuzz: here are the numbers, the names and the
+    // values.
     const std::string bytes = readFile(path);
     const std::size_t data = bytes.find("<AppendedData");
     const Damage damage = flipAll(path, 1, [&, at = std::size_t{0}]() mutable {

@@ -73,7 +73,7 @@ def test_paths(folder):
     deep = copied(case, long_folder(folder, 4060))
     failed(start("dmpFlow", deep), 4, "File name too long", "4095", "without -case")
     assert not (deep / "checkpoints").exists() and not (deep / "results").exists()
-    name = "c" * 240
+    name = "c" * 250
     text = {key: SHORT[key].replace("name: rbc", f"name: {name}").replace("rbc:", f"{name}:") for key in ("system/mesh.yaml", "constant/membranes.yaml")}
     failed(start("membraneMesh", runs.make(folder / "name", SHORT, **text)), 4, "File name too long", "255")
 
@@ -200,7 +200,7 @@ def test_memory(folder):
     huge = ("-set", "system/mesh.yaml:/domain/size=[1200 um, 1100 um, 1000 um]")
     for application, ranks in (("checkCase", 1), ("particleFill", 1), ("dmpFlow", 2)):
         failed(start(application, case, *huge, ranks=ranks), 2, "system/numerics.yaml: spacing:", "of memory is needed on", "more machines")
-    large = ("-set", "system/mesh.yaml:/domain/size=[60 um, 110 um, 100 um]")
+    large = ("-set", "system/mesh.yaml:/domain/size=[120 um, 220 um, 100 um]")
     failed(start("particleFill", case, *large, limits=[(resource.RLIMIT_AS, 1 << 30)]), 2, "is needed by each rank", "ulimit -v")
 
 
