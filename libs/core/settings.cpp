@@ -210,18 +210,31 @@ void readOr(const std::string& word, const Node& value, Problems& problems,
     }
 }
 
-// The keys of one entry in place of the entries' names: "type: shape" for "deformation: {type: shape}". Returns the key
-// that tells, or "".
-std::string withoutName(const Node& table, const FieldInfo& entries) {
-    if (table.entries.empty()) return "";
+// The keys of one entry in place of the entries' names, "type: shape" for "deformation: {type: shape}": one problem.
+bool lacksNames(const Node& table, const FieldInfo& entries, Problems& problems) {
+    if (table.kind != Node::Kind::table || table.entries.empty()) return false;
+    const Node* first = &table.entries.front().value;
+    std::string key = table.entries.front().key;
     if (!entries.family.empty()) {
-        const Node* type = table.find("type");
-        return type && type->kind == Node::Kind::scalar ? "type" : "";
+        key = "type";
+        first = table.find(key);
+        if (!first || first->kind != Node::Kind::scalar) return false;
+    } else {
+        const std::vector<FieldInfo> fields = entries.table().fields;
+        for (const auto& [name, value] : table.entries)
+            if (std::none_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == name; }))
+                return false;
     }
-    const std::vector<FieldInfo> fields = entries.table().fields;
-    for (const auto& [key, value] : table.entries)
-        if (std::none_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == key; })) return "";
-    return table.entries.front().key;
+    problems.add(first->place(), table.path,
+                 fmt::format("'{0}' stands without the name that it belongs to: each entry has a name of its own, "
+                             "'NAME: {{{0}: ...}}'. An entry is {1}",
+                             key, entries.text));
+    return true;
+}
+
+bool differOnlyInCapitals(const std::string& a, const std::string& b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 // The keys present, in the order of the file.
@@ -265,7 +278,10 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
         }
         std::string nearest, advice;
         if (misspelt.size() < 2 * Problems::mostShown) {
-            nearest = nearestWord(key, absent);
+            const bool isGiven = std::any_of(known.begin(), known.end(), [&, &name = key](const std::string& k) {
+                return differOnlyInCapitals(k, name) && node.find(k);
+            });
+            if (!isGiven) nearest = nearestWord(key, absent);
             if (!nearest.empty()) {
                 advice = fmt::format(" Did you mean '{}'?", nearest);
             } else if (nearest = nearestWord(key, known); !nearest.empty()) {
@@ -281,16 +297,11 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
 
     for (const Field& f : fields_) {
         if (&f == rest) {
-            if (const std::string key = withoutName(others, f.info); !key.empty())
-                problems.add(
-                    others.find(key)->place(), node.path,
-                    fmt::format("'{0}' stands without the name that it belongs to: each entry has a name of its "
-                                "own, 'NAME: {{{0}: ...}}'. An entry is {1}",
-                                key, f.info.text));
-            else
-                f.read(object, others, problems);
+            if (!lacksNames(others, f.info, problems)) f.read(object, others, problems);
         } else if (const Node* value = node.find(f.info.key)) {
-            readOr(f.info.alternative, *value, problems, [&](Problems& own) { f.read(object, *value, own); });
+            const bool isMap = f.info.type == "map" || f.info.type == "models";
+            if (!isMap || !lacksNames(*value, f.info, problems))
+                readOr(f.info.alternative, *value, problems, [&](Problems& own) { f.read(object, *value, own); });
         } else if (!f.info.fallback.empty()) {
             Node fallback = parseValue(f.info.fallback, node.mark.file, problems);
             fallback.keyMark = node.place();

@@ -204,7 +204,7 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("soundSpeed: 8 mm", "soundSpeed", {"'8 mm' is in m"});
     expect("size: [8 uM, 1 um, 1 um]", "size[0]", {"Did you mean 'um'?"});
     expect("forces: [1 pn]", "forces[0]", {"Did you mean 'pN'?"});
-    expect("soundSpeed: 8 mm*s^-1/s s", "soundSpeed", {"written in a way that is not read", "Did you mean"});
+    expect("soundSpeed: 8 mm*s^-1/s s", "soundSpeed", {"written in a way that is not read", "Units of m/s"});
     // Numbers that are none.
     expect("soundSpeed: nan", "soundSpeed", {"not a finite number"});
     expect("soundSpeed: -.inf m/s", "soundSpeed", {"not a finite number"});
@@ -247,7 +247,7 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("cells: [{name: a, edge: 1}]", "cells[0].edge", {"has no unit"});
     expect("named: {a: {name: b}}", "named.a.edge", {"missing", "8 um"});
     expect("named: {1a: {name: b, edge: 1 um}}", "named.1a", {"is not a name"});
-    expect("named: {null: {name: b, edge: 1 um}}", "named.null", {"is not a name"});
+    expect("named: {no: {name: b, edge: 1 um}}", "named.no", {"is not a name"});
     expect("named: {name: b, edge: 1 um}", "named", {"name of its own"});
     expect("boundry: noSlip", "boundry", {"unknown key", "Did you mean 'boundary'?", "Allowed: every, viscosity"});
     expect("shearRate: 3 1/s", "shearRate", {"exactly one of 'Ca', 'shearRate'"});
