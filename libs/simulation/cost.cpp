@@ -125,7 +125,7 @@ std::string cheapest(const std::vector<IntegratorCost>& costs) {
 
 std::vector<std::string> costHeader(const Case& input) {
     return {"integrator",
-            "step",
+            "predicted step",
             "limited by",
             "passes a step",
             input.flow.shearRate > 0 ? "passes per unit of strain" : "passes per second",

@@ -40,15 +40,13 @@ struct Report {
     std::vector<std::string> warnings;
 
     void section(const char* title) { app.log().info("{}", title); }
-    // Broken between words where it is longer than the screen, and indented as it begins.
-    void line(std::string text) {
-        constexpr std::size_t screen = 118;
-        const std::string blanks(std::min(text.find_first_not_of(' '), screen / 2), ' ');
-        while (text.size() > screen) {
-            const std::size_t end = text.rfind(' ', screen);
-            if (end == std::string::npos || end <= blanks.size()) break;
-            app.log().info("  {}", text.substr(0, end));
-            text = blanks + text.substr(end + 1);
+    // Broken at blanks where it is wider than the screen; `hanging`: columns before what follows.
+    void line(std::string text, std::size_t hanging = 4) {
+        constexpr std::size_t width = 118;
+        for (std::size_t at;
+             text.size() > width && (at = text.rfind(' ', width)) != std::string::npos && at > hanging;) {
+            app.log().info("  {}", text.substr(0, at));
+            text = std::string(hanging, ' ') + text.substr(at + 1);
         }
         app.log().info("  {}", text);
     }
@@ -56,7 +54,13 @@ struct Report {
     void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
         const std::vector<std::string> none(rows.empty() ? 0 : rows.front().size());
         const std::vector<std::string> lines = alignedTable(header.empty() ? none : header, rows);
-        for (std::size_t k = header.empty() ? 1 : 0; k < lines.size(); ++k) line(lines[k]);
+        std::size_t last = 2 * (none.size() - 1);  // where the last column begins
+        for (std::size_t c = 0; c + 1 < none.size(); ++c) {
+            std::size_t widest = header.empty() ? 0 : header[c].size();
+            for (const auto& row : rows) widest = std::max(widest, row[c].size());
+            last += widest;
+        }
+        for (std::size_t k = header.empty() ? 1 : 0; k < lines.size(); ++k) line(lines[k], last);
     }
 };
 
@@ -155,7 +159,7 @@ void reportGroups(Report& report, const simulation::Case& input) {
 
 // Edges of meshes that no spacing goes with.
 void findEdges(Report& report, const simulation::Case& input) {
-    constexpr double finest = 0.5, coarsest = 2.5;  // of the spacing
+    constexpr double finest = 0.5, coarsest = 1.8;  // of the spacing
     const auto check = [&](const std::string& what, double edge) {
         const double ratio = edge / input.spacing();
         if (ratio >= finest && ratio <= coarsest) return;
@@ -182,7 +186,8 @@ void findDensity(Report& report, const simulation::Case& input) {
         "constant/fluid.yaml. "
         "Are shear rate ({}) and viscosity ({}) those that are meant? With the fluid's own density Re is {:.1g} of "
         "what is "
-        "stated: write 'inertia: physical', whose cost does not depend on Re by the implicit step, or a Re nearer to that",
+        "stated: write 'inertia: physical', whose cost does not depend on Re by the implicit step, or a Re nearer to "
+        "that",
         input.flow.density, ratio, formatQuantity(input.flow.shearRate, unit::perSecond),
         formatQuantity(input.fluid.viscosity, unit::pascalSecond), 1 / ratio));
 }
@@ -210,13 +215,15 @@ void reportSize(Report& report, const simulation::Case& input) {
     report.section("Memory and disk");
     report.table(
         {},
-        {{"memory", fmt::format("{} on {}; {} has {} free", formatBytes(size.memory), counted(ranks, "rank"),
-                                machineInfo().host, formatBytes(availableMemory().shared.bytes))},
-         {"results", fmt::format("{}: {} times of {}", formatBytes(results), size.writes, formatBytes(size.perWrite))},
-         {"checkpoints", fmt::format("{}: {} of {}", formatBytes(checkpoints), input.control.checkpoint.keep,
-                                     formatBytes(size.checkpoint))}});
+        {{"memory", formatBytes(size.memory),
+          fmt::format("on {}; {} has {} free", counted(ranks, "rank"), machineInfo().host,
+                      formatBytes(availableMemory().shared.bytes))},
+         {"results", formatBytes(results), fmt::format("{} times of {}", size.writes, formatBytes(size.perWrite))},
+         {"checkpoints", formatBytes(checkpoints),
+          fmt::format("the last {} are kept, of {}", input.control.checkpoint.keep, formatBytes(size.checkpoint))}});
     report.json["memory_B"] = size.memory;
     report.json["disk_B"] = results + checkpoints;
+    report.json["results_B"] = results, report.json["checkpoint_B"] = size.checkpoint;
 }
 
 // Moduli as the networks have them, a line for each kind of cell.
@@ -273,7 +280,7 @@ class Timing {
     }
 
   private:
-    static constexpr auto pause = std::chrono::seconds(5);
+    static constexpr auto pause = std::chrono::seconds(10);
     Report& report_;
     std::chrono::steady_clock::time_point last_;
 };
