@@ -237,12 +237,16 @@ def write_case(folder, files, shape=""):
 
 
 class Driver:
-    """fuzzPrograms, one run after the other."""
+    """fuzzPrograms, one run after the other; where it has not been built, the programs themselves, which takes longer."""
 
     def __init__(self, programs):
-        self.process = subprocess.Popen([str(programs / "fuzzPrograms")], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.programs, self.process = programs, None
+        if (programs / "fuzzPrograms").exists():
+            self.process = subprocess.Popen([str(programs / "fuzzPrograms")], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def run(self, program, *arguments, seconds=20):
+        if not self.process:
+            return self.alone(program, *arguments, seconds=seconds)
         self.process.stdin.write("\t".join([program, str(seconds), *map(str, arguments)]) + "\n")
         self.process.stdin.flush()
         answer = self.process.stdout.readline()
@@ -250,9 +254,26 @@ class Driver:
             raise RuntimeError("fuzzPrograms itself has ended")
         return json.loads(answer)
 
+    def alone(self, program, *arguments, seconds):
+        if program == "digest":
+            sys.exit("mutate.py: this kind needs fuzzPrograms: ninja -C build fuzzPrograms")
+        begin = time.time()
+        process = subprocess.Popen([str(self.programs / program), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   stdin=subprocess.DEVNULL)
+        over = False
+        try:
+            text = process.communicate(timeout=seconds)[0]
+        except subprocess.TimeoutExpired:
+            over = True
+            process.kill()
+            text = process.communicate()[0]
+        return {"code": max(process.returncode, -1), "signal": max(0, -process.returncode), "over": over, "seconds": time.time() - begin,
+                "text": text[-4000:].decode(errors="replace")}
+
     def close(self):
-        self.process.stdin.close()
-        self.process.wait()
+        if self.process:
+            self.process.stdin.close()
+            self.process.wait()
 
 
 class Kind:
