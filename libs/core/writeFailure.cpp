@@ -81,7 +81,7 @@ Failure writeFailure(const fs::path& file, int reason) {
                         reason == 0 ? " " : ": " + std::string(std::strerror(reason)), cure(file, reason))};
 }
 
-int tryWriting(const fs::path& file) {
+int tryWriting(const fs::path& file, std::uintmax_t extent) {
     std::error_code error;
     const bool existed = fs::exists(file, error);
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
@@ -91,6 +91,7 @@ int tryWriting(const fs::path& file) {
     const off_t length = ::lseek(descriptor, 0, SEEK_END);
     std::size_t written = 0;
     int reason = 0;
+    if (static_cast<std::uintmax_t>(length) < extent) ::lseek(descriptor, static_cast<off_t>(extent), SEEK_SET);
     while (written < zeros.size() && reason == 0) {
         const ssize_t part = ::write(descriptor, zeros.data(), zeros.size() - written);
         if (part < 0 && errno != EINTR) reason = errno;

@@ -32,6 +32,7 @@ struct CheckpointWriter::File {
     QuietHdf5 quiet;
     Handle file, attributes;
     Contents contents;
+    std::uintmax_t extent = 0;  // of the data so far, the file is longer [B]
 
     File(MPI_Comm c, const std::filesystem::path& p) : comm(c), path(p), temporary(temporaryName(p)) {
         MPI_Comm_rank(comm, &rank);
@@ -68,7 +69,7 @@ struct CheckpointWriter::File {
             try {
                 std::forward<Work>(work)();
             } catch (const Failure& failure) {
-                throw notWritten(path, temporary, failure.what());
+                throw notWritten(path, temporary, failure.what(), extent);
             }
         });
     }
@@ -83,6 +84,7 @@ struct CheckpointWriter::File {
         contents.dataset(name, std::is_same_v<T, double>, total, static_cast<std::uint64_t>(components), sum);
 
         Handle dataset, fileSpace, memorySpace, transfer;
+        extent += total * static_cast<hsize_t>(components) * sizeof(T);
         const hsize_t count[2] = {values.size() / static_cast<std::size_t>(components),
                                   static_cast<hsize_t>(components)};
         attempt([&] {

@@ -37,8 +37,9 @@ void publish(const std::filesystem::path& temporary, const std::filesystem::path
     if (sync == Sync::disk) syncToDisk(path.has_parent_path() ? path.parent_path() : ".");
 }
 
-Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary, const std::string& said) {
-    const int reason = tryWriting(temporary);
+Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary, const std::string& said,
+                   std::uintmax_t extent) {
+    const int reason = tryWriting(temporary, extent);
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
     if (reason != 0 || said.empty()) return writeFailure(path, reason);

@@ -1,6 +1,7 @@
 // Files that are there complete or not at all: written under a hidden temporary name beside their place, then renamed.
 // Text files: core/atomicFile.hpp.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -21,9 +22,9 @@ enum class Sync {
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync);
 
 // Why a library could not write `path`, found by writing to `temporary`, which is then removed (core/writeFailure.hpp).
-// `said`: what the library gave as its reason, shown where the system has none.
+// `said`: what the library gave as its reason, shown where the system has none; `extent`: how long the file was to be [B].
 Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary,
-                   const std::string& said = "");
+                   const std::string& said = "", std::uintmax_t extent = 0);
 
 // Makes the folder with its parents. Throws Failure(ExitCode::io).
 void makeFolder(const std::filesystem::path& folder);

@@ -72,9 +72,10 @@ const Schema<ControlSettings>& ControlSettings::schema() {
     static const Schema<ControlSettings> s =
         Schema<ControlSettings>("control", "system/control.yaml: how long to run and what to write")
             .word("application", &ControlSettings::application, {"dmpFlow", "sphFlow"}, "the solver that runs the case")
-            .wordOrQuantity("startFrom", &ControlSettings::startFrom, {"latestTime", "firstTime"}, unit::second,
-                            "where the run goes on: from the last checkpoint, the start, or the checkpoint nearest before a time",
-                            {.fallback = "latestTime", .range = nonNegative})
+            .wordOrQuantity(
+                "startFrom", &ControlSettings::startFrom, {"latestTime", "firstTime"}, unit::second,
+                "where the run goes on: from the last checkpoint, the start, or the checkpoint nearest before a time",
+                {.fallback = "latestTime", .range = nonNegative})
             .quantity("endTime", &ControlSettings::endTime, unit::second, "time at which the run ends",
                       {.range = positive})
             .quantity("endStrain", &ControlSettings::endStrain, unit::none, "strain gammadot t at which the run ends",

@@ -123,7 +123,7 @@ void Integrator::shorten(double longest, bool damped) {
 
 void Integrator::advance(Scene& scene, Time& time, const std::vector<Event>& events) {
     const double dt = time.shorten(events);
-    tried_ = dt, shortened_ = dt < time.dt;
+    tried_ = time.dt, shortened_ = dt < time.dt;
     if (implicit_) {
         scene.broken = implicit_->advance(dt, time.dt);
         if (implicit_->noFlux()) scene.putBack = implicit_->noFlux()->crossings();

@@ -42,8 +42,8 @@ class Integrator {
     // One step of time.dt, shorter where one of the events comes before its end; then time is on and time.dt is what the limits allow next.
     // Collective. Throws Failure(numerics), on all ranks, where a step cannot be made.
     void advance(coupling::Scene& scene, Time& time, const std::vector<Event>& events = {});
-    double tried() const { return tried_; }           // length of the last step, made or not [s]
-    bool wasShortened() const { return shortened_; }  // that, by an event
+    double tried() const { return tried_; }  // length of the last step, made or not, had no event shortened it [s]
+    bool wasShortened() const { return shortened_; }  // the last step, by an event
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;

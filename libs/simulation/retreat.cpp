@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <thread>
+#include <tuple>
 
 #include "core/communicator.hpp"
 #include "simulation/checkpoint.hpp"
@@ -22,7 +23,7 @@ constexpr long explicitLook = 10;                            // steps between tw
 constexpr long goodStepsToRelax = 10;                        // past a fault
 constexpr double surroundings = 5;                           // supports
 constexpr double leastStep = 1e-7, leastAdvance = 1e-4;      // of a full step
-constexpr long triesToLook = 200;                            // at progress
+constexpr long triesToLook = 200;                            // at progress since the last retreat
 constexpr double mostSteps = 1e9;                            // of a run
 constexpr auto patience = std::chrono::seconds(10);          // for ranks on their way with the same failure
 // What to do about a limit of the step that lets a run come no further.
@@ -69,7 +70,7 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
     MPI_Comm_dup(scene.system->comm(), &meeting_);
     if (schedule_) schedule_->record().set("performance", "retreats", count_);
     full_ = input.numerics.isImplicit() ? input.numerics.implicit.step / input.flow.rate : time.dt;
-    now_.t = mark_.t = time.t;
+    furthest_.t = lookNear_.t = lookFar_.t = time.t;
     if (const double steps = time.left() / full_; !time.lastStep && steps > mostSteps)
         throw Failure(
             ExitCode::numerics,
@@ -110,11 +111,11 @@ Fault Retreat::step() {
     try {
         integrator_.advance(scene_, time_, schedule_ ? schedule_->events(time_) : time_.ends());
         isEvent = integrator_.wasShortened();
-        if (!isEvent) now_.tries += std::max(1L, made() - before);
-        now_.t = std::max(now_.t, time_.t);
+        if (!isEvent) furthest_.tries += std::max(1L, made() - before);
+        furthest_.t = std::max(furthest_.t, time_.t);
     } catch (const Failure& failure) {
         if (failure.code() != ExitCode::numerics || !allFailed()) throw;
-        now_.tries += std::max(1L, made() - before);
+        furthest_.tries += std::max(1L, made() - before);
         return {failure.what(), Watch::suspect(scene_)};
     }
     if (!input_.numerics.isImplicit() && time_.step % explicitLook != 0 && !isEvent && time_.running()) return {};
@@ -151,6 +152,7 @@ void Retreat::goBack(Good& good) {
     if (schedule_) schedule_->goBack(good.schedule, scene_, time_);
     watch_.take(scene_);
     goodSteps_ = 0;
+    lookNear_ = {furthest_.tries, time_.t};
 }
 
 void Retreat::report(const Fault& fault) {
@@ -205,13 +207,21 @@ Fault Retreat::creeping() {
     };
     if (time_.dt < leastStep * full_)
         return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
-    const long tries = now_.tries - mark_.tries;
-    if (tries < triesToLook) return {};
-    const double gained = now_.t - mark_.t;
-    mark_ = now_;
-    if (gained >= leastAdvance * full_ * static_cast<double>(tries)) return {};
-    return because(
-        fmt::format("{} tries have brought the run {:.3g} s further, and it would never end", tries, gained));
+    // Steps since the last retreat; and, so that a run does not go back and forth for ever, all steps, over more of them than it takes to come
+    // past a fault from the earlier state by the shortest step.
+    const long interval = input_.numerics.isImplicit() ? implicitInterval : explicitInterval;
+    const long toPassFault = 4 * interval << std::min(input_.numerics.retreats, 20L);
+    for (const auto& [look, now, enough] : {std::tuple(&lookNear_, Progress{furthest_.tries, time_.t}, triesToLook),
+                                            std::tuple(&lookFar_, furthest_, std::max(triesToLook, toPassFault))}) {
+        const long tries = now.tries - look->tries;
+        if (tries < enough) continue;
+        const double gained = now.t - look->t;
+        *look = now;
+        if (gained < leastAdvance * full_ * static_cast<double>(tries))
+            return because(
+                fmt::format("{} tries have brought the run {:.3g} s further, and it would never end", tries, gained));
+    }
+    return {};
 }
 
 void Retreat::writeSurroundings(const Fault& fault) {

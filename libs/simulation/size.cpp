@@ -15,8 +15,8 @@ namespace {
 // operators); with membranes or bodies in the fluid there is more of them.
 struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
-    static constexpr double plain = 530, plainLoaded = 660;
-    static constexpr double corrected = 1090, correctedLoaded = 1300;
+    static constexpr double plain = 600, plainLoaded = 730;
+    static constexpr double corrected = 1150, correctedLoaded = 1500;
     static constexpr double node = 2500;  // of a membrane, with its bonds and triangles
 };
 

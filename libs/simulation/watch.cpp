@@ -278,12 +278,11 @@ void Watch::requireFinite(const Scene& scene, const Time& time, const std::strin
             if (!nodes[n].allFinite())
                 text = fmt::format("node {} of the membrane '{}' is at {}", n, cell.membrane.name, words(nodes[n]));
     }
-    throwTogether(
-        scene.system->comm(), !text.empty(),
-        fmt::format("step {}, t = {:.6g} s: {}; {} not written. The run has diverged: take a shorter step, a "
-                    "finer mesh or spacing",
-                    time.step, time.t, text, what),
-        ExitCode::numerics);
+    throwTogether(scene.system->comm(), !text.empty(),
+                  fmt::format("step {}, t = {:.6g} s: {}; {} not written. The run has diverged: take a shorter step, a "
+                              "finer mesh or spacing",
+                              time.step, time.t, text, what),
+                  ExitCode::numerics);
 }
 
 Vec3 Watch::suspect(const Scene& scene) {

@@ -34,7 +34,7 @@ def prepared(folder, files):
 def test_screen(folder):
     """Every kind of case fits: 50 lines of 120 columns, groups in order, nothing of what the case does not have."""
     for name, files, absent in (("implicit", IMPLICIT_CASE, ("rkl2", "bodies", "membrane nodes 0", "on membranes")),
-                                ("dual", CELL_CASE, ("rkl2", "bodies")), ("body", BODY_CASE, ("rkl2", "cells", "membrane")),
+                                ("dual", CELL_CASE, ("rkl2", "bodies")), ("body", {**BODY_CASE, "constant/flow.yaml": "type: shear\nshearRate: 200 1/s\ninertia: {Re: 0.1}\n"}, ("rkl2", "cells", "membrane")),
                                 ("fluid", FLUID, ("cells", "membrane", "bodies", "coupling"))):
         case = prepared(folder / name, files)
         lines, warned = screen(case)

@@ -211,7 +211,8 @@ TEST_F(Utilities, WhatLiesOutsideTheSafeRangesIsNamed) {
     outside("constant/flow.yaml:/Ca=0.005", "edge/dx of 'rbc' = 0.8 is outside");
     const std::string twins =
         "'system/mesh.yaml:/cells=[{name: one, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, "
-        "centre: [-3 um, 0 um, 0 um]}, {name: two, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, centre: "
+        "centre: [-3 um, 0 um, 0 um]}, {name: two, membrane: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 dx, "
+        "centre: "
         "[3 um, 0 um, 0 um]}]' -set ";
     outside(twins + "constant/flow.yaml:/Ca=0.005", "edge/dx of 'one' = 0.8 is outside");
 }
@@ -260,7 +261,8 @@ TEST_F(Utilities, GroupsOfALaterCellAloneAreItsOwn) {
     const Result result =
         run("checkCase",
             "-set 'system/mesh.yaml:/cells=[{name: plain, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: "
-            "[-3 um, 0 um, 0 um]}, {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [3 um, 0 um, 0 um]}]' "
+            "[-3 um, 0 um, 0 um]}, {name: rbc, shape: {type: sphere, radius: 2 um}, edge: 0.8 um, centre: [3 um, 0 um, "
+            "0 um]}]' "
             "-set 'constant/membranes.yaml:/plain={bonds: {type: harmonic, k: 5e-4 N/m}}' -json");
     ASSERT_EQ(result.code, 0) << result.err;
     const json groups = json::parse(result.out).at("groups");

@@ -122,14 +122,16 @@ TEST(BodyMotion, freeFollowsNewtonAndEuler) {
     const RigidMotion rate = free->response(state, solid, wrench);
     EXPECT_NEAR((rate.linear - wrench.force / 16).norm() + (rate.angular - wrench.torque / I).norm(), 0, 1e-13);
     EXPECT_EQ(free->start({Vec3(1, 2, 3), Vec3(4, 5, 6)}).angular, Vec3(4, 5, 6));
-    EXPECT_EQ(motion("{type: free, velocity: [0 m/s, 0 m/s, 2 m/s]}")->start({Vec3(1, 2, 3), {}}).linear, Vec3(0, 0, 2));
+    EXPECT_EQ(motion("{type: free, velocity: [0 m/s, 0 m/s, 2 m/s]}")->start({Vec3(1, 2, 3), {}}).linear,
+              Vec3(0, 0, 2));
 }
 
 TEST(BodyMotion, heldAndDrivenDoNotYield) {
     const Solid solid(cuboid(Vec3(1, 2, 3)), 2);
     const Wrench wrench{Vec3(3, 0, 1), Vec3(0, 2, 0)};
     const auto held = motion("held"),
-               driven = motion("{type: driven, velocity: [1 m/s, 0 m/s, 0 m/s], angularVelocity: [0 1/s, 0 1/s, 2 1/s]}");
+               driven =
+                   motion("{type: driven, velocity: [1 m/s, 0 m/s, 0 m/s], angularVelocity: [0 1/s, 0 1/s, 2 1/s]}");
     for (const auto& model : {held, driven}) {
         RigidState state{Vec3::Zero(), solid.startOrientation(), model->start({Vec3(9, 9, 9), Vec3(9, 9, 9)})};
         EXPECT_EQ(model->response(state, solid, wrench).linear, Vec3(0, 0, 0));

@@ -105,6 +105,10 @@ TEST_F(Writing, isTriedWithoutATrace) {
     const SizeLimit limit(100);
     EXPECT_EQ(tryWriting(path), EFBIG);
     EXPECT_EQ(readFile(path), "content");
+    const SizeLimit wider(1 << 20);
+    EXPECT_EQ(tryWriting(path), 0);
+    EXPECT_EQ(tryWriting(path, 1 << 20), EFBIG) << "a file written out of order";
+    EXPECT_EQ(readFile(path), "content");
 }
 
 TEST_F(Writing, namesTheWayOut) {

@@ -39,7 +39,7 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BARE = re.compile(r"std::|CGAL|\bvtk[A-Z]\w*|0x[0-9a-f]{5,}|terminate called|basic_string|vector::_M|bad_alloc|HDF5-DIAG|yaml-cpp|"
+BARE = re.compile(r"std::|CGAL|(?-i:\bvtk[A-Z]\w*)|0x[0-9a-f]{5,}|terminate called|basic_string|vector::_M|bad_alloc|HDF5-DIAG|yaml-cpp|"
                   r"what\(\)|\bsto[idul]+\b|MPI_ABORT|json\.exception|assertion", re.I)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 HOSTILE = ["nan", "-nan", "inf", "-inf", "1e300", "-1e300", "1e-300", "0", "-0", "-1", "1", "2", "1e400", "99999999999999999999",

@@ -43,7 +43,8 @@ double dragFactor(double radius, int length) {
 }
 
 double torqueFactor(double radius, int length) {
-    RigidSphereScene s = sphereInCube(radius, length, "{type: driven, angularVelocity: [0 1/s, 0.002 1/s, 0 1/s]}", 2e-3);
+    RigidSphereScene s =
+        sphereInCube(radius, length, "{type: driven, angularVelocity: [0 1/s, 0.002 1/s, 0 1/s]}", 2e-3);
     s.body().state.motion.angular = Vec3(0, 0.002, 0);
     run(s, 0.1 * length * length / s.scene.model().viscosity);
     return -s.body().wrench.torque[1] / (8 * pi * s.scene.model().viscosity * std::pow(radius, 3) * 0.002);

@@ -24,7 +24,8 @@ PolyData membrane() {
     data.cell.scalars["areaStrain"] = {0.1, 0.2};
     data.cell.integers["broken"] = {0, 1};
     data.field["strain"] = 2.5;
-    data.texts = {{"system/mesh.yaml:domain.size", "[1 um, 2 um, 3 um]"}, {"empty", ""}, {"odd", "\"<a & b>\"\n\u00b5"}};
+    data.texts = {
+        {"system/mesh.yaml:domain.size", "[1 um, 2 um, 3 um]"}, {"empty", ""}, {"odd", "\"<a & b>\"\n\u00b5"}};
     return data;
 }
 

@@ -144,8 +144,8 @@ TEST(Aspiration, OfAFlatSheetIsThatOfAnAxisymmetricOne) {
     const AxisymmetricSheet kept{.G = 1, .K = 1e4, .R = 1, .lip = 1e-6, .border = 20};
     EXPECT_NEAR(kept.length(4), 1.8467, 0.02);  // 2 L - 1 + ln(2 L) = 4
 
-    const auto aspiration =
-        testing::chosen<Protocol>("{type: aspiration, radius: 1 m, wall: 0.6 m, pressures: [0.7 Pa, 1.4 Pa, 2 Pa, 2.5 Pa, 3 Pa]}");
+    const auto aspiration = testing::chosen<Protocol>(
+        "{type: aspiration, radius: 1 m, wall: 0.6 m, pressures: [0.7 Pa, 1.4 Pa, 2 Pa, 2.5 Pa, 3 Pa]}");
     const geometry::TriangleMesh mesh = geometry::disc(3.5, 0.19);
     Membrane sheet(
         "sheet", 1, mesh.nodes, mesh.triangles,

@@ -21,12 +21,15 @@ SHORT = {**CELL_CASE, "system/control.yaml": CELL_CASE["system/control.yaml"].re
 
 
 def start(application, case, *options, ranks=1, limits=(), user=None, cwd=None):
-    """The finished process; limits: (resource, soft value). A soft limit is passed on by mpirun to its ranks."""
+    """The finished process; limits: (resource, soft value) of the program, on all ranks, not of mpirun, which cannot start under a small one."""
     def prepare():
         for which, value in limits:
             resource.setrlimit(which, (value, resource.getrlimit(which)[1]))
 
     command = [str(BIN / application), "-case", str(case), *options]
+    if ranks > 1 and limits:
+        names = {resource.RLIMIT_FSIZE: "fsize", resource.RLIMIT_AS: "as"}
+        command, limits = ["prlimit", *(f"--{names[which]}={value}:" for which, value in limits), *command], ()
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks), *command]
     return subprocess.run(command, capture_output=True, text=True, preexec_fn=prepare, user=user, cwd=cwd, timeout=120)

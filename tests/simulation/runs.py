@@ -165,9 +165,14 @@ def last_checkpoint(case):
     return max((case / "checkpoints").glob("*.h5"))
 
 
-def same_checkpoint(a, b):
-    done = subprocess.run(["h5diff", str(a), str(b)], capture_output=True, text=True)
-    assert done.returncode == 0, f"{a} and {b} differ:\n{done.stdout[:2000]}{done.stderr[:500]}"
+def same_checkpoint(a, b, apart=()):
+    """apart: data sets that may differ; then the checksum of all contents does too."""
+    excluded = [word for name in apart for word in ("--exclude-path", name)]
+    done = subprocess.run(["h5diff", *excluded, str(a), str(b)], capture_output=True, text=True)
+    said = done.stdout.strip()
+    if apart and said == "attribute: <contents of </>> and <contents of </>>\n1 differences found":
+        return
+    assert done.returncode == 0, f"{a} and {b} differ:\n{said[:2000]}{done.stderr[:500]}"
 
 
 def copied(start, case):
@@ -1137,7 +1142,7 @@ forceScale: 1 pN
     steps = ("-steps", "20")
     for case in (plain, own, other):
         run(case, "dmpFlow", *steps)
-    same_checkpoint(last_checkpoint(plain), last_checkpoint(own))
+    same_checkpoint(last_checkpoint(plain), last_checkpoint(own), apart=("/data/origin/settings",))
     volume = {case.name: float(series(case, "balance")[0][-2]) for case in (plain, other)}
     assert math.isclose(volume["plain"], volume["other"], rel_tol=1e-12), "both start from the mesh"
     energy = {case.name: float(series(case, "balance")[0][10]) for case in (plain, other)}

@@ -23,14 +23,29 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Node node = parseDictionary(text, "a.yaml", problems);
         problems.throwIfAny();
         switch (data[0] % 8) {
-            case 0: readAs<simulation::ControlSettings>(node, problems); break;
-            case 1: readAs<simulation::NumericsSettings>(node, problems); break;
-            case 2: readAs<simulation::MeshSettings>(node, problems); break;
-            case 3: readAs<simulation::FluidSettings>(node, problems); break;
-            case 4: readAs<simulation::MembranesSettings>(node, problems); break;
-            case 5: readAs<bodies::BodiesSettings>(node, problems); break;
-            case 6: readAs<observers::ObserversSettings>(node, problems); break;
-            default: readChoice<sph::Flow>(node, problems);
+            case 0:
+                readAs<simulation::ControlSettings>(node, problems);
+                break;
+            case 1:
+                readAs<simulation::NumericsSettings>(node, problems);
+                break;
+            case 2:
+                readAs<simulation::MeshSettings>(node, problems);
+                break;
+            case 3:
+                readAs<simulation::FluidSettings>(node, problems);
+                break;
+            case 4:
+                readAs<simulation::MembranesSettings>(node, problems);
+                break;
+            case 5:
+                readAs<bodies::BodiesSettings>(node, problems);
+                break;
+            case 6:
+                readAs<observers::ObserversSettings>(node, problems);
+                break;
+            default:
+                readChoice<sph::Flow>(node, problems);
         }
         problems.throwIfAny();
     } catch (const Failure&) {

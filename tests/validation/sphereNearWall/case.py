@@ -31,7 +31,7 @@ def distances(n):
 
 
 def run(way, x, n):
-    velocity = f"[0, 0, {U}]" if way == "towards" else f"[0, {U}, 0]"
+    velocity = f"[0 m/s, 0 m/s, {U} m/s]" if way == "towards" else f"[0 m/s, {U} m/s, 0 m/s]"
     side = 1e6 * A * WIDE
     return Run(f"{way}{x:g}", FOLDER, [
         f"system/numerics.yaml:/spacing={2e6 * A / n:.10g} um",
@@ -39,7 +39,7 @@ def run(way, x, n):
         f"system/control.yaml:/endTime={STEP * STEPS:g} s",
         f"system/mesh.yaml:/domain/size=[{side:g} um, {side:g} um, {1e6 * A * HIGH:g} um]",
         f"system/mesh.yaml:/bodies/0/centre=[0 um, 0 um, {1e6 * A * (x - HIGH / 2):g} um]",
-        f"constant/bodies.yaml:/sphere/motion/velocity={velocity} m/s"], PROGRAMS)
+        f"constant/bodies.yaml:/sphere/motion/velocity={velocity}"], PROGRAMS)
 
 
 def expected(way, x):

@@ -14,8 +14,8 @@
 
 #include "core/application.hpp"
 #include "core/reference.hpp"
-#include "observers/observers.hpp"
 #include "membrane/protocol.hpp"
+#include "observers/observers.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/restart.hpp"
 
@@ -206,7 +206,8 @@ int main(int argc, char* argv[]) {
             for (const std::filesystem::path& file : simulation::writeSchemas(*folder))
                 std::cout << file.string() << '\n';
         else if (app.has("markdown"))
-            std::cout << referencePage(simulation::dictionaries()) << restartPage(simulation::restartDictionaries()) << tablesPage();
+            std::cout << referencePage(simulation::dictionaries()) << restartPage(simulation::restartDictionaries())
+                      << tablesPage();
         else if (!app.arguments().empty())
             show(app.arguments().front(), app.json());
         else
