@@ -89,9 +89,9 @@ struct Interval {
 // What a field is, for the reference page, the JSON schema and help.
 struct FieldInfo {
     std::string key;
-    std::string
-        type;  // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text",
-               // "vector", "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
+    // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text", "vector",
+    // "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
+    std::string type;
     Dimension dimension;
     std::string text;      // one sentence
     std::string fallback;  // "" when required

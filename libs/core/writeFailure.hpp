@@ -14,8 +14,8 @@ namespace corpuscle {
 Failure writeFailure(const std::filesystem::path& file, int reason);
 
 // The errno of adding to the file, which it makes if it is missing, or 0 when that works; the file is as before
-// afterwards. For libraries that write and do not say why they could not. extent: where it adds at the earliest [B], for
-// files that are written out of order.
+// afterwards. For libraries that write and do not say why they could not.
+// extent: where it adds at the earliest [B], for files that are written out of order.
 int tryWriting(const std::filesystem::path& file, std::uintmax_t extent = 0);
 
 // Once, at the start of a program. The signals of a limit on file sizes (SIGXFSZ) and of a closed pipe (SIGPIPE) end a

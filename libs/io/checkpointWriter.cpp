@@ -32,7 +32,7 @@ struct CheckpointWriter::File {
     QuietHdf5 quiet;
     Handle file, attributes;
     Contents contents;
-    std::uintmax_t extent = 0;  // of the data so far, the file is longer [B]
+    std::uintmax_t extent = 0;  // bytes of data so far; the file is longer by its structures
 
     File(MPI_Comm c, const std::filesystem::path& p) : comm(c), path(p), temporary(temporaryName(p)) {
         MPI_Comm_rank(comm, &rank);

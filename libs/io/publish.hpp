@@ -22,7 +22,8 @@ enum class Sync {
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& path, Sync sync);
 
 // Why a library could not write `path`, found by writing to `temporary`, which is then removed (core/writeFailure.hpp).
-// `said`: what the library gave as its reason, shown where the system has none; `extent`: how long the file was to be [B].
+// `said`: what the library gave as its reason, shown where the system has none;
+// `extent`: how long the file was to be [B].
 Failure notWritten(const std::filesystem::path& path, const std::filesystem::path& temporary,
                    const std::string& said = "", std::uintmax_t extent = 0);
 

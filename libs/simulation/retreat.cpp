@@ -207,8 +207,8 @@ Fault Retreat::creeping() {
     };
     if (time_.dt < leastStep * full_)
         return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
-    // Steps since the last retreat; and, so that a run does not go back and forth for ever, all steps, over more of them than it takes to come
-    // past a fault from the earlier state by the shortest step.
+    // Steps since the last retreat; and, so that a run does not go back and forth for ever, all steps, over more of
+    // them than it takes to come past a fault from the earlier state by the shortest step.
     const long interval = input_.numerics.isImplicit() ? implicitInterval : explicitInterval;
     const long toPassFault = 4 * interval << std::min(input_.numerics.retreats, 20L);
     for (const auto& [look, now, enough] : {std::tuple(&lookNear_, Progress{furthest_.tries, time_.t}, triesToLook),

@@ -8,8 +8,10 @@
 // code 3 and where, when and why. Rows and results of steps that are taken back are taken out of the files.
 //
 // A fault that lies in the geometry (Fault::isGeometric) is not tried again: no shorter step cures it. And a run never creeps: where the step
-// falls below 1e-7 of that which the case has at its start (implicit: asks for), or the time comes forward by less than 1e-4 of it a step, over
-// 200 steps since the last retreat or over as many as all retreats in a row may take, parts of steps and those taken back included, the run ends with exit code 3, the limit of the step that binds, and what to change.
+// falls below 1e-7 of that which the case has at its start (implicit: asks for), or the time comes forward by less
+// than 1e-4 of it a step, over 200 steps since the last retreat or over as many as all retreats in a row may take,
+// parts of steps and those taken back included, the run ends with exit code 3, the limit of the step that binds, and
+// what to change.
 // A run that would take more than 1e9 steps of its first length ends before the first, unless -steps is given.
 //
 // Cost: of the order of a hundredth of a step (docs/simulation.md).
