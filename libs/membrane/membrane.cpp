@@ -103,13 +103,17 @@ void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
 }
 
 void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {
-    if (damage.size() != damage_.size()) {
+    if (!damage.empty() && !damage_.empty() && damage.size() != damage_.size()) {
         throw Failure(ExitCode::io, "checkpoint holds the damage of " + std::to_string(damage.size()) +
-                                        " triangles of membrane " + name + ", its rupture law keeps that of " +
-                                        std::to_string(damage_.size()) +
-                                        "; start from firstTime, or give the rupture law of the checkpoint");
+                                        " triangles of membrane " + name + ", which has " +
+                                        std::to_string(damage_.size()) + "; start from firstTime");
     }
     network_->restore(std::move(aliveBonds));
+    // Between a law that keeps damage and one that does not, the membrane goes on undamaged.
+    if (damage.empty() || damage_.empty()) {
+        std::fill(damage_.begin(), damage_.end(), 0.0);
+        return;
+    }
     damage_ = std::move(damage);
 }
 

@@ -221,13 +221,20 @@ std::vector<std::string> compareSettings(const std::filesystem::path& checkpoint
     for (const Derived& value : derivedValues(input)) {
         const std::string was = wordOf(derived, value.name);
         AtRestart policy = value.policy;
-        if (value.name == "integrator" && was != value.value && (was == "implicit" || value.value == "implicit"))
+        std::string cure = value.cure;
+        if (value.name == "integrator" && was != value.value && (was == "implicit" || value.value == "implicit")) {
             policy = AtRestart::fixed;
+            if (input.integratorChosen)
+                cure = fmt::format(
+                    "it is what 'automatic' stands for with the settings as they are now; write "
+                    "'integrator: {}', or start from firstTime",
+                    was);
+        }
         FieldInfo field;
         field.type = "quantity";
         field.atRestart = policy;
         for (const SettingChange& change : settingChanges(field, Node::word(was), Node::word(value.value), {}))
-            verdict.add(value.file, value.key, policy, change.before, change.now, value.cure);
+            verdict.add(value.file, value.key, policy, change.before, change.now, cure);
     }
     input.throwIfAny(verdict.problems);
     return verdict.notes;

@@ -658,6 +658,11 @@ def test_automatic(folder):
     assert predicted(swift, *automatic, "-set", "system/numerics.yaml:/operators=plain")["integrator"] == "velocityVerlet"
     said = predicted(swift, *automatic)
     assert said["integrator"] == "implicit" and "plain operators" in said["integrators"]["velocityVerlet"]["obstacle"], said
+    # What automatic stands for changes with other settings: a restart says which one to name.
+    swift = copied(swift, folder / "restarted")
+    run(swift, "sphFlow", "-steps", "1", *automatic)
+    said = run(swift, "sphFlow", "-steps", "1", *automatic, "-set", "system/numerics.yaml:/operators=plain", code=2).stderr
+    assert "integrator: the case now has velocityVerlet" in said and "what 'automatic' stands for" in said and "write 'integrator: implicit'" in said, said
     # Cells as particles move with velocity Verlet only; immersed ones with the implicit step.
     cell = make(folder / "cell", CELL_CASE)
     said = predicted(cell, *automatic)
@@ -1087,9 +1092,15 @@ def test_damage(folder):
     steps = next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1)  # a row for each step
     for ranks in (1, 2):
         parts = same_in_parts(folder / f"np{ranks}", start, "dmpFlow", steps, ranks=ranks)
-    # A checkpoint's damage needs the law that it is of.
-    said = run(parts, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/rupture=none", "-set", "system/control.yaml:/endStrain=0.6", code=4).stderr
-    assert "its rupture law keeps that of 0" in said, said
+    # Another law of rupture at a restart is said; one that keeps damage then starts without any.
+    other = copied(parts, folder / "other")
+    none = ("-set", "constant/membranes.yaml:/rbc/rupture=none")
+    for changed, end in ((none, 0.55), ((), 0.6)):
+        run(other, "dmpFlow", *changed, "-set", f"system/control.yaml:/endStrain={end}")
+        noted = json.loads((other / "run.json").read_text())["parameters"]["changedAtRestart"]
+        assert any("rbc.rupture" in note for note in noted), noted
+    rows = [row for row in tables(other)["rbc"] if row["strain"] > 0.5]
+    assert all(row["maxDamage"] == 0 for row in rows if row["strain"] <= 0.55) and 0 < rows[-1]["maxDamage"] < 1, rows
 
 
 def test_firstBreak(folder):
