@@ -300,7 +300,7 @@ Codec<std::string> text() {
             }};
 }
 
-Codec<std::string> wordOrQuantity(std::vector<std::string> allowed, Dimension dimension, Range range) {
+Codec<std::string> wordOrQuantity(const std::vector<std::string>& allowed, Dimension dimension, Range range) {
     return {[=](const Node& node, std::string& value, Problems& problems) {
                 const std::string expected = fmt::format("{}, or a quantity in {} (like '{}')", joinWords(allowed),
                                                          dimension.si(), exampleOf(dimension));

@@ -23,7 +23,7 @@ Codec<std::string> word(std::vector<std::string> allowed);
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed);  // empty: any names
 Codec<std::string> name();
 Codec<std::string> text();
-Codec<std::string> wordOrQuantity(std::vector<std::string> allowed, Dimension dimension, Range range);
+Codec<std::string> wordOrQuantity(const std::vector<std::string>& allowed, Dimension dimension, Range range);
 Codec<Vec3> vector(Dimension dimension, Range range);
 Codec<Index3> integers(Range range);
 Codec<std::array<bool, 3>> booleans();
