@@ -39,12 +39,15 @@ function(corpuscle_test NAME)
         target_link_libraries(test_${NAME} PRIVATE corpuscle::${dependency})
     endforeach()
     target_include_directories(test_${NAME} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-    target_compile_definitions(test_${NAME} PRIVATE
-        CORPUSCLE_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CORPUSCLE_BINARY_DIR="${CMAKE_BINARY_DIR}")
     if(ARG_RANKS)
         foreach(n ${ARG_RANKS})
+            if(n EQUAL 1)
+                set(processors 1)
+            else()
+                set(processors 2)
+            endif()
             add_test(NAME ${NAME}.np${n} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe -np ${n} $<TARGET_FILE:test_${NAME}>)
-            set_tests_properties(${NAME}.np${n} PROPERTIES LABELS ${ARG_GROUP} PROCESSORS 2 ENVIRONMENT
+            set_tests_properties(${NAME}.np${n} PROPERTIES LABELS ${ARG_GROUP} PROCESSORS ${processors} ENVIRONMENT
                 "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1")
         endforeach()
     else()
