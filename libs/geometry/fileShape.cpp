@@ -59,7 +59,7 @@ void FileShape::prepare(const std::filesystem::path& caseDirectory) const {
     }
     mesh.scale(scale);
     mesh.translate(-mesh.centroid());
-    for (std::string& remark : remarks) remark = file + ": " + remark;
+    for (std::string& remark : remarks) remark.insert(0, file + ": ");
     surface_ = std::make_shared<Surface>(mesh, size, std::move(remarks));
 }
 

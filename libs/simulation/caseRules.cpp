@@ -25,7 +25,8 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
 namespace {
 
 constexpr double leastBodyInSpacings = 3;
-constexpr double largestEdgeInSpacings = 2;  // immersed
+constexpr double largestEdgeInSpacings = 2;                // immersed
+constexpr double leastSupport = 1.2, largestSupport = 10;  // in spacings
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
@@ -336,10 +337,12 @@ void checkTogether(const Case& c, Problems& problems) {
             {"system/control.yaml", 0, 0}, "stop.firstBreak",
             "found true, but nothing can break: no cell's entry of constant/membranes.yaml names a rupture law (" +
                 joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
-    if (c.support() + c.skin() <= 0 || c.support() < 1.2 * c.spacing())
+    const double support = c.support() / c.spacing();
+    if (!(support >= leastSupport && support <= largestSupport))
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
-                     "found " + formatQuantity(c.support() / c.spacing(), unit::none) +
-                         " dx, which reaches too few neighbours; at least 1.2 dx, usually 2.4 to 3 dx");
+                     fmt::format("found {} dx, which reaches too {} neighbours; {:g} to {:g} dx, usually 2.4 to 3 dx",
+                                 formatQuantity(support, unit::none), support > largestSupport ? "many" : "few",
+                                 leastSupport, largestSupport));
 }
 
 void checkSizes(const Case& c, double shearModulus, Problems& problems) {

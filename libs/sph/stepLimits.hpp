@@ -43,7 +43,7 @@ struct StepLimits {
 inline double acousticStep(double h, double speed) { return 0.25 * h / speed; }  // speed: c0 + |u|
 inline double bodyForceStep(double h, double force) { return 0.25 * std::sqrt(h / force); }
 inline double springStep(double lambda, double omega2) {
-    return 2 / omega2 * (std::sqrt(lambda * lambda + omega2) - lambda);
+    return 2 / (std::sqrt(lambda * lambda + omega2) + lambda);  // no difference of near numbers where drag is strong
 }
 
 }  // namespace corpuscle::sph

@@ -186,7 +186,8 @@ CASES = [
          "0.1", "'0.1'", "true or false"),
     case("viscosityRatioZero", replace(MEMBRANES, "viscosityRatio: 1", "viscosityRatio: 0"), MEMBRANES,
          "rbc.interior.viscosityRatio", "0", "'0'", "greater than 0"),
-    case("kernelSupportTooSmall", replace(NUMERICS, "3.0 dx", "0.9 dx"), NUMERICS, "kernel.support", "0.9 dx", "found 0.9 dx", "at least 1.2 dx"),
+    case("kernelSupportTooSmall", replace(NUMERICS, "3.0 dx", "0.9 dx"), NUMERICS, "kernel.support", "0.9 dx", "found 0.9 dx", "1.2 to 10 dx"),
+    case("kernelSupportTooLarge", replace(NUMERICS, "3.0 dx", "1e9 dx"), NUMERICS, "kernel.support", "1e9 dx", "too many neighbours", "1.2 to 10 dx"),
     case("kernelSupportInMetresTooSmall", replace(NUMERICS, "3.0 dx", "0.5 um"), NUMERICS, "kernel.support", "0.5 um", "found 0.5 dx"),
 
     # What excludes or needs another
