@@ -82,33 +82,51 @@ std::string ownText(const std::string& program, int descriptor) {
         program, getpid(), machineInfo().host, bootId(), timestamp(), inodeOf(descriptor));
 }
 
-// Signals that end the program before it has its own way to stop. The path stays where a handler may read it.
+// Signals that end the program before it has its own way to stop. The path stays where a handler may read it. While the file is
+// being made or removed such a signal waits, so that it can neither leave the file behind nor remove that of another program.
 char pathToRemove[4096] = "";
 constexpr int endings[] = {SIGINT, SIGTERM, SIGHUP};
+volatile std::sig_atomic_t isWaiting = 0, waiting = 0;
 
 void removeAndEnd(int number) {
+    if (isWaiting != 0) {
+        waiting = number;
+        return;
+    }
     if (pathToRemove[0] != '\0') unlink(pathToRemove);
     std::signal(number, SIG_DFL);
     std::raise(number);
 }
 
-void armSignals(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const std::string text = std::filesystem::absolute(path, ignored).string();
-    if (text.size() >= sizeof pathToRemove) return;
-    std::strcpy(pathToRemove, text.c_str());
+void letSignalsWait() {
+    isWaiting = 1;
     for (const int number : endings) {
         struct sigaction action {};
         if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_DFL) std::signal(number, removeAndEnd);
     }
 }
 
+void deliverSignals() {
+    isWaiting = 0;
+    if (const int number = waiting; number != 0) {
+        waiting = 0;
+        removeAndEnd(number);
+    }
+}
+
+void armSignals(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::string text = std::filesystem::absolute(path, ignored).string();
+    if (text.size() < sizeof pathToRemove) std::strcpy(pathToRemove, text.c_str());
+    deliverSignals();
+}
+
 void disarmSignals() {
-    pathToRemove[0] = '\0';
     for (const int number : endings) {
         struct sigaction action {};
         if (sigaction(number, nullptr, &action) == 0 && action.sa_handler == removeAndEnd) std::signal(number, SIG_DFL);
     }
+    deliverSignals();
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const Holder& holder) {
@@ -187,16 +205,24 @@ CaseLock::CaseLock(const std::filesystem::path& caseDir, const std::string& prog
     onRoot(communicator.handle(), [&] {
         if (!std::filesystem::is_directory(caseDir))
             throw Failure(ExitCode::io, fmt::format("the case directory {} is missing", caseDir.string()));
-        descriptor_ = acquire(path_, program, log);
+        letSignalsWait();
+        try {
+            descriptor_ = acquire(path_, program, log);
+        } catch (...) {
+            disarmSignals();
+            throw;
+        }
         armSignals(path_);
     });
 }
 
 CaseLock::~CaseLock() {
     if (descriptor_ < 0) return;
-    disarmSignals();
+    isWaiting = 1;
     if (isStillAt(path_, descriptor_)) unlink(path_.c_str());
+    pathToRemove[0] = '\0';
     close(descriptor_);
+    disarmSignals();
 }
 
 void CaseLock::abandon() const { unlink(path_.c_str()); }
