@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "simulation/retreat.hpp"
+#include "simulation/run.hpp"
 
 using namespace corpuscle;
 
@@ -42,25 +42,12 @@ int main(int argc, char* argv[]) {
     Application app("limitFlow", "A case stepped by a multiple of one limit of the explicit step.", argc, argv,
                     usage());
     return app.run([&] {
-        app.announce();
-        const simulation::Case input = simulation::Case::read(app);
         const std::string name = app.value("limit").value_or("least");
         const double times = numberOf(app.value("times").value_or("1"));
-        simulation::StartingPoint start = simulation::prepare(app, input);
-        if (start.isFinished) return ExitCode::done;
-        coupling::Scene& scene = start.scene;
-        Time& time = start.time;
-        simulation::Integrator integrator(input, scene);
-        simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, start, integrator);
-        if (app.has("dry-run")) return after.dryRun(scene, time);
-
-        after.begin(scene, time);
-        simulation::Retreat step(input, scene, time, integrator, after, app.log());
-        while (time.running() && !after.stopRequested(scene, time)) {
+        simulation::RunHooks hooks;
+        hooks.beforeStep = [&](coupling::Scene&, Time& time, const simulation::Integrator& integrator) {
             time.dt = wantedStep(integrator.limits(), name, times);
-            if (step.advance()) after.afterStep(scene, time);
-        }
-        return after.end(scene, time);
+        };
+        return simulation::run(app, hooks);
     });
 }

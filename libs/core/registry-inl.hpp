@@ -74,6 +74,38 @@ Codec<Choice<Family>> choiceCodec() {
             }};
 }
 
+template <class Family>
+std::shared_ptr<const Family> ModelTables<Family>::of(const std::string& name) const {
+    if (const auto found = models.find(name); found != models.end()) return found->second;
+    const auto* entry = Registry<Family>::instance().find(name);
+    Problems none;
+    return entry ? entry->make(Node{}, none) : nullptr;
+}
+
+template <class Family>
+std::vector<ModelTable<Family>> modelTables() {
+    const Registry<Family>& registry = Registry<Family>::instance();
+    std::vector<ModelTable<Family>> tables;
+    for (const std::string& name : registry.names()) {
+        const auto& entry = *registry.find(name);
+        if (entry.settings().fields.empty()) continue;
+        tables.push_back({name,
+                          entry.text,
+                          entry.settings,
+                          {[name, make = entry.make](const Node& node, ModelTables<Family>& all, Problems& problems) {
+                               if (const Node* type = node.find("type"))
+                                   problems.add(type->place(), type->path,
+                                                "unknown key 'type': the name of the table says which model it is for");
+                               all.models[name] = make(node, problems);
+                           },
+                           [name, write = entry.write](const ModelTables<Family>& all) {
+                               const std::shared_ptr<const Family> model = all.of(name);
+                               return model ? write(*model) : Node{};
+                           }}});
+    }
+    return tables;
+}
+
 // `type: name` with its settings, defaults included.
 template <class Family>
 Node writeChoice(const Choice<Family>& choice) {

@@ -57,6 +57,14 @@ struct Choice {
     const Family& operator*() const { return *model; }
 };
 
+// All models of a family, each with the settings that a case gives it in a table of its name.
+template <class Family>
+struct ModelTables {
+    std::map<std::string, std::shared_ptr<const Family>> models;
+    // With the settings of the case, or with its defaults; null where no model has this name.
+    std::shared_ptr<const Family> of(const std::string& name) const;
+};
+
 }  // namespace corpuscle
 
 #include "core/registry-inl.hpp"

@@ -67,6 +67,17 @@ template <class Family>
 struct Choice;
 template <class Family>
 Codec<Choice<Family>> choiceCodec();  // registry.hpp
+template <class Family>
+struct ModelTables;
+// The table of one model among those of its family.
+template <class Family>
+struct ModelTable {
+    std::string name, text;
+    std::function<SchemaInfo()> settings;
+    Codec<ModelTables<Family>> codec;
+};
+template <class Family>
+std::vector<ModelTable<Family>> modelTables();  // registry.hpp
 
 template <class T>
 class Schema : public SchemaBase {
@@ -235,6 +246,18 @@ class Schema : public SchemaBase {
     template <class Family>
     Schema& models(const Str& key, std::map<Str, Choice<Family>> T::*m, const Str& text, const Options& o = {}) {
         return add(withFamily<Family>(describe("models", key, text, o)), m, mapCodec(choiceCodec<Family>()));
+    }
+
+    // A table for each model of a family that has settings, under the model's own name; absent, it has its defaults.
+    template <class Family>
+    Schema& modelTables(ModelTables<Family> T::*m, AtRestart policy) {
+        for (const ModelTable<Family>& model : corpuscle::modelTables<Family>()) {
+            FieldInfo info = describe("table", model.name, model.text, {.fallback = "{}"});
+            info.table = model.settings;
+            info.atRestart = policy;
+            add(std::move(info), m, model.codec);
+        }
+        return *this;
     }
 
     // The fields, rules and checks of a base struct.

@@ -20,7 +20,7 @@
 //
 // Kinds of fields (each: key, &T::member, ..., one sentence, {.fallback, .range}); settings-inl.hpp declares them:
 //     quantity quantityOr quantities integer boolean word words wordOrQuantity name text vector vectorOr integers
-//     booleans length lengthOr interval table tableOr list map model modelOr models
+//     booleans length lengthOr interval table tableOr list map model modelOr models modelTables
 // The key "*" of map and models takes every key that is not declared otherwise (a file that is a table of free names).
 // Rules over several keys: exactlyOneOf({"Ca", "shearRate"}), atMostOneOf(...), check(function); include<Base>() adds
 // the fields of a base struct; atRestart(AtRestart::fixed, {"spacing"}) says what a change means to a continued run.

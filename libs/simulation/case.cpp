@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "schemes/cost.hpp"
 #include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
-#include "simulation/cost.hpp"
 #include "simulation/readyCell.hpp"
-#include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
 
@@ -85,7 +85,56 @@ const Mark& placeOf(const Node& node, const std::string& key) {
     return node.isNothing() ? node.place() : node.mark;
 }
 
-constexpr double conjugateBulk = 500;  // bulk modulus of conjugate operators in units of mu gammadot
+constexpr double adjointBulk = 500;  // bulk modulus of adjoint operators in units of mu gammadot
+
+// Volumes are kept exactly: the membrane's stiffness does not count.
+double adjointSoundSpeed(const Case& c) {
+    const sph::FlowState& flow = c.flow;
+    const double nu = c.viscosities().largest / flow.density;
+    return std::sqrt(std::max(
+        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.bodyForce.norm() * flow.length}));
+}
+
+double plainSoundSpeed(const Case& c) {
+    const sph::FlowState& flow = c.flow;
+    const double nu = c.viscosities().largest / flow.density;
+    double length = flow.length, square = flow.speed * flow.speed;
+    for (const CellSettings& cell : c.mesh.cells) {
+        const double a = cell.shape->radius();
+        length = std::min(length, a);
+        square = std::max(square, c.membraneOf(cell).moduli(cell.edge).shear / (flow.density * a));
+    }
+    double speed = flow.speed;
+    for (const BodyPlaceSettings& body : c.mesh.bodies) {
+        const double a = body.shape->radius();
+        length = std::min(length, a);
+        speed = std::max(speed, c.bodyOf(body).motion->speed(a));
+    }
+    square = std::max({square, speed * speed, nu * speed / length, flow.bodyForce.norm() * flow.length});
+    return 10 * std::sqrt(square);
+}
+
+// Of M^-1 K for a hexagonal network of nodes on the membrane [1/s^2]: 6 k/m, its bonds of stiffness k = (Gs + Ks) 4/(3 sqrt(3)), the mass
+// of a node that of its hexagon, one spacing thick. Bending is left out.
+double springRate2(const Case& c) {
+    double most = 0;
+    for (const CellSettings& cell : c.mesh.cells) {
+        const membrane::SurfaceModuli moduli = c.membraneOf(cell).moduli(cell.edge);
+        const double bond = (moduli.shear + moduli.area) * 4 / (3 * std::numbers::sqrt3),
+                     mass = c.flow.density * c.spacing() * std::numbers::sqrt3 / 2 * cell.edge * cell.edge;
+        most = std::max(most, 6 * bond / mass);
+    }
+    return most;
+}
+
+// Absent: 0.1 with immersed membranes and in flows of three dimensions, 0 otherwise. Where the flow draws a perfect lattice out its planes part:
+// all neighbours of a particle come to lie in one plane, and shifting, which follows gradients, does not see it because every particle has its
+// mirror image.
+double jitterOf(const Case& c) {
+    constexpr double usual = 0.1;
+    const bool disordered = c.flowModel->isThreeDimensional() || (c.numerics.isImmersed() && !c.mesh.cells.empty());
+    return c.mesh.fill.jitter.value_or(disordered ? usual : 0);
+}
 
 }  // namespace
 
@@ -140,7 +189,7 @@ Case Case::read(const Application& app) {
     }
     c.throwIfAny(problems);
     c.written = c.numerics;
-    c.numerics = schemeOf(c, c.written.integrator);
+    c.numerics = schemes::settled(c.written, c.facts(), c.written.integrator);
     checkTogether(c, problems);
     c.throwIfAny(problems);
 
@@ -166,12 +215,12 @@ Case Case::read(const Application& app) {
     if (c.control.write.strain && c.flow.shearRate <= 0)
         problems.add({"system/control.yaml", 0, 0}, "write.strain",
                      "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
-    if (c.numerics.isAutomatic()) {
-        c.numerics = schemeOf(c, cheapest(predictCosts(c)));
-        c.integratorChosen = true;
-    } else {
-        c.numerics = schemeOf(c, c.written.integrator);  // its step, now that the flow is known
-    }
+    // Now that the flow is known.
+    const schemes::CaseFacts facts = c.facts();
+    c.integratorChosen = c.written.isAutomatic();
+    c.numerics =
+        schemes::settled(c.written, facts,
+                         c.integratorChosen ? schemes::cheapest(predictCosts(c.written, facts)) : c.written.integrator);
     c.mesh.fill.jitter = jitterOf(c);
     for (auto& [file, table] : c.effective)
         if (file == "system/numerics.yaml")
@@ -210,25 +259,28 @@ double Case::soundSpeed() const {
 }
 
 double Case::automaticSoundSpeed() const {
-    const double nu = viscosities().largest / flow.density;
-    if (isConjugate())  // volumes are kept exactly: the membrane's stiffness does not count
-        return std::sqrt(std::max({100 * flow.speed * flow.speed, conjugateBulk * nu * flow.rate,
-                                   100 * flow.bodyForce.norm() * flow.length}));
-    double length = flow.length, square = flow.speed * flow.speed;
-    for (const CellSettings& cell : mesh.cells) {
-        const double a = cell.shape->radius();
-        length = std::min(length, a);
-        square = std::max(square, membraneOf(cell).moduli(cell.edge).shear / (flow.density * a));
-    }
-    double speed = flow.speed;
-    for (const BodyPlaceSettings& body : mesh.bodies) {
-        const double a = body.shape->radius();
-        length = std::min(length, a);
-        speed = std::max(speed, bodyOf(body).motion->speed(a));
-    }
-    square = std::max({square, speed * speed, nu * speed / length, flow.bodyForce.norm() * flow.length});
-    return 10 * std::sqrt(square);
+    return scheme().traits().isAdjoint ? adjointSoundSpeed(*this) : plainSoundSpeed(*this);
 }
+
+schemes::CaseFacts Case::facts() const {
+    schemes::CaseFacts facts;
+    facts.hasCells = !mesh.cells.empty(), facts.hasBodies = !mesh.bodies.empty();
+    if (const auto file = files.find("system/numerics.yaml"); file != files.end()) facts.written = &file->second;
+    const auto [least, largest] = viscosities();
+    facts.leastViscosity = least, facts.largestViscosity = facts.mostViscous = largest;
+    if (flow.density == 0) return facts;  // not resolved yet
+    for (const CellSettings& cell : mesh.cells)
+        facts.mostViscous = std::max(facts.mostViscous, fluid.viscosity * membraneOf(cell).interior.viscosityRatio);
+    facts.flow = flow;
+    facts.springRate2 = springRate2(*this);
+    const std::optional<double>& given = fluid.equationOfState->soundSpeed;
+    facts.soundSpeed = given.value_or(plainSoundSpeed(*this));
+    facts.adjointSoundSpeed = given.value_or(adjointSoundSpeed(*this));
+    facts.duration = duration();
+    return facts;
+}
+
+double Case::duration() const { return control.endTime ? *control.endTime : *control.endStrain / flow.shearRate; }
 
 sph::FluidModel Case::fluidModel() const {
     return {numerics.kernel.model,
@@ -240,10 +292,6 @@ sph::FluidModel Case::fluidModel() const {
             flow.bodyForce,
             flow.walls,
             fluid.layers.empty() ? 0 : viscosities().least};
-}
-
-bool Case::isConjugate() const {
-    return numerics.isImplicit() || numerics.isCorrected() || (numerics.isImmersed() && !mesh.cells.empty());
 }
 
 particles::Precision Case::precision() const {

@@ -4,6 +4,7 @@
 
 #include "core/application.hpp"
 #include "observers/observers.hpp"
+#include "schemes/choice.hpp"
 #include "simulation/caseSettings.hpp"
 #include "sph/fluidForces.hpp"
 
@@ -26,15 +27,15 @@ struct Case {
     std::map<std::string, Node> files;   // the dictionaries as they were read
     std::vector<Node::Entry> effective;  // file and its full table: used.yaml
 
-    NumericsSettings written;       // numerics before it is settled what automatic keys stand for (scheme.hpp)
-    bool integratorChosen = false;  // the integrator was automatic, and is now what costs least (cost.hpp)
+    NumericsSettings written;       // numerics before it is settled what automatic keys stand for (schemes/choice.hpp)
+    bool integratorChosen = false;  // the integrator was automatic, and is now what costs least (schemes/cost.hpp)
 
     // What follows.
     sph::FlowState flow;
     sph::FluidModel fluidModel() const;
     particles::Precision precision() const;  // of the laws between pairs
     double spacing() const { return numerics.spacing; }
-    double support() const { return numerics.kernel->support->metres(spacing()); }
+    double support() const { return numerics.support(); }
     double skin() const { return numerics.skin.metres(spacing()); }
     int wallLayers() const;              // of particles behind each wall: as deep as the support reaches
     particles::Box fluidBox() const;     // between the walls
@@ -53,9 +54,9 @@ struct Case {
     // Of the fluid outside cells, by its layers [Pa s].
     double viscosityAt(const Vec3& x) const;
     ViscosityRange viscosities() const;  // of the fluid outside cells
-    // Whether fluid and membranes are discretised by the conjugate operators of sph/operators.hpp: the implicit step, corrected
-    // operators, immersed membranes.
-    bool isConjugate() const;
+    const schemes::Scheme& scheme() const { return *numerics.scheme; }
+    schemes::CaseFacts facts() const;  // what a scheme is told
+    double duration() const;           // of the whole run [s]
 
     // Throws CaseError when there are problems, each at the line of its file where its key stands.
     void throwIfAny(const Problems& problems) const;

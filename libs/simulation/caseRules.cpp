@@ -9,7 +9,6 @@
 #include "coupling/noFlux.hpp"
 #include "geometry/mesher.hpp"
 #include "io/vtkSeries.hpp"
-#include "simulation/scheme.hpp"
 
 namespace corpuscle::simulation {
 
@@ -89,106 +88,6 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          "; move it towards the middle or make the box larger");
 }
 
-void checkRkl2(const Case& c, Problems& problems) {
-    const Mark numerics{"system/numerics.yaml", 0, 0};
-    if (!c.mesh.cells.empty())
-        problems.add(numerics, "integrator",
-                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has cells; write velocityVerlet, or "
-                     "implicit with coupling: immersed");
-    if (!c.mesh.bodies.empty())
-        problems.add(numerics, "integrator",
-                     "found rkl2, which is for a fluid alone, but system/mesh.yaml has bodies; write velocityVerlet, "
-                     "or implicit");
-    if (c.numerics.isCorrected())
-        problems.add(numerics, "operators",
-                     "found corrected, which 'integrator: rkl2' does not have; write operators: plain, or another "
-                     "integrator");
-}
-
-// Some integrator has to be left.
-void checkAutomatic(const Case& c, Problems& problems) {
-    std::string all;
-    for (const char* name : {"velocityVerlet", "rkl2", "implicit"}) {
-        const std::string why = obstacle(c, name);
-        if (why.empty()) return;
-        all += (all.empty() ? "" : "; ") + std::string(name) + ": " + why;
-    }
-    problems.add({"system/numerics.yaml", 0, 0}, "integrator",
-                 "found automatic, but no integrator can do this case (" + all +
-                     "); name the one that is to do it, and follow what that message says");
-}
-
-}  // namespace
-
-void checkScheme(const Case& c, Problems& problems) {
-    const Mark numerics{"system/numerics.yaml", 0, 0};
-    const NumericsSettings& n = c.numerics;
-    if (n.isAutomatic()) {
-        checkAutomatic(c, problems);
-        return;
-    }
-    if (n.isRkl2()) {
-        checkRkl2(c, problems);
-        return;
-    }
-    const bool cells = !c.mesh.cells.empty(), corrected = n.isCorrected();
-    if (cells && n.isImplicit() && !n.isImmersed())
-        problems.add(numerics, "coupling",
-                     "found dualIdentity, which goes with 'integrator: velocityVerlet'; write coupling: immersed");
-    if (cells && !n.isImplicit() && corrected && !n.isImmersed())
-        problems.add(numerics, "operators",
-                     "found corrected, which go with 'coupling: immersed'; write that, or operators: plain");
-    if (corrected && !n.shifting)
-        problems.add(numerics, "operators",
-                     "found corrected, which let particles clump without shifting; write 'shifting: {coefficient: 1}' "
-                     "beside it, or operators: plain");
-    constexpr double furthestLayers = 20;  // largest over least viscosity: sph/operators.hpp
-    const auto [least, largest] = c.viscosities();
-    if (c.isConjugate() && largest > furthestLayers * least * (1 + 1e-9))
-        problems.add(
-            {"constant/fluid.yaml", 0, 0}, "layers",
-            fmt::format("found viscosities from {} to {}; the operators of 'integrator: {}' with 'operators: {}' "
-                        "keep motion bounded at a jump of at most {:g}: bring them nearer, or take 'integrator: "
-                        "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
-                        formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
-                        c.numerics.integrator, c.numerics.operators, furthestLayers));
-    if (c.mesh.bodies.empty() || !c.isConjugate() || n.isImplicit()) return;
-    problems.add(numerics, corrected ? "operators" : "coupling",
-                 std::string("found ") + (corrected ? "corrected" : "immersed") +
-                     ", but system/mesh.yaml has bodies, which 'integrator: velocityVerlet' moves with " +
-                     (cells ? "'coupling: dualIdentity' and " : "") +
-                     "'operators: plain' only; write that, or integrator: implicit");
-}
-
-namespace {
-
-// Keys that mean nothing in the chosen scheme.
-void checkUnused(const Case& c, Problems& problems) {
-    const auto file = c.files.find("system/numerics.yaml");
-    if (file == c.files.end()) return;
-    const NumericsSettings& n = c.numerics;
-    const auto refuse = [&](const Node* written, const std::string& why) {
-        if (written)
-            problems.add(written->mark, written->path,
-                         "found " + written->scalar + ", which means nothing " + why + "; remove this key");
-    };
-    const std::string implicitStep = "with 'integrator: implicit', ";
-    if (n.isImplicit()) {
-        refuse(file->second.find("safety"), implicitStep + "where 'implicit.step' sets the step");
-        refuse(file->second.find("skin"), implicitStep + "where lists are built at every step");
-    }
-    if (n.isImplicit() || n.isImmersed())
-        refuse(file->second.find("guard"),
-               "with 'coupling: immersed', where particles are held to their side at every step");
-    const Node* shifting = file->second.find("shifting");
-    if (shifting && c.isConjugate())
-        refuse(shifting->find("steps"), std::string("with ") +
-                                            (n.isImplicit()    ? "'integrator: implicit'"
-                                             : n.isCorrected() ? "'operators: corrected'"
-                                                               : "'coupling: immersed'") +
-                                            ", where particles are shifted at every step");
-}
-
 // What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
 void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
     if (!wrongScale(c, cell).empty()) return;
@@ -259,21 +158,6 @@ void checkLayers(const Case& c, Problems& problems) {
 
 }  // namespace
 
-std::string obstacle(const Case& c, const std::string& integrator) {
-    Case named = c;
-    named.numerics = schemeOf(c, integrator);
-    Problems problems;
-    checkScheme(named, problems);
-    try {
-        problems.throwIfAny();
-    } catch (const CaseError& error) {
-        const Problem& first = error.problems().front();
-        const std::string reason = first.message.substr(0, first.message.find(';'));
-        return first.key == "integrator" ? reason : first.key + ": " + reason;
-    }
-    return "";
-}
-
 void checkTogether(const Case& c, Problems& problems) {
     const int wall = c.flowModel->wallAxis();
     const Mark mesh{"system/mesh.yaml", 0, 0};
@@ -326,8 +210,7 @@ void checkTogether(const Case& c, Problems& problems) {
         for (std::size_t i = 0; i < c.mesh.cells.size(); ++i)
             if (c.mesh.cells[i].shape) checkImmersed(c, c.mesh.cells[i], "cells[" + std::to_string(i) + "]", problems);
     checkLayers(c, problems);
-    checkScheme(c, problems);
-    checkUnused(c, problems);
+    schemes::check(c.numerics, c.written, c.facts(), problems);
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
         const auto type = c.membranes.types.find(cell.type());
         return type != c.membranes.types.end() && type->second.rupture;

@@ -11,11 +11,6 @@ struct PlacedSurface {
 };
 std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh);
 
-// Which integrator goes with which coupling, operators and contents: adds a problem for each thing that does not.
-void checkScheme(const Case& c, Problems& problems);
-// Why the case cannot be stepped with an integrator, in words; empty where it can.
-std::string obstacle(const Case& c, const std::string& integrator);
-
 // Adds a problem for each rule that the case breaks; each names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems);
 

@@ -3,13 +3,10 @@
 #include "bodies/bodySettings.hpp"
 #include "core/registry.hpp"
 #include "geometry/shape.hpp"
-#include "implicit/implicitSettings.hpp"
 #include "membrane/membraneSettings.hpp"
+#include "schemes/numericsSettings.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/flow.hpp"
-#include "sph/kernel.hpp"
-#include "sph/rkl2.hpp"
-#include "sph/shifting.hpp"
 
 namespace corpuscle::simulation {
 
@@ -45,28 +42,7 @@ struct ControlSettings {
     static const Schema<ControlSettings>& schema();
 };
 
-// system/numerics.yaml
-struct NumericsSettings {
-    double spacing = 0;  // dx [m]
-    Choice<sph::Kernel> kernel;
-    std::string integrator, coupling, operators, precision;
-    std::optional<sph::ShiftingSettings> shifting;
-    implicit::ImplicitSettings implicit;
-    sph::Rkl2Settings rkl2;
-    Length skin;
-    long guard = 10;                       // steps between two looks of the leakage guard; 0: none
-    std::optional<long> densityBalance{};  // as written
-    double safety = 0.95;                  // fraction of each limit that the step takes
-    long retreats = 4;                     // in a row, to an earlier state with shorter steps
-    // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the pressure.
-    long balanceInterval() const { return densityBalance.value_or(isImplicit() ? 1 : 10); }
-    bool isAutomatic() const { return integrator == "automatic"; }
-    bool isRkl2() const { return integrator == "rkl2"; }
-    bool isImplicit() const { return integrator == "implicit"; }
-    bool isImmersed() const { return coupling == "immersed"; }
-    bool isCorrected() const { return operators == "corrected"; }
-    static const Schema<NumericsSettings>& schema();
-};
+using schemes::NumericsSettings;  // system/numerics.yaml
 
 // system/mesh.yaml
 struct DomainSettings {
@@ -94,7 +70,7 @@ struct BodyPlaceSettings : SurfaceSettings {
     const std::string& type() const { return body ? *body : name; }
 };
 struct FillSettings {
-    std::optional<double> jitter;  // in spacings; a loaded case has one (scheme.hpp)
+    std::optional<double> jitter;  // in spacings; a loaded case has one (case.hpp)
     long seed = 1;
     long relaxation = 60;  // sweeps that even out the particles around membranes
     static const Schema<FillSettings>& schema();

@@ -16,7 +16,8 @@ using coupling::Scene;
 
 namespace {
 
-constexpr double atTheEnd = 1;  // of a step: where the velocities of the implicit step belong
+// Of the dataset with what the scheme keeps.
+std::string schemeName(const Case& input) { return "scheme/" + input.scheme().traits().state; }
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
     std::vector<double> values;
@@ -66,22 +67,9 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.attribute("strain", time.strain());
     file.attribute("step", static_cast<std::int64_t>(time.step));
     file.attribute("dt", state.integrator.dt);
-    file.attribute("viscousRate", state.integrator.viscousRate);
-    file.attribute("membraneRate", state.integrator.membraneRate);
-    file.attribute("springRate2", state.integrator.springRate2);
-    if (input.numerics.isImplicit()) {
-        const implicit::ImplicitStep::State& s = state.integrator.implicit;
-        file.writeReplicated("implicit", std::vector<double>{s.behind, s.lastSpacing, s.reference,
-                                                             static_cast<double>(s.steps), atTheEnd});
-    }
-    if (!input.numerics.isImplicit() && input.isConjugate())
-        file.writeReplicated("conjugate",
-                             std::vector<std::int64_t>{static_cast<std::int64_t>(state.integrator.conjugateSteps)});
+    file.writeReplicated(schemeName(input), state.integrator.scheme);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
-    if (scene.coupling) {
-        file.attribute("couplingSteps", static_cast<std::int64_t>(scene.coupling->steps()));
-    }
     if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.putBack, comm)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
@@ -120,36 +108,11 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     time.strained = file.template attribute<double>("strain");
     time.step = file.template attribute<std::int64_t>("step");
     RunState state;
-    state.integrator = {file.template attribute<double>("viscousRate"),
-                        file.template attribute<double>("membraneRate"),
-                        file.template attribute<double>("springRate2"),
-                        file.template attribute<double>("dt"),
-                        {}};
-    const bool isImplicit = input.numerics.isImplicit();
-    if (file.has("implicit") != isImplicit)
-        throw Failure(ExitCode::io,
-                      where + " was written by 'integrator: " + (isImplicit ? "velocityVerlet' or rkl2" : "implicit'") +
-                          ", whose state between steps is another; start from firstTime, or write that "
-                          "in system/numerics.yaml");
-    if (isImplicit) {
-        const std::vector<double> s = file.template readReplicated<double>("implicit");
-        if (s.size() != 5 || s[4] != atTheEnd)
-            throw Failure(ExitCode::io, where +
-                                            " has velocities of the middle of the step, as an earlier version "
-                                            "wrote them; start from firstTime");
-        state.integrator.implicit = {s[0], s[1], s[2], std::lround(s[3])};
-    }
-    if (!isImplicit && file.has("conjugate") != input.isConjugate()) {
-        const char* const was = scene.cells.empty() ? input.isConjugate() ? "operators: plain" : "operators: corrected"
-                                : input.isConjugate() ? "coupling: dualIdentity"
-                                                      : "coupling: immersed";
-        throw Failure(ExitCode::io, where + " was written with '" + was +
-                                        "'; start from firstTime, or write that in system/numerics.yaml");
-    }
-    if (!isImplicit && file.has("conjugate"))
-        state.integrator.conjugateSteps = file.template readReplicated<std::int64_t>("conjugate").at(0);
-    if (!scene.cells.empty() && !input.isConjugate())
-        state.couplingSteps = file.template attribute<std::int64_t>("couplingSteps");
+    const std::string scheme = schemeName(input);
+    if (!file.has(scheme))
+        throw Failure(ExitCode::io, where + " holds no state of 'integrator: " + input.numerics.integrator +
+                                        "': another scheme or an earlier version wrote it; start from firstTime");
+    state.integrator = {file.template attribute<double>("dt"), file.template readReplicated<double>(scheme)};
     state.observers = file.template readReplicated<double>("observers");
     particles::ParticleStore& s = scene.store();
     std::size_t count = 0;
@@ -219,12 +182,6 @@ void remember(io::MemoryCheckpoint& memory, const Case& input, const Scene& scen
 
 RunState recall(const io::MemoryCheckpoint& memory, const Case& input, Scene& scene, Time& time) {
     return load(memory, "the state in memory", input, scene, time);
-}
-
-void restoreCoupling(const RunState& state, Scene& scene) {
-    if (!scene.coupling) return;
-    scene.coupling->restore(state.couplingSteps);
-    scene.coupling->guard().restore(scene.putBack);
 }
 
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log) {

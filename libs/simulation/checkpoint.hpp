@@ -16,7 +16,6 @@ namespace corpuscle::simulation {
 // What is not in the scene.
 struct RunState {
     Integrator::State integrator;
-    long couplingSteps = 0;  // of the dual identity
     std::vector<double> observers;
 };
 
@@ -33,8 +32,5 @@ RunState recall(const io::MemoryCheckpoint& memory, const Case& input, coupling:
 // The checkpoint that `startFrom` (latestTime, firstTime, or the one nearest before a time) means; empty for the start in 0/. Warnings name
 // what was passed over.
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log);
-
-// Parts of the scene that exist only once the integrator has been made.
-void restoreCoupling(const RunState& state, coupling::Scene& scene);
 
 }  // namespace corpuscle::simulation

@@ -51,7 +51,7 @@ void addCell(Groups& groups, const Case& c, const CellSettings& cell) {
                fmt::format("mu gammadot a/Gs, Gs = {} (closed form{})", formatQuantity(Gs, unit::newtonPerMetre),
                            laws.bonds ? ", hexagonal network" : ""),
                whose);
-    const bool jump = laws.interior.viscosityRatio != 1 && !c.isConjugate();
+    const bool jump = laws.interior.viscosityRatio != 1 && !c.scheme().traits().isAdjoint;
     groups.add("lambda", laws.interior.viscosityRatio,
                jump ? "viscosity inside/outside; dual identity holds back the rotation of the inside, coupling: "
                       "immersed does not"

@@ -64,7 +64,7 @@ std::vector<Derived> derivedValues(const Case& input) {
     all.push_back({"viscosity", "constant/fluid.yaml", "viscosity",
                    input.varyingViscosity() ? AtRestart::fixed : AtRestart::noted,
                    shown(input.fluid.viscosity, unit::pascalSecond)});
-    // velocityVerlet and rkl2 keep the same state between steps.
+    // Schemes that keep the same state between steps can follow each other.
     all.push_back({"integrator", "system/numerics.yaml", "integrator", AtRestart::noted, input.numerics.integrator});
     if (input.flow.shearRate > 0)
         all.push_back({"shearRate", "constant/flow.yaml", "shear rate", AtRestart::noted,
@@ -93,6 +93,13 @@ Node settingsOf(const Case& input) {
     for (const Derived& value : derivedValues(input)) derived.entries.emplace_back(value.name, Node::word(value.value));
     all.entries.emplace_back("derived", std::move(derived));
     return all;
+}
+
+// Whether one can go on from what a checkpoint keeps of the other.
+bool keepTheSame(const std::string& integrator, const std::string& other) {
+    const ModelTables<schemes::Scheme> defaults;
+    const auto one = defaults.of(integrator), two = defaults.of(other);
+    return one && two && one->traits().state == two->traits().state;
 }
 
 const Node& emptyTable() {
@@ -222,7 +229,7 @@ std::vector<std::string> compareSettings(const std::filesystem::path& checkpoint
         const std::string was = wordOf(derived, value.name);
         AtRestart policy = value.policy;
         std::string cure = value.cure;
-        if (value.name == "integrator" && was != value.value && (was == "implicit" || value.value == "implicit")) {
+        if (value.name == "integrator" && !keepTheSame(was, value.value)) {
             policy = AtRestart::fixed;
             if (input.integratorChosen)
                 cure = fmt::format(

@@ -18,37 +18,15 @@ using coupling::Cell;
 using coupling::Scene;
 
 namespace {
-constexpr long implicitInterval = 5, explicitInterval = 50;  // steps between two states kept
-constexpr long explicitLook = 10;                            // steps between two looks at the state
-constexpr long goodStepsToRelax = 10;                        // past a fault
-constexpr double surroundings = 5;                           // supports
-constexpr double leastStep = 1e-7, leastAdvance = 1e-4;      // of a full step
-constexpr long triesToLook = 200;                            // at progress since the last retreat
-constexpr double mostSteps = 1e9;                            // of a run
-constexpr auto patience = std::chrono::seconds(10);          // for ranks on their way with the same failure
+constexpr long goodStepsToRelax = 10;                    // past a fault
+constexpr double surroundings = 5;                       // supports
+constexpr double leastStep = 1e-7, leastAdvance = 1e-4;  // of a full step
+constexpr long triesToLook = 200;                        // at progress since the last retreat
+constexpr double mostSteps = 1e9;                        // of a run
+constexpr auto patience = std::chrono::seconds(10);      // for ranks on their way with the same failure
 // What to do about a limit of the step that lets a run come no further.
-std::string cureOf(const std::string& limit) {
-    if (limit == "error")
-        return "nodes of the membrane or bodies change their velocity faster than 'implicit.error' of "
-               "system/numerics.yaml "
-               "allows: take a larger one, or a finer mesh, or look for a membrane that is far stiffer than the flow "
-               "(Ca)";
-    if (limit == "bond strain")
-        return "a bond changes its length faster than 'implicit.bondStrain' of system/numerics.yaml allows: look for "
-               "edges "
-               "far below the spacing in 0/ (checkMesh), take a larger 'edge' in system/mesh.yaml, or a larger "
-               "bondStrain";
-    if (limit == "spring" || limit == "membrane viscosity")
-        return "the membrane is too stiff for an explicit step: look for edges far below the spacing in 0/ "
-               "(checkMesh), take "
-               "a larger 'edge' in system/mesh.yaml, or 'integrator: implicit' in system/numerics.yaml";
-    if (limit == "acoustic")
-        return "sound is too fast for the step: take a lower 'soundSpeed' in constant/fluid.yaml, or 'integrator: "
-               "implicit' "
-               "in system/numerics.yaml";
-    if (limit == "viscous")
-        return "the fluid is too viscous for an explicit step: take a coarser 'spacing' or 'integrator: implicit' in "
-               "system/numerics.yaml";
+std::string cureOf(const sph::StepLimit& limit) {
+    if (!limit.cure.empty()) return limit.cure;
     return "take a smaller step ('implicit.step' or 'safety') in system/numerics.yaml, or a finer mesh or spacing";
 }
 }  // namespace
@@ -65,18 +43,19 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
       integrator_(integrator),
       schedule_(schedule),
       log_(log),
+      traits_(input.scheme().traits()),
       watch_(input, scene),
       meeting_(MPI_COMM_NULL) {
     MPI_Comm_dup(scene.system->comm(), &meeting_);
     if (schedule_) schedule_->record().set("performance", "retreats", count_);
-    full_ = input.numerics.isImplicit() ? input.numerics.implicit.step / input.flow.rate : time.dt;
+    full_ = input.scheme().fullStep(input.facts(), time.dt);
     furthest_.t = lookNear_.t = lookFar_.t = time.t;
     if (const double steps = time.left() / full_; !time.lastStep && steps > mostSteps)
         throw Failure(
             ExitCode::numerics,
             fmt::format("the run would take {:.2g} steps of {:.3g} s, the limit '{}' of the step: {}; or give "
                         "an earlier end, or -steps",
-                        steps, full_, integrator.limits().binding().name, cureOf(integrator.limits().binding().name)));
+                        steps, full_, integrator.limits().binding().name, cureOf(integrator.limits().binding())));
 }
 
 Retreat::~Retreat() { MPI_Comm_free(&meeting_); }
@@ -87,9 +66,9 @@ double Retreat::longest() const {
 }
 
 bool Retreat::advance() {
-    const long interval = input_.numerics.isImplicit() ? implicitInterval : explicitInterval;
-    if (input_.numerics.retreats > 0 && (good_[0].step < 0 || time_.step >= good_[0].step + interval)) remember();
-    if (const Fault stall = creeping()) end(stall, "", cureOf(integrator_.limits().binding().name));
+    if (input_.numerics.retreats > 0 && (good_[0].step < 0 || time_.step >= good_[0].step + traits_.stepsPerKeptState))
+        remember();
+    if (const Fault stall = creeping()) end(stall, "", cureOf(integrator_.limits().binding()));
     const Fault fault = step();
     if (fault) {
         report(fault);
@@ -104,21 +83,20 @@ bool Retreat::advance() {
 
 // What is wrong after one; nothing where all is well.
 Fault Retreat::step() {
-    const implicit::ImplicitStep* const parts = integrator_.implicitStep();
-    const auto made = [&] { return parts ? parts->statistics.steps + parts->statistics.halvings : 0; };
-    const long before = made();
+    const schemes::Stepper& stepper = integrator_.stepper();
+    const long before = stepper.tries();
     bool isEvent = false;
     try {
-        integrator_.advance(scene_, time_, schedule_ ? schedule_->events(time_) : time_.ends());
+        integrator_.advance(time_, schedule_ ? schedule_->events(time_) : time_.ends());
         isEvent = integrator_.wasShortened();
-        if (!isEvent) furthest_.tries += std::max(1L, made() - before);
+        if (!isEvent) furthest_.tries += std::max(1L, stepper.tries() - before);
         furthest_.t = std::max(furthest_.t, time_.t);
     } catch (const Failure& failure) {
         if (failure.code() != ExitCode::numerics || !allFailed()) throw;
-        furthest_.tries += std::max(1L, made() - before);
+        furthest_.tries += std::max(1L, stepper.tries() - before);
         return {failure.what(), Watch::suspect(scene_)};
     }
-    if (!input_.numerics.isImplicit() && time_.step % explicitLook != 0 && !isEvent && time_.running()) return {};
+    if (time_.step % traits_.stepsPerLook != 0 && !isEvent && time_.running()) return {};
     return watch_.find(scene_, time_);
 }
 
@@ -146,7 +124,6 @@ void Retreat::remember() {
 void Retreat::goBack(Good& good) {
     const RunState state = recall(good.state, input_, scene_, time_);
     integrator_.goBack(state.integrator, time_);
-    restoreCoupling(state, scene_);
     integrator_.shorten(longest(), inRow_ > 1);
     time_.dt = std::min(time_.dt, longest());
     if (schedule_) schedule_->goBack(good.schedule, scene_, time_);
@@ -166,13 +143,12 @@ void Retreat::report(const Fault& fault) {
         if (schedule_) schedule_->record().set("performance", "retreats", count_);
         if (inRow_ > 2 && good_[1].step >= 0) std::swap(good_[0], good_[1]), good_[1].step = -1;
         log_.warning("{}. Back to step {}, t = {:.6g} s, and on with 1/{} of the step{}", fault.text, good_[0].step,
-                     good_[0].t, 1L << inRow_, inRow_ > 1 && integrator_.implicitStep() ? ", by backward Euler" : "");
+                     good_[0].t, 1L << inRow_, inRow_ > 1 && traits_.hasDampedSteps ? ", by backward Euler" : "");
         goBack(good_[0]);
         return;
     }
     end(fault, most > 0 ? fmt::format("{} retreats with steps down to 1/{} did not help", most, 1L << most) : "",
-        fmt::format("take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing",
-                    input_.numerics.isImplicit() ? "implicit.step" : "safety"));
+        fmt::format("take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing", traits_.stepKey));
 }
 
 void Retreat::end(const Fault& fault, const std::string& tried, const std::string& cure) {
@@ -209,8 +185,7 @@ Fault Retreat::creeping() {
         return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
     // Steps since the last retreat; and, so that a run does not go back and forth for ever, all steps, over more of
     // them than it takes to come past a fault from the earlier state by the shortest step.
-    const long interval = input_.numerics.isImplicit() ? implicitInterval : explicitInterval;
-    const long toPassFault = 4 * interval << std::min(input_.numerics.retreats, 20L);
+    const long toPassFault = 4 * traits_.stepsPerKeptState << std::min(input_.numerics.retreats, 20L);
     for (const auto& [look, now, enough] : {std::tuple(&lookNear_, Progress{furthest_.tries, time_.t}, triesToLook),
                                             std::tuple(&lookFar_, furthest_, std::max(triesToLook, toPassFault))}) {
         const long tries = now.tries - look->tries;

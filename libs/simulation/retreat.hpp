@@ -63,6 +63,7 @@ class Retreat {
     Integrator& integrator_;
     Schedule* schedule_;  // none: nothing is written
     Log& log_;
+    schemes::Traits traits_;
     Watch watch_;
     MPI_Comm meeting_;
     Good good_[2];  // the later one first

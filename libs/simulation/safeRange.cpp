@@ -29,9 +29,12 @@ double number(const std::string& word, const std::string& line) {
 
 std::optional<double> valueOf(const Case& input, const std::string& axis) {
     const NumericsSettings& numerics = input.numerics;
-    if (axis == "implicit.step") return numerics.isImplicit() ? std::optional(numerics.implicit.step) : std::nullopt;
-    if (axis == "implicit.tolerance")
-        return numerics.isImplicit() ? std::optional(numerics.implicit.tolerance) : std::nullopt;
+    if (const std::string own = numerics.integrator + "."; axis.starts_with(own)) {
+        const Node settings = Registry<schemes::Scheme>::instance()
+                                  .find(numerics.integrator)
+                                  ->write(*numerics.tables.of(numerics.integrator));
+        return parseQuantity(settings.find(axis.substr(own.size()))->scalar).value;
+    }
     if (axis == "shifting.coefficient")
         return numerics.shifting ? std::optional(numerics.shifting->coefficient) : std::nullopt;
     if (axis == "fill.jitter") return input.mesh.fill.jitter;

@@ -85,7 +85,7 @@ void addBodies(const Case& input, Scene& scene) {
         all.push_back(std::move(body));
     }
     bodies::Bodies::Medium medium{input.flow.density, input.flow.bodyForce, input.spacing()};
-    if (input.numerics.isImplicit()) medium.leastDistance = bodies::Bodies::Medium::unlimited;
+    if (input.scheme().traits().solvesForBodies) medium.leastDistance = bodies::Bodies::Medium::unlimited;
     scene.bodies = std::make_unique<bodies::Bodies>(std::move(all), medium);
 }
 
@@ -128,17 +128,17 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
                                          .side = hasCells,
                                          .node = nodesAreParticles,
                                          .member = hasBodies};
-    scene.system = std::make_unique<particles::ParticleSystem>(comm, input.particleBox(), fields, input.support(),
-                                                               input.numerics.isImplicit() ? 0 : input.skin(),
-                                                               input.spacing(), input.precision());
+    scene.system = std::make_unique<particles::ParticleSystem>(
+        comm, input.particleBox(), fields, input.support(), input.scheme().traits().listsEveryStep ? 0 : input.skin(),
+        input.spacing(), input.precision());
     if (hasCells) scene.cells = readCells(input);
     if (hasBodies) {
         addBodies(input, scene);
-        if (input.numerics.isImplicit()) scene.system->pairWithinBodies();
+        if (input.scheme().traits().solvesForBodies) scene.system->pairWithinBodies();
     }
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
-    if (input.numerics.shifting && !input.isConjugate())  // conjugate steps have their own, at every step
+    if (input.numerics.shifting && !input.scheme().traits().isAdjoint)  // those shift within every step
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
     return scene;

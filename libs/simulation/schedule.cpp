@@ -8,7 +8,7 @@
 #include "io/earlierRun.hpp"
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
-#include "simulation/cost.hpp"
+#include "schemes/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
 #include "simulation/restart.hpp"
@@ -105,13 +105,11 @@ StartingPoint prepare(Application& app, const Case& input) {
     return from;
 }
 
-void startIntegrator(const StartingPoint& from, Integrator& integrator, Scene& scene, Time& time) {
+void startIntegrator(const StartingPoint& from, Integrator& integrator, Time& time) {
     if (from.checkpoint.empty())
         integrator.start(time);
-    else {
+    else
         integrator.resume(from.state.integrator, time);
-        restoreCoupling(from.state, scene);
-    }
 }
 
 Schedule::Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator)
@@ -157,7 +155,9 @@ void Schedule::describe() {
         log.info("inertia: the density is set by Re, rho = {} (constant/fluid.yaml: {})",
                  formatQuantity(input_.flow.density, unit::kilogramPerMetre3),
                  formatQuantity(input_.fluid.density, unit::kilogramPerMetre3));
-    log.table(costHeader(input_), costRows(input_, predictCosts(input_)));
+    const schemes::CaseFacts facts = input_.facts();
+    log.table(schemes::costHeader(facts), schemes::costRows(schemes::predictCosts(input_.written, facts),
+                                                            input_.numerics.integrator, input_.integratorChosen));
     const NumericsSettings& numerics = input_.numerics;
     record_.set("parameters", "integrator", numerics.integrator);
     record_.set("parameters", "coupling", numerics.coupling);
@@ -310,20 +310,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("extremes", "largestStep_s", largestDt_);
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
-    if (const implicit::ImplicitStep* implicitStep = integrator_.implicitStep()) {
-        const auto& statistics = implicitStep->statistics;
-        const double perStep = static_cast<double>(statistics.iterations) / static_cast<double>(std::max(1L, steps));
-        const double inner = static_cast<double>(statistics.innerIterations) / static_cast<double>(std::max(1L, steps));
-        record_.set("performance", "iterationsPerStep", perStep);
-        record_.set("performance", "innerIterationsPerStep", inner);
-        record_.set("extremes", "mostIterations", statistics.mostIterations);
-        record_.set("performance", "refinements", statistics.refinements);
-        record_.set("performance", "halvings", statistics.halvings);
-        app_.log().info(
-            "implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes; refined "
-            "{} times, halved {} times",
-            perStep, statistics.mostIterations, inner, statistics.refinements, statistics.halvings);
-    }
+    integrator_.stepper().report(record_, app_.log(), steps);
     record_.set("extremes", "largestDensityBalance", integrator_.largestDensityBalance());
     if (!scene.cells.empty()) {
         record_.set("extremes", "mostNodesWithoutLinearWeights", integrator_.mostFallbacks());

@@ -88,7 +88,7 @@ class Schedule {
 };
 
 // Forces and first step at the start, or the continuation of a checkpoint.
-void startIntegrator(const StartingPoint& from, Integrator& integrator, coupling::Scene& scene, Time& time);
+void startIntegrator(const StartingPoint& from, Integrator& integrator, Time& time);
 
 Usage solverUsage(const std::string& name);
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "particles/isa.hpp"
-#include "simulation/cost.hpp"
+#include "schemes/cost.hpp"
 
 namespace corpuscle::simulation {
 
@@ -43,8 +43,7 @@ double ghostShare(const Case& c, int ranks, double reach) {
 
 double memoryOf(const Case& c, int ranks) {
     const double n = static_cast<double>(estimateParticles(c).all()), reach = c.support() + c.skin();
-    const bool corrected = c.numerics.isImplicit() || c.isConjugate(),
-               loaded = !c.mesh.cells.empty() || !c.mesh.bodies.empty();
+    const bool corrected = c.scheme().traits().isAdjoint, loaded = !c.mesh.cells.empty() || !c.mesh.bodies.empty();
     const double each = corrected ? (loaded ? MemoryCosts::correctedLoaded : MemoryCosts::corrected)
                                   : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain);
     const double across = reach / c.spacing() + 1, around = 4.2 * across * across * across;
@@ -58,11 +57,11 @@ double memoryOf(const Case& c, int ranks) {
 
 long writesOf(const Case& c) {
     const WriteSettings& w = c.control.write;
-    const double time = duration(c), strain = c.flow.shearRate * time;
+    const double time = c.duration(), strain = c.flow.shearRate * time;
     if (w.strain) return static_cast<long>(strain / *w.strain) + 1;
     if (w.time) return static_cast<long>(time / *w.time) + 1;
     if (w.steps)
-        for (const IntegratorCost& cost : predictCosts(c))
+        for (const schemes::IntegratorCost& cost : schemes::predictCosts(c.written, c.facts()))
             if (cost.name == c.numerics.integrator)
                 return static_cast<long>(cost.steps / static_cast<double>(*w.steps)) + 1;
     return 0;

@@ -26,12 +26,15 @@ namespace corpuscle::sph {
 struct StepLimit {
     std::string name;
     double seconds = std::numeric_limits<double>::infinity();
+    std::string cure = {};  // where it lets a run come no further; empty: a smaller step, a finer mesh
 };
 
 struct StepLimits {
     std::vector<StepLimit> all;  // with safety factors; those that the scene lacks are absent
     int stages = 0;              // that the step taken needs, of rkl2.hpp alone
-    void add(std::string name, double seconds) { all.push_back({std::move(name), seconds}); }
+    void add(std::string name, double seconds, std::string cure = {}) {
+        all.push_back({std::move(name), seconds, std::move(cure)});
+    }
     StepLimit binding() const {
         StepLimit least;
         for (const StepLimit& limit : all)

@@ -14,7 +14,7 @@ import re
 import sys
 from pathlib import Path
 
-LAYERS = [{"core"}, {"io"}, {"particles", "geometry"}, {"sph", "membrane"}, {"bodies"}, {"coupling"}, {"implicit", "observers"}, {"simulation"}]
+LAYERS = [{"core"}, {"io"}, {"particles", "geometry"}, {"sph", "membrane"}, {"bodies"}, {"coupling"}, {"implicit", "observers"}, {"schemes"}, {"simulation"}]
 SAME_LAYER = {}  # library -> those of its own layer that it may use
 
 LIBRARIES = set().union(*LAYERS)

@@ -1,4 +1,4 @@
-// dmpFlow with a fault put into its state between two steps: what Retreat is there for (simulation/retreat.hpp).
+// dmpFlow with a fault put into its state between two steps: what Retreat is there for (simulation/run.hpp).
 //
 //     faultInjection -case DIR -kind speed -at 12 -seed 3
 //
@@ -15,7 +15,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "simulation/retreat.hpp"
+#include "simulation/run.hpp"
 
 using namespace corpuscle;
 using coupling::Scene;
@@ -113,22 +113,11 @@ int main(int argc, char* argv[]) {
     options.push_back({"always", "", "Each time that the run comes to this step."});
     Application app("faultInjection", "A run with a fault in its state.", argc, argv, {.options = options});
     return app.run([&] {
-        app.announce();
-        const simulation::Case input = simulation::Case::read(app);
-        simulation::StartingPoint start = simulation::prepare(app, input);
-        if (start.isFinished) return ExitCode::done;
-        Scene& scene = start.scene;
-        Time& time = start.time;
-        simulation::Integrator integrator(input, scene);
-        simulation::startIntegrator(start, integrator, scene, time);
-        simulation::Schedule after(app, input, start, integrator);
         Injection fault(app);
-        after.begin(scene, time);
-        simulation::Retreat step(input, scene, time, integrator, after, app.log());
-        while (time.running() && !after.stopRequested(scene, time)) {
+        simulation::RunHooks hooks;
+        hooks.beforeStep = [&](Scene& scene, Time& time, const simulation::Integrator&) {
             fault.before(scene, time.step);
-            if (step.advance()) after.afterStep(scene, time);
-        }
-        return after.end(scene, time);
+        };
+        return simulation::run(app, hooks);
     });
 }

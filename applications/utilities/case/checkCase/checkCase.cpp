@@ -17,7 +17,7 @@
 #include "core/buildInfo.hpp"
 #include "core/machineMemory.hpp"
 #include "membrane/moduli.hpp"
-#include "simulation/cost.hpp"
+#include "schemes/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
 #include "simulation/retreat.hpp"
@@ -193,9 +193,10 @@ void findDensity(Report& report, const simulation::Case& input) {
 }
 
 void reportCosts(Report& report, const simulation::Case& input) {
-    const std::vector<simulation::IntegratorCost> costs = simulation::predictCosts(input);
-    std::vector<simulation::IntegratorCost> possible;  // of the others the case has no use
-    for (const simulation::IntegratorCost& cost : costs) {
+    const schemes::CaseFacts facts = input.facts();
+    const std::vector<schemes::IntegratorCost> costs = schemes::predictCosts(input.written, facts);
+    std::vector<schemes::IntegratorCost> possible;  // of the others the case has no use
+    for (const schemes::IntegratorCost& cost : costs) {
         ordered_json& entry = report.json["integrators"][cost.name];
         entry = {{"step_s", cost.step().seconds}, {"limit", cost.step().name}, {"steps", cost.steps},
                  {"passes", cost.passes},         {"cost", cost.cost},         {"obstacle", cost.obstacle}};
@@ -204,7 +205,8 @@ void reportCosts(Report& report, const simulation::Case& input) {
     }
     report.json["integrator"] = input.numerics.integrator;
     report.section("Step and cost");
-    report.table(simulation::costHeader(input), simulation::costRows(input, possible));
+    report.table(schemes::costHeader(facts),
+                 schemes::costRows(possible, input.numerics.integrator, input.integratorChosen));
 }
 
 void reportSize(Report& report, const simulation::Case& input) {
@@ -259,11 +261,11 @@ void reportBodies(Report& report, const simulation::Case& input, const coupling:
 // Steps and seconds of the whole run after a burst of steps as long as at the start; those of rkl2 grow, with their stages.
 std::pair<double, double> predictRun(const simulation::Case& input, double dt, int stages, double perStep) {
     if (stages == 0) {
-        const double steps = simulation::duration(input) / dt;
+        const double steps = input.duration() / dt;
         return {steps, steps * perStep};
     }
-    for (const simulation::IntegratorCost& cost : simulation::predictCosts(input))
-        if (cost.name == "rkl2") return {cost.steps, cost.passes * perStep / (stages + 1)};
+    for (const schemes::IntegratorCost& cost : schemes::predictCosts(input.written, input.facts()))
+        if (cost.name == input.numerics.integrator) return {cost.steps, cost.passes * perStep / (stages + 1)};
     return {};
 }
 

@@ -8,25 +8,17 @@
 // the membrane's spring rate.
 //
 //     integrator     | passes per step
-//     velocityVerlet | 1, and 4 on conjugate operators (coupling/conjugateVerlet.hpp)
+//     velocityVerlet | 1, and 4 on adjoint operators
 //     rkl2           | s + 1, s the stages that dt needs
-//     implicit       | implicitOverhead + passesPerIteration x its iterations
+//     implicit       | 3.5 + 2 x its iterations
 // Measured constants (docs/theory/timeStep.md says how); a prediction is good to a factor of two.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "simulation/case.hpp"
-#include "sph/stepLimits.hpp"
+#include "schemes/numericsSettings.hpp"
 
-namespace corpuscle::simulation {
-
-struct PassCosts {
-    static constexpr double conjugate = 4;  // velocity Verlet on conjugate operators
-    static constexpr double implicitOverhead = 3.5, passesPerIteration = 2;
-    static constexpr double iterations = 4, iterationsWithin = 12;  // of the implicit step; with cells or bodies
-    static constexpr double wallRate = 1.3;  // largest viscous rate beside walls over that of a lattice
-};
+namespace corpuscle::schemes {
 
 struct IntegratorCost {
     std::string name;
@@ -37,18 +29,14 @@ struct IntegratorCost {
     sph::StepLimit step() const { return limits.binding(); }
 };
 
-double duration(const Case& input);  // of the whole run [s]
-
-// One entry for each integrator, in the order of the table above.
-std::vector<IntegratorCost> predictCosts(const Case& input);
+// One entry for each integrator.
+std::vector<IntegratorCost> predictCosts(const NumericsSettings& written, const CaseFacts& facts);
 // The name of the cheapest that the case can use; empty where there is none.
 std::string cheapest(const std::vector<IntegratorCost>& costs);
 
-// For checkCase and the log.
-std::vector<std::string> costHeader(const Case& input);
-std::vector<std::vector<std::string>> costRows(const Case& input, const std::vector<IntegratorCost>& costs);
-// All predicted limits of the step, one row each, a column for each integrator.
-std::vector<std::string> limitHeader(const std::vector<IntegratorCost>& costs);
-std::vector<std::vector<std::string>> limitRows(const std::vector<IntegratorCost>& costs);
+// For checkCase and the log. integrator: the one taken; isChosen: by its cost.
+std::vector<std::string> costHeader(const CaseFacts& facts);
+std::vector<std::vector<std::string>> costRows(const std::vector<IntegratorCost>& costs, const std::string& integrator,
+                                               bool isChosen);
 
-}  // namespace corpuscle::simulation
+}  // namespace corpuscle::schemes

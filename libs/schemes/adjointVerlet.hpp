@@ -1,0 +1,10 @@
+// Velocity Verlet on operators that are adjoint to each other, membranes immersed in the fluid (coupling/conjugateVerlet.hpp): what
+// velocityVerlet steps with where operators are corrected or membranes immersed.
+#pragma once
+#include "schemes/scheme.hpp"
+
+namespace corpuscle::schemes {
+
+std::shared_ptr<const Scheme> adjointVerlet();
+
+}  // namespace corpuscle::schemes

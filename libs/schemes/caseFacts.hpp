@@ -1,0 +1,25 @@
+// What a scheme is told of a case: whatever its step, its cost and its reasons to refuse depend on.
+#pragma once
+#include "core/dictionary.hpp"
+#include "sph/flow.hpp"
+
+namespace corpuscle::schemes {
+
+struct CaseFacts {
+    bool hasCells = false, hasBodies = false;
+    // At rest until constant/flow.yaml has been resolved.
+    sph::FlowState flow;
+    double leastViscosity = 0, largestViscosity = 0;  // of the fluid outside cells [Pa s]
+    double mostViscous = 0;                           // the largest, with that inside cells [Pa s]
+    double springRate2 = 0;  // of the stiffest membrane, M^-1 K of its nodes as particles [1/s^2]
+    // Speed of sound [m/s]: where the stiffness of membranes and the viscosity around bodies count, and where volumes are kept exactly.
+    double soundSpeed = 0, adjointSoundSpeed = 0;
+    double duration = 0;            // of the whole run [s]; 0 until the flow is known
+    const Node* written = nullptr;  // system/numerics.yaml as it was read, if it was
+
+    // Whether it has this key, "implicit.step".
+    bool isWritten(const std::string& path) const { return find(path) != nullptr; }
+    const Node* find(const std::string& path) const;
+};
+
+}  // namespace corpuscle::schemes

@@ -1,0 +1,26 @@
+// The limits of an explicit step (sph/stepLimits.hpp), of rates that are measured in a run or predicted for a case.
+#pragma once
+#include "core/vec.hpp"
+#include "sph/stepLimits.hpp"
+
+namespace corpuscle::schemes {
+
+struct ExplicitRates {
+    double viscous = 0;   // largest rate of the viscous operator [1/s]
+    double membrane = 0;  // of the membranes' own viscosity [1/s]
+    double spring2 = 0;   // of the membranes' stiffness [1/s^2]
+};
+
+// What else limits a step.
+struct ExplicitMedium {
+    double h = 0;                   // smoothing length: half of the kernel's support [m]
+    double soundAndFlow = 0;        // speed of sound + the largest speed [m/s]
+    Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
+    double safety = 1;
+};
+
+void addViscousLimit(const ExplicitRates& rates, double safety, sph::StepLimits& limits);
+// Sound, body force and springs. reach: acoustic limit of the scheme over that of velocity Verlet.
+void addOtherLimits(const ExplicitRates& rates, const ExplicitMedium& medium, double reach, sph::StepLimits& limits);
+
+}  // namespace corpuscle::schemes

@@ -1,0 +1,63 @@
+#include "schemes/schemeParts.hpp"
+
+#include <fmt/format.h>
+
+namespace corpuscle::schemes {
+
+namespace {
+constexpr double wallRate = 1.3;            // largest viscous rate beside walls over that of a lattice
+constexpr double furthestViscosities = 20;  // largest over least: sph/operators.hpp
+}  // namespace
+
+ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& numerics) {
+    const double dx = numerics.spacing;
+    double viscosity = facts.mostViscous;
+    if (facts.flow.walls.exist()) viscosity *= wallRate;
+    return {numerics.kernel->viscousRate(numerics.support() / dx) * viscosity / (facts.flow.density * dx * dx), 0,
+            facts.springRate2};
+}
+
+ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed) {
+    return {0.5 * numerics.support(), soundSpeed + facts.flow.speed, facts.flow.bodyForce, numerics.safety};
+}
+
+coupling::DensityBalance densityBalance(const coupling::Scene& scene) {
+    double volume = scene.fluidBox.volume();
+    if (scene.bodies)
+        for (const bodies::Body& body : scene.bodies->all())
+            if (body.cell == 0) volume -= body.solid.volume;
+    return {volume, scene.model().density, scene.model().mass};
+}
+
+coupling::ConjugateOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene) {
+    coupling::ConjugateOptions options;
+    if (!numerics.isCorrected()) options.form = sph::OperatorForm::plain;
+    if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
+    options.balanceInterval = numerics.balanceInterval();
+    if (options.balanceInterval > 0) options.densityBalance = densityBalance(scene);
+    return options;
+}
+
+void checkShifting(const NumericsSettings& numerics, Problems& problems) {
+    if (numerics.isCorrected() && !numerics.shifting)
+        problems.add(numericsFile, "operators",
+                     "found corrected, which let particles clump without shifting; write 'shifting: {coefficient: 1}' "
+                     "beside it, or operators: plain");
+}
+
+void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Problems& problems) {
+    const double least = facts.leastViscosity, largest = facts.largestViscosity;
+    if (largest <= furthestViscosities * least * (1 + 1e-9)) return;
+    problems.add({"constant/fluid.yaml", 0, 0}, "layers",
+                 fmt::format("found viscosities from {} to {}; the operators of 'integrator: {}' with 'operators: {}' "
+                             "keep motion bounded at a jump of at most {:g}: bring them nearer, or take 'integrator: "
+                             "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
+                             formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
+                             numerics.integrator, numerics.operators, furthestViscosities));
+}
+
+Scheme::UnusedKey unusedGuard() {
+    return {"guard", "with 'coupling: immersed', where particles are held to their side at every step"};
+}
+
+}  // namespace corpuscle::schemes

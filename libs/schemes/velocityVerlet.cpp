@@ -1,0 +1,105 @@
+// Velocity Verlet of the paper (sph/velocityVerlet.hpp) with the dual identity of nodes and rigid bodies as its loads. Where operators are
+// corrected or membranes immersed it is that on adjoint operators (adjointVerlet.hpp).
+#include "sph/velocityVerlet.hpp"
+
+#include "schemes/adjointVerlet.hpp"
+#include "schemes/explicitStepper.hpp"
+#include "schemes/schemeParts.hpp"
+
+namespace corpuscle::schemes {
+
+namespace {
+
+constexpr long stepsPerEstimate = 1000;
+
+class VelocityVerletStepper final : public ExplicitStepper {
+  public:
+    VelocityVerletStepper(const NumericsSettings& numerics, coupling::Scene& scene)
+        : ExplicitStepper(scene, numerics, stepsPerEstimate) {
+        std::vector<sph::Load*> loads;
+        scene.coupling.reset();
+        if (!scene.cells.empty()) {
+            scene.coupling = std::make_unique<coupling::DualIdentity>(
+                scene.cells, scene.spacing, densityBalance(scene),
+                coupling::DualIdentity::Intervals{numerics.guard, numerics.balanceInterval()});
+            loads.push_back(scene.coupling.get());
+        }
+        if (scene.bodies) loads.push_back(scene.bodies.get());
+        step_ =
+            std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads, account());
+    }
+
+    void advance(double dt, double /*planned*/) override {
+        step_->advance(dt);
+        if (!scene_.coupling) return;
+        scene_.broken = scene_.coupling->endStep(*scene_.system, dt, account());
+        scene_.putBack = scene_.coupling->guard().moves();
+    }
+    double largestDensityBalance() const override {
+        return scene_.coupling ? scene_.coupling->densityBalance().largest() : 0;
+    }
+
+  private:
+    void startScheme() override { step_->start(); }
+    void resumeScheme(long count) override {
+        step_->resume();
+        if (!scene_.coupling) return;
+        scene_.coupling->restore(count);
+        scene_.coupling->guard().restore(scene_.putBack);
+    }
+    long count() const override { return scene_.coupling ? scene_.coupling->steps() : 0; }
+    ExplicitRates estimate() override {
+        ExplicitRates rates;
+        rates.viscous = powerReserve * scene_.forces->viscousRate(*scene_.system, powerIterations);
+        if (!scene_.coupling) return rates;
+        rates.membrane = powerReserve * scene_.coupling->membraneRate(*scene_.system, powerIterations);
+        rates.spring2 = powerReserve * scene_.coupling->springRate2(*scene_.system, powerIterations);
+        return rates;
+    }
+
+    std::unique_ptr<sph::VelocityVerlet> step_;
+};
+
+struct VelocityVerlet final : Scheme {
+    static const Schema<VelocityVerlet>& schema() {
+        static const Schema<VelocityVerlet> s("velocityVerlet", "velocity Verlet");
+        return s;
+    }
+
+    Traits traits() const override { return {}; }
+
+    std::string usualOperators(const CaseFacts& facts, const NumericsSettings& numerics) const override {
+        return numerics.isImmersed() && facts.hasCells && !facts.hasBodies ? "corrected" : "plain";
+    }
+    std::shared_ptr<const Scheme> variant(const CaseFacts& facts, const NumericsSettings& numerics) const override {
+        return numerics.isCorrected() || (numerics.isImmersed() && facts.hasCells) ? adjointVerlet() : nullptr;
+    }
+
+    void check(const CaseFacts&, const NumericsSettings&, Problems&) const override {}
+
+    std::vector<UnusedKey> unused(const NumericsSettings& numerics) const override {
+        if (!numerics.isImmersed()) return {};
+        return {unusedGuard()};
+    }
+
+    sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double /*t*/) const override {
+        const ExplicitRates rates = predictedRates(facts, numerics);
+        sph::StepLimits limits;
+        addViscousLimit(rates, numerics.safety, limits);
+        addOtherLimits(rates, predictedMedium(facts, numerics, facts.soundSpeed), 1, limits);
+        return limits;
+    }
+    double passes(const CaseFacts&, const NumericsSettings&, double /*dt*/) const override { return 1; }
+
+    std::unique_ptr<Stepper> stepper(const CaseFacts&, const NumericsSettings& numerics,
+                                     coupling::Scene& scene) const override {
+        return std::make_unique<VelocityVerletStepper>(numerics, scene);
+    }
+};
+
+CORPUSCLE_REGISTER(Scheme, VelocityVerlet, "velocityVerlet",
+                   "explicit, of second order; its step is limited by viscosity, sound and the membranes' stiffness");
+
+}  // namespace
+
+}  // namespace corpuscle::schemes

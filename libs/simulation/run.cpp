@@ -1,0 +1,29 @@
+#include "simulation/run.hpp"
+
+#include "simulation/retreat.hpp"
+
+namespace corpuscle::simulation {
+
+ExitCode run(Application& app, const RunHooks& hooks) {
+    app.announce();
+    const Case input = Case::read(app);  // 1. strict dictionaries, SI from here on
+    hooks.check(input);
+    StartingPoint start = prepare(app, input);  // 2. only what the case names exists
+    if (start.isFinished) return ExitCode::done;
+    coupling::Scene& scene = start.scene;
+    Time& time = start.time;
+    Integrator integrator(input, scene);  // 3. the scheme, its terms fixed once
+    startIntegrator(start, integrator, time);
+    Schedule after(app, input, start, integrator);  // 4. observers, writers, checkpoints
+    if (app.has("dry-run")) return after.dryRun(scene, time);
+
+    after.begin(scene, time);
+    Retreat step(input, scene, time, integrator, after, app.log());
+    while (time.running() && !after.stopRequested(scene, time)) {
+        hooks.beforeStep(scene, time, integrator);
+        if (step.advance()) after.afterStep(scene, time);  // back where it fails
+    }
+    return after.end(scene, time);
+}
+
+}  // namespace corpuscle::simulation
