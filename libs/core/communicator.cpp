@@ -103,6 +103,12 @@ std::vector<long> Communicator::sum(std::vector<long> values) const {
     return reduced(std::move(values), MPI_SUM, handle_);
 }
 
+void Communicator::addUp(std::span<double> values) const {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), count(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
+}
+void Communicator::takeLargest(std::span<double> values) const {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), count(values.size()), MPI_DOUBLE, MPI_MAX, handle_);
+}
 bool Communicator::allTrue(bool value) const { return min(value ? 1L : 0L) == 1; }
 bool Communicator::anyTrue(bool value) const { return max(value ? 1L : 0L) == 1; }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <mpi.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ class Communicator {
     std::vector<double> min(std::vector<double> values) const;
     std::vector<double> max(std::vector<double> values) const;
     std::vector<long> sum(std::vector<long> values) const;
+    // The same in place.
+    void addUp(std::span<double> values) const;
+    void takeLargest(std::span<double> values) const;
     bool allTrue(bool value) const;
     bool anyTrue(bool value) const;
 

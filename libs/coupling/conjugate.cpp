@@ -30,9 +30,4 @@ std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long 
     return events;
 }
 
-double sumOverRanks(double value, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm);
-    return value;
-}
-
 }  // namespace corpuscle::coupling

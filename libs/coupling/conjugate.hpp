@@ -23,7 +23,4 @@ void findPressures(const Scene& scene, particles::RealArray& pressure);
 // At the end of a step, the number of which is given: density balance when it is due, then what breaks. Collective.
 std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long number, double dt);
 
-// Collective.
-double sumOverRanks(double value, MPI_Comm comm);
-
 }  // namespace corpuscle::coupling

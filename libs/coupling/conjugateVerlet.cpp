@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/communicator.hpp"
 #include "coupling/transport.hpp"
 #include "sph/randomSigns.hpp"
 
@@ -239,7 +240,7 @@ class Verlet final : public ConjugateVerlet {
     double norm() const {
         double sum = 0;
         for (const Real v : field_) sum += static_cast<double>(v) * static_cast<double>(v);
-        return std::sqrt(sumOverRanks(sum, scene_.system->comm()));
+        return std::sqrt(Communicator(scene_.system->comm()).sum(sum));
     }
 
     void put(std::size_t i, const Vec3& v) {

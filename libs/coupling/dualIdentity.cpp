@@ -38,11 +38,6 @@ double largestEigenvalue(const Cell& cell, int iterations, F&& stiffness) {
     return value;
 }
 
-double largestOfAll(double value, const ParticleSystem& system) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, system.comm());
-    return value;
-}
-
 }  // namespace
 
 DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals)
@@ -130,7 +125,7 @@ double DualIdentity::springRate2(const ParticleSystem& system, int iterations) c
                                return f;
                            }));
     }
-    return largestOfAll(largest, system);
+    return Communicator(system.comm()).max(largest);
 }
 
 double DualIdentity::membraneRate(const ParticleSystem& system, int iterations) const {
@@ -145,7 +140,7 @@ double DualIdentity::membraneRate(const ParticleSystem& system, int iterations) 
                                return f;
                            }));
     }
-    return largestOfAll(largest, system);
+    return Communicator(system.comm()).max(largest);
 }
 
 }  // namespace corpuscle::coupling

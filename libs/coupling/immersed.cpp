@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/communicator.hpp"
 #include "core/error.hpp"
 #include "membrane/surface.hpp"
 
@@ -38,10 +39,6 @@ void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f)
                 const Vec3 image = inside + Vec3(a, b, c).cwiseProduct(box.size());
                 if (particles::distanceSquared(image, brick.low, brick.high) < reach * reach) f(image);
             }
-}
-
-void addUp(double* values, std::size_t count, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, MPI_SUM, comm);
 }
 
 }  // namespace
@@ -154,7 +151,7 @@ void Immersed::findWeights() {
                 for (int b = a; b < of.size(); ++b) *sum++ += own_.entries[k].along * of[a] * of[b];
             *sum += 1;
         }
-    addUp(sums.data(), sums.size(), comm_);
+    Communicator(comm_).addUp(sums);
     along_.assign(nodes_, Polynomial::Zero()), extra_.assign(nodes_, Polynomial::Zero());
     std::vector<double> absolute(2 * nodes_, 0.0);  // sum |w|, sum |w'|
     for (std::size_t m = 0; m < nodes_; ++m) {
@@ -176,7 +173,7 @@ void Immersed::findWeights() {
             absolute[2 * m + 1] += std::abs(w + e.along * extra_[m].dot(basis(e.q)));
         }
     }
-    addUp(absolute.data(), absolute.size(), comm_);
+    Communicator(comm_).addUp(absolute);
     fallbacks_ = 0;
     for (std::size_t m = 0; m < nodes_; ++m) {
         const double all = sums[moments * m];
@@ -261,7 +258,7 @@ Immersed::Vectors Immersed::interpolate(const Real* u) const {
         }
         v[m] += across * n;
     }
-    addUp(v.front().data(), 3 * nodes_, comm_);
+    Communicator(comm_).addUp({v.front().data(), 3 * nodes_});
     project(v);
     return v;
 }

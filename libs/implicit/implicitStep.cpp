@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "core/communicator.hpp"
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -261,7 +262,7 @@ class Step final : public ImplicitStep {
         copies().forCounted(residual_.size(), [&](std::size_t k) {
             energy += static_cast<double>(residual_[k]) * static_cast<double>(correction_[k]);
         });
-        return coupling::sumOverRanks(energy, scene_.system->comm());
+        return Communicator(scene_.system->comm()).sum(energy);
     }
 
     // What is solved for then belongs to the terms' load, and to the force on walls.
@@ -436,7 +437,7 @@ class Step final : public ImplicitStep {
             put(disturbance, i, w);
             put(undisturbed, i, flow);
         }
-        sum = coupling::sumOverRanks(sum, scene_.system->comm());
+        sum = Communicator(scene_.system->comm()).sum(sum);
         for (Term<Real>* term : terms_) sum += term->power(undisturbed, disturbance);
         state.reference = std::abs(sum);
     }

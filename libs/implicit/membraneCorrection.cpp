@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/communicator.hpp"
 #include "coupling/conjugate.hpp"
 
 namespace corpuscle::implicit {
@@ -60,7 +61,7 @@ void MembraneCorrection<Real>::apply(MPI_Comm comm, const coupling::Immersed& im
         for (std::size_t k = 0; k < 3; ++k)
             energy +=
                 static_cast<double>(inverse[i]) * static_cast<double>(r[4 * i + k]) * static_cast<double>(r[4 * i + k]);
-    energy = coupling::sumOverRanks(energy, comm);  // r.B r, from which y takes r.B S^T y
+    energy = Communicator(comm).sum(energy);  // r.B r, from which y takes r.B S^T y
     const Vectors first = onNodes([&](std::size_t at) { return static_cast<double>(r[at]); });
     Vectors residual = first, y(residual.size(), Vec3::Zero()), image = stiffness(residual);  // K' residual
     Vectors direction = residual, s = image;                                                  // K' direction

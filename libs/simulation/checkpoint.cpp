@@ -54,11 +54,6 @@ void restoreAccount(sph::Account& account, const std::vector<double>& all, bool 
     }
 }
 
-long total(long mine, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_LONG, MPI_SUM, comm);
-    return mine;
-}
-
 // To a file, or to memory.
 template <class File>
 void save(File& file, const Case& input, const Scene& scene, const Time& time, const RunState& state) {
@@ -70,7 +65,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.writeReplicated(schemeName(input), state.integrator.scheme);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
-    if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(total(scene.putBack, comm)));
+    if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.putBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
     if (scene.account.kept) file.writeReplicated("account", gathered(scene.account, comm));

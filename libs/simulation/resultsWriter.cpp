@@ -14,11 +14,8 @@ using coupling::Scene;
 using particles::Kind;
 
 int lowestHolder(const Scene& scene, const Cell& cell) {
-    int rank = 0;
-    MPI_Comm_rank(scene.system->comm(), &rank);
-    int lowest = cell.held ? rank : scene.system->decomposition().size();
-    MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, scene.system->comm());
-    return lowest;
+    const Communicator ranks(scene.system->comm());
+    return static_cast<int>(ranks.min(static_cast<long>(cell.held ? ranks.rank() : ranks.size())));
 }
 
 namespace {
@@ -175,6 +172,30 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
         bodies_[b].write(time.t, time.strain(), bodyPiece(scene, scene.bodies->all()[b], rank == 0));
     ++written_;
+}
+
+std::string writeFault(const Case& input, const Scene& scene, const Time& time, const Vec3& place) {
+    constexpr double reach = 5;  // supports
+    const MPI_Comm comm = scene.system->comm();
+    const auto& s = scene.store();
+    io::PolyData near;
+    auto &id = near.point.integers["id"], &kind = near.point.integers["kind"];
+    auto& velocity = near.point.vectors["velocity"];
+    auto& density = near.point.scalars["density"];
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 x = s.position(i);
+        if (!(scene.system->box().minimumImage(x - place).norm() <= reach * input.support())) continue;
+        near.points.push_back(x);
+        id.push_back(s.id[i]), kind.push_back(s.kind[i]);
+        velocity.push_back(s.velocity(i)), density.push_back(s.density[i]);
+    }
+    io::VtkSeries(comm, input.directory, "fault", 0, 0).write(time.t, time.strain(), near);
+    for (const Cell& cell : scene.cells) {
+        const bool writer = lowestHolder(scene, cell) == Communicator(comm).rank();
+        io::VtkSeries(comm, input.directory, "fault_" + cell.membrane.name, 0, 0)
+            .write(time.t, time.strain(), cellPiece(scene, cell, writer));
+    }
+    return "results/fault.pvd";
 }
 
 }  // namespace corpuscle::simulation

@@ -45,6 +45,9 @@ void addRims(const membrane::Membrane& membrane, io::PolyData& data);
 // A rigid body's surface with its velocity; empty on ranks other than `writer`.
 io::PolyData bodyPiece(const coupling::Scene& scene, const bodies::Body& body, bool writer);
 
+// What lies around a fault, with all cells: streams `fault` and `fault_<cell>`. Returns the file to open. Collective.
+std::string writeFault(const Case& input, const coupling::Scene& scene, const Time& time, const Vec3& place);
+
 // The lowest rank that holds the cell. Collective.
 int lowestHolder(const coupling::Scene& scene, const coupling::Cell& cell);
 

@@ -158,8 +158,7 @@ void Retreat::end(const Fault& fault, const std::string& tried, const std::strin
 
 std::string Retreat::keepFault(const Fault& fault) {
     if (!schedule_) return "";
-    writeSurroundings(fault);
-    std::string where = "; its surroundings are in results/fault.pvd";
+    std::string where = "; its surroundings are in " + writeFault(input_, scene_, time_, fault.place);
     if (input_.numerics.retreats > 0) {
         goBack(good_[0]);
         schedule_->saveCheckpoint(scene_, time_);
@@ -197,29 +196,6 @@ Fault Retreat::creeping() {
                 fmt::format("{} tries have brought the run {:.3g} s further, and it would never end", tries, gained));
     }
     return {};
-}
-
-void Retreat::writeSurroundings(const Fault& fault) {
-    const MPI_Comm comm = scene_.system->comm();
-    const auto& s = scene_.store();
-    const double radius = surroundings * input_.support();
-    io::PolyData near;
-    auto &id = near.point.integers["id"], &kind = near.point.integers["kind"];
-    auto& velocity = near.point.vectors["velocity"];
-    auto& density = near.point.scalars["density"];
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec3 x = s.position(i);
-        if (!(scene_.system->box().minimumImage(x - fault.place).norm() <= radius)) continue;
-        near.points.push_back(x);
-        id.push_back(s.id[i]), kind.push_back(s.kind[i]);
-        velocity.push_back(s.velocity(i)), density.push_back(s.density[i]);
-    }
-    io::VtkSeries(comm, input_.directory, "fault", 0, 0).write(time_.t, time_.strain(), near);
-    for (const Cell& cell : scene_.cells) {
-        const bool writer = lowestHolder(scene_, cell) == Communicator(comm).rank();
-        io::VtkSeries(comm, input_.directory, "fault_" + cell.membrane.name, 0, 0)
-            .write(time_.t, time_.strain(), cellPiece(scene_, cell, writer));
-    }
 }
 
 }  // namespace corpuscle::simulation

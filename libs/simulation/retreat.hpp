@@ -51,7 +51,6 @@ class Retreat {
     void report(const Fault& fault);
     Fault creeping();  // why the run comes no further; none: it does
     [[noreturn]] void end(const Fault& fault, const std::string& tried, const std::string& cure);
-    void writeSurroundings(const Fault& fault);
     Retreat(const Case& input, coupling::Scene& scene, Time& time, Integrator& integrator, Schedule* schedule,
             Log& log);
     std::string keepFault(const Fault& fault);  // in files; what they are

@@ -4,15 +4,11 @@
 #include <ctime>
 #include <exception>
 
-#include "core/writable.hpp"
 #include "io/earlierRun.hpp"
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
 #include "schemes/cost.hpp"
 #include "simulation/groups.hpp"
-#include "simulation/memoryLimit.hpp"
-#include "simulation/restart.hpp"
-#include "simulation/sceneBuilder.hpp"
 #include "simulation/watch.hpp"
 
 namespace corpuscle::simulation {
@@ -23,93 +19,12 @@ namespace {
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // of this rank
 
-long sum(long value, MPI_Comm comm) {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_LONG, MPI_SUM, comm);
-    return value;
-}
-
 }  // namespace
 
 Usage solverUsage(const std::string& name) {
     return {.options = solverOptions(),
             .samples = {name + " -case myCase", "mpirun -np 2 " + name + " -case myCase",
                         name + " -set system/control.yaml:/write/keep=3 -steps 100", name + " -dry-run"}};
-}
-
-Time startTime(const Application& app, const Case& input) {
-    Time time;
-    time.shearRate = input.flow.shearRate;
-    time.endTime = input.control.endTime;
-    time.endStrain = input.control.endStrain;
-    if (const auto steps = app.integer("steps", 1)) time.lastStep = *steps;
-    return time;
-}
-
-namespace {
-
-void reportFinished(Application& app, const Case& input, const StartingPoint& from) {
-    const std::string key = input.control.endTime ? "endTime" : "endStrain";
-    const std::string reason = from.time.endReason() + " is reached by " + from.checkpoint.string();
-    app.log().info(
-        "The case is finished: {}. Nothing was changed.\n"
-        "To go on, raise '{}' in system/control.yaml, or for one run: -set system/control.yaml:/{}=...\n"
-        "To start anew: -set system/control.yaml:/startFrom=firstTime",
-        reason, key, key);
-    if (!app.json()) return;
-    RunRecord record(input.directory / "run.json", app.name(), app.communicator());
-    record.set("", "status", "finished");
-    record.set("", "reason", reason);
-    record.print();
-}
-
-// What a run will write, by the temporary names, which are the longest.
-std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
-    std::vector<std::string> streams{"fluid"};
-    for (const CellSettings& cell : input.mesh.cells) streams.push_back(cell.name);
-    for (const BodyPlaceSettings& body : input.mesh.bodies) streams.push_back(body.name);
-    std::vector<std::filesystem::path> files{input.directory / "run.json.0000000.tmp",
-                                             input.directory / "checkpoints" / ".000000.h5.part"};
-    for (const std::string& name : streams)
-        files.push_back(input.directory / "results" / name / (name + "_000000") /
-                        fmt::format(".{}_000000_{}.vtp.part", name, ranks - 1));
-    for (const auto& observer : input.observers.models)
-        files.push_back(input.directory / "postProcessing" / observer.first / "observer.csv.0000000.tmp");
-    return files;
-}
-
-}  // namespace
-
-StartingPoint prepare(Application& app, const Case& input) {
-    const MPI_Comm comm = app.communicator().handle();
-    requireMemory(app.communicator(), input);
-    if (!app.has("dry-run")) requireWritable(app.communicator(), outputs(input, app.communicator().size()));
-    StartingPoint from;
-    from.time = startTime(app, input);
-    if (!app.has("dry-run")) app.lockCase();
-    from.checkpoint = chooseCheckpoint(input, app.value("restart").value_or(input.control.startFrom), comm, app.log());
-    if (from.checkpoint.empty()) {
-        from.scene = buildScene(input, comm);
-        return from;
-    }
-    from.notes = compareSettings(from.checkpoint, input, comm);
-    from.scene = emptyScene(input, comm);
-    from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
-    if (from.time.lastStep) *from.time.lastStep += from.time.step;
-    if (!from.time.running() && !app.has("dry-run")) {
-        from.isFinished = true;
-        reportFinished(app, input, from);
-        return from;
-    }
-    app.log().info("Restart from {} at t = {}", from.checkpoint.string(), formatQuantity(from.time.t, unit::second));
-    for (const std::string& note : from.notes) app.log().info("note: {}", note);
-    return from;
-}
-
-void startIntegrator(const StartingPoint& from, Integrator& integrator, Time& time) {
-    if (from.checkpoint.empty())
-        integrator.start(time);
-    else
-        integrator.resume(from.state.integrator, time);
 }
 
 Schedule::Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator)
@@ -131,7 +46,7 @@ Schedule::Schedule(Application& app, const Case& input, const StartingPoint& fro
       smallestDt_(from.time.dt),
       largestDt_(from.time.dt) {
     if (!from.state.observers.empty()) observers_.restore(from.state.observers);
-    particles_ = sum(from.scene.system->owned(), from.scene.system->comm());
+    particles_ = app.communicator().sum(static_cast<long>(from.scene.system->owned()));
 }
 
 Schedule::~Schedule() {
@@ -251,16 +166,15 @@ void Schedule::reportRupture(const Scene& scene, const Time& time) {
     // Holders of a cell agree; the root need not be one.
     long broken = 0;
     for (const coupling::Cell& cell : scene.cells) {
-        long ofCell = cell.held ? cell.membrane.network().brokenBonds() : 0;
-        MPI_Allreduce(MPI_IN_PLACE, &ofCell, 1, MPI_LONG, MPI_MAX, scene.system->comm());
-        broken += ofCell;
+        const long ofCell = cell.held ? static_cast<long>(cell.membrane.network().brokenBonds()) : 0;
+        broken += app_.communicator().max(ofCell);
     }
     if (broken > brokenBonds_) app_.log().info("rupture: {} bonds broken until strain {:.3f}", broken, time.strain());
     brokenBonds_ = broken;
 }
 
 void Schedule::reportGuard(const Scene& scene, const Time& time) {
-    const long moves = sum(scene.putBack, scene.system->comm());
+    const long moves = app_.communicator().sum(scene.putBack);
     if (moves > guardMoves_)
         app_.log().info("membranes: {} particles put back until strain {:.3f} ({} since the last note)", moves,
                         time.strain(), moves - guardMoves_);

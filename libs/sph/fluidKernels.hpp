@@ -1,25 +1,15 @@
 // Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the longest to
 // compile.
 #pragma once
-#include "sph/lucy.hpp"
 #include "sph/pairBuild.hpp"
 #include "sph/pairKernels.hpp"
-#include "sph/quintic.hpp"
-#include "sph/wendlandC2.hpp"
 
 namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
 
 template <class Real, particles::Precision precision>
 struct FluidKernels {
     static PairKernels::Fluid<Real> choose(FluidVariant variant, bool atWall) {
-        switch (variant.kernel) {
-            case KernelKind::lucy:
-                return of<Lucy>(variant, atWall);
-            case KernelKind::quintic:
-                return of<Quintic>(variant, atWall);
-            default:
-                return of<WendlandC2>(variant, atWall);
-        }
+        return Kernels::visit(variant.kernel, [&]<class Kernel>() { return of<Kernel>(variant, atWall); });
     }
 
   private:

@@ -6,10 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sph/lucy.hpp"
-#include "sph/quintic.hpp"
-#include "sph/wendlandC2.hpp"
-
 namespace corpuscle::sph {
 
 namespace {
@@ -25,7 +21,7 @@ struct Scalar {
     friend Scalar max(Scalar a, Scalar b) { return std::max(a.v, b.v); }
 };
 
-template <class Formula, KernelKind kernelKind>
+template <class Formula>
 struct KernelOf : Kernel {
     static const Schema<KernelOf>& schema() {
         static const Schema<KernelOf> s =
@@ -36,7 +32,7 @@ struct KernelOf : Kernel {
                         {.range = positive});
         return s;
     }
-    KernelKind kind() const override { return kernelKind; }
+    KernelKind kind() const override { return Kernels::kindOf<Formula>(); }
     double usualSupport(bool corrected) const override {
         return corrected ? Formula::correctedSupport : Formula::defaultSupport;
     }
@@ -90,11 +86,11 @@ double Kernel::viscousRate(double supportOverSpacing) const {
     return most * gradientNormalisation(supportOverSpacing);
 }
 
-using LucyKernel = KernelOf<Lucy, KernelKind::lucy>;
-using WendlandC2Kernel = KernelOf<WendlandC2, KernelKind::wendlandC2>;
-using QuinticKernel = KernelOf<Quintic, KernelKind::quintic>;
-CORPUSCLE_REGISTER(Kernel, LucyKernel, "lucy", "Lucy's kernel, the paper's choice");
-CORPUSCLE_REGISTER(Kernel, WendlandC2Kernel, "wendlandC2", "Wendland's C2 kernel, the default");
-CORPUSCLE_REGISTER(Kernel, QuinticKernel, "quintic", "quintic spline");
+[[maybe_unused]] const bool areRegistered = [] {
+    Kernels::each([]<class Formula>(KernelKind) {
+        Registration<Kernel, KernelOf<Formula>>(Formula::name, Formula::text);
+    });
+    return true;
+}();
 
 }  // namespace corpuscle::sph

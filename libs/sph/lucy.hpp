@@ -10,7 +10,7 @@
 namespace corpuscle::sph {
 
 struct Lucy {
-    static constexpr const char* name = "lucy";
+    static constexpr const char *name = "lucy", *text = "Lucy's kernel, the paper's choice";
     static constexpr double defaultSupport = 2.6,
                             correctedSupport = 2.4;  // in spacings: smallest second-moment error near 80 neighbours
 

@@ -1,27 +1,17 @@
 // Chooses the builds of the laws of operators.hpp for a kernel. One file per precision instantiates them.
 #pragma once
 #include "sph/gradientPair.hpp"
-#include "sph/lucy.hpp"
 #include "sph/pairBuild.hpp"
 #include "sph/pairKernels.hpp"
-#include "sph/quintic.hpp"
 #include "sph/ratePair.hpp"
 #include "sph/stressPair.hpp"
-#include "sph/wendlandC2.hpp"
 
 namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE {
 
 template <class Real, particles::Precision precision>
 struct OperatorKernels {
     static PairKernels::Operators<Real> choose(KernelKind kernel, ViscosityKind viscosity) {
-        switch (kernel) {
-            case KernelKind::lucy:
-                return of<Lucy>(viscosity);
-            case KernelKind::quintic:
-                return of<Quintic>(viscosity);
-            default:
-                return of<WendlandC2>(viscosity);
-        }
+        return Kernels::visit(kernel, [&]<class Kernel>() { return of<Kernel>(viscosity); });
     }
 
   private:
@@ -32,9 +22,10 @@ struct OperatorKernels {
                 return of<Kernel, GradientPair<Kernel, false, false>, GradientPair<Kernel, false, true>, false>();
             case ViscosityKind::layers:
                 return of<Kernel, GradientPair<Kernel, true, false>, GradientPair<Kernel, true, true>, false>();
-            default:
+            case ViscosityKind::uniform:
                 return of<Kernel, RatePair<Kernel, false>, RatePair<Kernel, true>, true>();
         }
+        throw std::logic_error("there is no such kind of viscosity");
     }
     template <class Kernel, class Rates, class RatesAtWall, bool symmetricStress>
     static PairKernels::Operators<Real> of() {

@@ -3,18 +3,17 @@
 #include "particles/pairLoop.hpp"
 #include "sph/disorderPair.hpp"
 #include "sph/fluidPair.hpp"
+#include "sph/kernels.hpp"
 #include "sph/meanPair.hpp"
 #include "sph/momentPair.hpp"
 
 namespace corpuscle::sph {
 
-enum class KernelKind { lucy, wendlandC2, quintic };
-
 // How viscosity varies in operators.hpp.
 enum class ViscosityKind { uniform, sides, layers };
 
 struct FluidVariant {
-    KernelKind kernel = KernelKind::wendlandC2;
+    KernelKind kernel = Kernels::kindOf<WendlandC2>();
     bool varyingMass = false, varyingViscosity = false;
     bool bodies = false;  // rigid ones; only with varyingMass
     int fields() const { return 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0) + (bodies ? 4 : 0); }

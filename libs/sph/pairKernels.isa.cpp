@@ -18,14 +18,7 @@ particles::PairKernel<Constants> build(Precision precision) {
 
 template <template <class> class Law, class Constants>
 particles::PairKernel<Constants> choose(KernelKind kernel, Precision precision) {
-    switch (kernel) {
-        case KernelKind::lucy:
-            return build<Law<Lucy>, Constants>(precision);
-        case KernelKind::quintic:
-            return build<Law<Quintic>, Constants>(precision);
-        default:
-            return build<Law<WendlandC2>, Constants>(precision);
-    }
+    return Kernels::visit(kernel, [&]<class Kernel>() { return build<Law<Kernel>, Constants>(precision); });
 }
 
 }  // namespace

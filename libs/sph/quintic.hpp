@@ -11,7 +11,7 @@
 namespace corpuscle::sph {
 
 struct Quintic {
-    static constexpr const char* name = "quintic";
+    static constexpr const char *name = "quintic", *text = "quintic spline";
     static constexpr double defaultSupport = 2.8, correctedSupport = 2.8;
 
     static double normalisation(double H) { return 27 / (120 * std::numbers::pi * H * H * H); }

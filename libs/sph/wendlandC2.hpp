@@ -10,7 +10,7 @@
 namespace corpuscle::sph {
 
 struct WendlandC2 {
-    static constexpr const char* name = "wendlandC2";
+    static constexpr const char *name = "wendlandC2", *text = "Wendland's C2 kernel, the default";
     static constexpr double defaultSupport = 3.0,
                             correctedSupport = 2.4;  // in spacings; the second with corrected operators
 

@@ -84,8 +84,8 @@ TEST(Kernels, secondMomentsOnTheLattice) {
 }
 
 TEST(Kernels, supportIsReadInSpacings) {
-    EXPECT_EQ(choose<Kernel>("{type: lucy, support: 2.5 dx}")->kind(), KernelKind::lucy);
-    EXPECT_EQ(choose<Kernel>("quintic")->kind(), KernelKind::quintic);
+    EXPECT_EQ(choose<Kernel>("{type: lucy, support: 2.5 dx}")->kind(), Kernels::kindOf<Lucy>());
+    EXPECT_EQ(choose<Kernel>("quintic")->kind(), Kernels::kindOf<Quintic>());
     EXPECT_ANY_THROW(choose<Kernel>("cubic"));
     EXPECT_ANY_THROW(choose<Kernel>("{type: lucy, support: -1 dx}"));
 }

@@ -1,0 +1,27 @@
+// How a run begins: from the state in 0/, or from a checkpoint.
+#pragma once
+#include "core/application.hpp"
+#include "simulation/checkpoint.hpp"
+
+namespace corpuscle::simulation {
+
+// Time at the start of a run, with its end conditions.
+Time startTime(const Application& app, const Case& input);
+
+// The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
+struct StartingPoint {
+    coupling::Scene scene;
+    Time time;
+    std::filesystem::path checkpoint;  // empty: from 0/
+    RunState state;
+    std::vector<std::string> notes;  // settings that have changed since the checkpoint, and may
+    bool isFinished =
+        false;  // the checkpoint is at the end already: there is nothing to run, and the user has been told
+};
+// Takes the lock of the case, unless it is a dry run. Collective.
+StartingPoint prepare(Application& app, const Case& input);
+
+// Forces and first step at the start, or the continuation of a checkpoint.
+void startIntegrator(const StartingPoint& from, Integrator& integrator, Time& time);
+
+}  // namespace corpuscle::simulation
