@@ -47,14 +47,20 @@ class ConjugateGradients {
     static constexpr int most = 2000;
     static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
+    // Of what else follows linearly from the velocity: `image` is that of the last z, left there by `apply`; what belongs to x is added to `value`.
+    struct Carried {
+        Field value, image;
+    };
+
     // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always zero, whatever was there
     // less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x). Collective.
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
-                      Precondition&& precondition, Copies copies = {}) {
+                      Precondition&& precondition, Copies copies = {}, Carried* carried = nullptr) {
         const std::size_t n = r.size();
         for (Field* f : {&z_, &w_}) f->resize(n);
         for (Field* f : {&p_, &s_, &x}) f->assign(n, Real(0));
+        if (carried) carriedDirection_.assign(carried->value.size(), Real(0));
         Convergence c;
         std::vector<double> gains;
         double sigma = 0;
@@ -86,6 +92,11 @@ class ConjugateGradients {
                 x[k] += a * p_[k];
                 r[k] -= a * s_[k];
             }
+            if (carried)
+                for (std::size_t k = 0; k < carriedDirection_.size(); ++k) {
+                    carriedDirection_[k] = carried->image[k] + b * carriedDirection_[k];
+                    carried->value[k] += a * carriedDirection_[k];
+                }
             gains.push_back(alpha * gamma);
             c.energy += gains.back();
             c.error = remaining(gains);
@@ -106,7 +117,7 @@ class ConjugateGradients {
         return q < 1 ? gains[last] * q / (1 - q) : std::numeric_limits<double>::infinity();
     }
 
-    Field z_, w_, p_, s_;
+    Field z_, w_, p_, s_, carriedDirection_;
 };
 
 }  // namespace corpuscle::implicit

@@ -36,13 +36,14 @@
 // forces on walls and bodies are those of the middle.
 #pragma once
 #include <memory>
+#include <utility>
 
 #include "coupling/conjugate.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/noFlux.hpp"
-#include "implicit/conjugateGradients.hpp"
 #include "implicit/implicitSettings.hpp"
 #include "implicit/stepControl.hpp"
+#include "implicit/timeDifference.hpp"
 
 namespace corpuscle::implicit {
 
@@ -52,11 +53,8 @@ class ImplicitStep {
         ImplicitSettings settings;
     };
     virtual ~ImplicitStep() = default;
-    static constexpr double leadShare = 0.02;  // e/dt
     static constexpr double linearisation = 0.01;
     static constexpr int mostRefinements = 3, mostHalvings = 5;
-    // Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one (docs/implicit.md).
-    static constexpr double stiffMembrane = 50;
 
     // One step; what broke in it. Collective. Throws Failure(numerics) when halves of halves do not help. planned: its length but for an event
     // that shortens it (core/time.hpp) [s].
@@ -65,12 +63,7 @@ class ImplicitStep {
 
     bool damped = false;  // every step by backward Euler, whatever the case says
 
-    // What a restart needs beside the scene.
-    struct State {
-        double behind = 0;  // how far the velocity is behind the places [s]
-        double lastSpacing = 0, reference = 0;
-        long steps = 0;
-    };
+    using State = StepState;
     State state;
     void resume(const State& saved, long crossings) {  // crossings: of this rank
         state = saved;
@@ -93,6 +86,8 @@ class ImplicitStep {
     static std::unique_ptr<ImplicitStep> make(coupling::Scene& scene, const Options& options);
 
   protected:
+    ImplicitStep(std::unique_ptr<coupling::Immersed> immersed, std::unique_ptr<coupling::NoFlux> noFlux)
+        : immersed_(std::move(immersed)), noFlux_(std::move(noFlux)) {}
     std::unique_ptr<coupling::Immersed> immersed_;  // none without cells
     std::unique_ptr<coupling::NoFlux> noFlux_;
     AllowedSteps allowed_;

@@ -1,6 +1,7 @@
 // A sphere in a periodic box of fluid as a scene of the implicit step.
 #pragma once
 #include "bodies/sphereInFluid.hpp"
+#include "core/communicator.hpp"
 #include "implicit/implicitStep.hpp"
 
 namespace corpuscle::implicit::testing {
@@ -37,7 +38,7 @@ struct RigidSphereScene {
         double total = 0;
         for (std::size_t i = 0; i < scene.store().size(); ++i)
             if (scene.store().kindOf(i) == particles::Kind::fluid) total += f(i);
-        return coupling::sumOverRanks(total, scene.system->comm());
+        return Communicator(scene.system->comm()).sum(total);
     }
     Vec3 fluidMomentum() const {
         Vec3 sum;

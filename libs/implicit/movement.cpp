@@ -1,0 +1,68 @@
+#include "implicit/movement.hpp"
+
+namespace corpuscle::implicit {
+
+using particles::ParticleStore;
+using particles::vectorAt;
+
+template <class Real>
+void Movement<Real>::moveVelocities(double seconds) {
+    ParticleStore& s = system_.scene().store();
+    for (std::size_t i = 0; i < s.size(); ++i)
+        s.setVelocity(i, s.velocity(i) + seconds * Vec3(s.fx[i], s.fy[i], s.fz[i]));
+    if (system_.rigid()) system_.rigid()->moveVelocities(seconds);
+}
+
+template <class Real>
+void Movement<Real>::moveBy(double seconds) {
+    ParticleStore& s = system_.scene().store();
+    for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + seconds * s.velocity(i));
+    if (system_.immersed()) system_.immersed()->move(seconds);
+}
+
+template <class Real>
+void Movement<Real>::depart(double seconds) {
+    moveBy(seconds);
+    if (system_.rigid()) system_.rigid()->depart(seconds);
+    system_.scene().system->rebuild();
+}
+
+template <class Real>
+void Movement<Real>::takeBack(double seconds) {
+    moveBy(-seconds);
+    if (system_.rigid()) system_.rigid()->takeBack();
+}
+
+template <class Real>
+void Movement<Real>::findNear() {
+    if (noFlux_) noFlux_->find(*system_.scene().system, system_.immersed()->touched());
+}
+
+template <class Real>
+void Movement<Real>::arrive(const Field& velocity) {
+    const TimeDifference& time = system_.time();
+    const double dt = time.dt;
+    ParticleStore& s = system_.scene().store();
+    transport_.shift(system_.operators(), dt);
+    if (coupling::Immersed* const immersed = system_.immersed()) {
+        immersed->move(-time.begin());
+        immersed->setVelocities(system_.membranes()->velocities());
+        transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) { return vectorAt(velocity, i); });
+        immersed->move(dt);
+        immersed->restoreVolume();
+    }
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec3 v = system_.isPrescribed(i) ? s.velocity(i) : vectorAt(velocity, i), u = s.velocity(i);
+        s.setPosition(i, s.position(i) + dt * v - time.begin() * u + transport_[i]);
+        const Vec3 a = (v - u) / time.h;
+        s.fx[i] = a[0], s.fy[i] = a[1], s.fz[i] = a[2];
+        s.setVelocity(i, v);
+    }
+    if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
+    if (noFlux_) noFlux_->keepSides(*system_.scene().system);
+}
+
+template class Movement<double>;
+template class Movement<float>;
+
+}  // namespace corpuscle::implicit

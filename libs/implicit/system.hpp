@@ -1,0 +1,115 @@
+// The system of one implicit step, A v = b (implicitStep.hpp), for the velocities of all particles that a rank knows and of rigid bodies:
+//
+//     A = c1 M + sum of the terms' A,   b = M (c1 u + c2 a + g) + sum of the terms' loads        (term.hpp, timeDifference.hpp)
+//
+// Rows of walls are prescribed: the preconditioner gives nothing there, and the residual has the whole force on them, linear in the velocity as
+// all else. Rows of rigid bodies stand behind the particles (rigidUnknowns.hpp).
+//
+// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of others' particles hold what their ranks
+// have, to rounding.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "coupling/immersed.hpp"
+#include "implicit/conjugateGradients.hpp"
+#include "implicit/fluidTerm.hpp"
+#include "implicit/implicitSettings.hpp"
+#include "implicit/membraneTerm.hpp"
+#include "implicit/rigidUnknowns.hpp"
+#include "implicit/timeDifference.hpp"
+#include "particles/vectorField.hpp"
+
+namespace corpuscle::implicit {
+
+template <class Real>
+class System {
+  public:
+    using Field = particles::AlignedVector<Real>;
+    using RealArray = particles::RealArray;
+
+    // immersed: null without cells. onGrid: the preconditioner has a part on the background grid. All must stay where they are.
+    System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
+           coupling::Immersed* immersed, bool onGrid);
+
+    // At x*, where lists are up to date: the terms, and the diagonal. Collective.
+    void prepare(const TimeDifference& time);
+
+    // Extrapolated from the last two steps, for all entries and bodies. Collective.
+    void findGuess(Field& guess);
+    // b - A guess, for the first guess after prepare. Collective.
+    void findResidual(const Field& guess, Field& residual);
+    // w = A z. Collective.
+    void product(const Field& z, Field& w);
+    // Divergence of the velocity last given to findResidual or product, of own particles [1/s].
+    double divergence(std::size_t i) const { return operators().divergence(i); }
+
+    // What the terms' forces at the places that the velocity v leads to differ from the linear ones, as the residual of what moves. Collective.
+    void findDefect(Field& residual);
+    // That then belongs to the load, and to the force on walls.
+    void takeDefect(Field& residual);
+    bool isLinear() const { return isLinear_; }
+    // Why a step of dt with the velocity found is too long; empty: it is not. Collective.
+    std::string refusal(const Field& v, double dt);
+
+    // The terms' forces at the velocity found, of own particles, and force and torque on bodies. Collective.
+    void findForcesOnBodies(const Field& v);
+    // Of what was found last [N].
+    Vec3 force(std::size_t i) const { return particles::vectorAt(forces_, i); }
+    // w.(load - A v) of the terms outside the fluid's account [W]. Collective.
+    double power(const Field& v, const Field& w);
+
+    // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms), 0 where the velocity is
+    // prescribed or belongs to a body.
+    struct Row {
+        double inertia;  // c1 m, 0 where the velocity is prescribed [kg/s]
+        double place[3];
+    };
+    const Row& row(std::size_t entry) const { return rows_[entry]; }
+    const Field& inverseDiagonal() const { return inverse_; }
+
+    coupling::Scene& scene() const { return scene_; }
+    const TimeDifference& time() const { return time_; }
+    sph::Operators<Real>& operators() { return fluid_.operators(); }
+    const sph::Operators<Real>& operators() const { return fluid_.operators(); }
+    particles::SharedParticles& shared() { return operators().shared(); }
+    const FluidTerm<Real>& fluid() const { return fluid_; }
+    coupling::Immersed* immersed() const { return immersed_; }          // null without cells
+    MembraneTerm<Real>* membranes() const { return membranes_.get(); }  // likewise
+    RigidUnknowns<Real>* rigid() const { return rigid_.get(); }         // null without bodies
+
+    std::size_t owned() const { return scene_.store().size(); }
+    std::size_t entries() const { return operators().shared().entries(); }
+    std::size_t length() const { return particles::fieldWidth * entries() + (rigid_ ? rigid_->length() : 0); }
+    // What other ranks have, and count.
+    Copies copies() const { return {particles::fieldWidth * owned(), particles::fieldWidth * entries()}; }
+    bool isPrescribed(std::size_t i) const { return operators().isWall(i); }
+    bool isOfBody(std::size_t i) const { return rigid_ && rigid_->isMember(i); }
+    double mass(std::size_t i) const { return scene_.mass(i); }
+
+  private:
+    // forces_ = what add(term) of each gives, the fluid's last.
+    template <class Add>
+    void sumTerms(Add&& add) {
+        forces_.assign(particles::fieldWidth * entries(), 0.0);
+        for (Term<Real>* term : terms_) add(*term);
+    }
+    void findDiagonal();
+
+    coupling::Scene& scene_;
+    coupling::Immersed* immersed_;
+    FluidTerm<Real> fluid_;
+    std::unique_ptr<MembraneTerm<Real>> membranes_;
+    std::unique_ptr<RigidUnknowns<Real>> rigid_;
+    std::vector<Term<Real>*> terms_;  // of these, the fluid's last
+    bool isLinear_;
+    TimeDifference time_;
+    RealArray forces_;  // of the terms, at the velocity given to them last
+    Field inverse_;
+    std::vector<Row> rows_;
+};
+
+extern template class System<double>;
+extern template class System<float>;
+
+}  // namespace corpuscle::implicit
