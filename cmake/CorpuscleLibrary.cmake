@@ -57,10 +57,11 @@ function(corpuscle_test NAME)
 endfunction()
 
 # corpuscle_isa_sources(NAME file.cpp ...): adds each file to the library three times, built for baseline x86-64, AVX2 and
-# AVX-512 (libs/particles/isa.hpp chooses at run time). On other processors only the baseline is built.
+# AVX-512 (libs/particles/isa.hpp chooses at run time). On other processors, and
+# with -DCORPUSCLE_BASELINE_ONLY=ON, only the baseline is built.
 function(corpuscle_isa_sources NAME)
     set(sets baseline)
-    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CORPUSCLE_BASELINE_ONLY)
         list(APPEND sets avx2 avx512)
         target_compile_definitions(corpuscle_${NAME} PRIVATE CORPUSCLE_X86)
     endif()

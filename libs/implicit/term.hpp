@@ -9,7 +9,7 @@
 // ranks behind its own (particles/sharedParticles.hpp). Terms add what acts on the rank's own; the fluid's comes last and adds up over the
 // ranks, so that the forces on all of them are whole. Walls and bodies with given motions need none: their rows and columns are taken out, and what acts on them is read off there.
 //
-// To add one: derive from Term, with a test that A is symmetric and semi-definite, and put it into Step's list.
+// To add one: derive from Term, with a test that A is symmetric and semi-definite, and put it into the list of System (system.hpp).
 #pragma once
 #include <string>
 

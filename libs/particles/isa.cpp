@@ -9,7 +9,7 @@ namespace corpuscle::particles {
 
 namespace {
 InstructionSet ofProcessor() {
-#if defined(__x86_64__)
+#ifdef CORPUSCLE_X86
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         return InstructionSet::avx512;
