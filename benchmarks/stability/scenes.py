@@ -11,7 +11,7 @@ RADIUS, VISCOSITY, RATE = 4e-6, 1e-3, 1e3  # m; Pa s; 1/s, of the box
 BOX = (6, 3, 4)  # radii: along the flow, the vorticity, across the gap
 STEPS = (0.0125, 0.02, 0.05, 0.1, 0.2, 0.5)  # strains of one implicit step; the first is the twin
 FINEST = 0.005  # on the coarse grid besides
-CONJUGATE_BULK = 500  # bulk modulus over mu gammadot of 'soundSpeed: auto' with conjugate operators
+ADJOINT_BULK = 500  # bulk modulus over mu gammadot of 'soundSpeed: auto' with adjoint operators
 TWIN_STEP, BASE_STEP = STEPS[0], 0.05  # of runs that change one thing
 TIMES = (0.5, 0.7, 0.9, 1.0, 1.1, 1.25, 1.5)  # of a limit of the explicit step, without `safety`; the first is the twin
 
@@ -116,13 +116,13 @@ def explicit(scene, scheme, limit, times, Ca=None, Re=0.1, ratio=1.0, strain=0.5
                "" if times == twinTimes else named(twinTimes), ranks, stage, ["-limit", limit, "-times", f"{times:g}"])
 
 
-def soundSpeed(scene, Ca, Re, times, box, conjugate=True):
+def soundSpeed(scene, Ca, Re, times, box, adjoint=True):
     """Of `times` the bulk modulus that `soundSpeed: auto` stands for [m/s] (libs/simulation/case.cpp)."""
     gs = {"capsule": 1e-5, "redCell": 3**0.5 / 4 * 5e-4, "box": 0}[scene]
     rate = Ca * gs / (VISCOSITY * RADIUS) if gs else RATE
     nu, gap = rate * RADIUS**2 / Re, box[2] * RADIUS
     speed = rate * gap / 2
-    return (times * max(100 * speed**2, CONJUGATE_BULK * nu * rate if conjugate else 100 * nu * speed / gap))**0.5
+    return (times * max(100 * speed**2, ADJOINT_BULK * nu * rate if adjoint else 100 * nu * speed / gap))**0.5
 
 
 def stiffer(scene, Ca, Eb, bonds, bending):

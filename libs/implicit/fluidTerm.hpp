@@ -4,7 +4,7 @@
 // By the operators of sph/operators.hpp, which see walls and bodies as well. It comes last, and adds up over the ranks what it and the terms before
 // it have given to particles that several ranks know.
 #pragma once
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 #include "coupling/scene.hpp"
 #include "implicit/term.hpp"
 #include "sph/operators.hpp"

@@ -38,7 +38,7 @@
 #include <memory>
 #include <utility>
 
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/noFlux.hpp"
 #include "implicit/implicitSettings.hpp"
@@ -49,7 +49,7 @@ namespace corpuscle::implicit {
 
 class ImplicitStep {
   public:
-    struct Options : coupling::ConjugateOptions {
+    struct Options : coupling::AdjointOptions {
         ImplicitSettings settings;
     };
     virtual ~ImplicitStep() = default;

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/communicator.hpp"
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 
 namespace corpuscle::implicit {
 

@@ -1,6 +1,6 @@
 #include "schemes/adjointVerlet.hpp"
 
-#include "coupling/conjugateVerlet.hpp"
+#include "coupling/adjointVerlet.hpp"
 #include "schemes/explicitStepper.hpp"
 #include "schemes/schemeParts.hpp"
 
@@ -14,7 +14,7 @@ class AdjointVerletStepper final : public ExplicitStepper {
   public:
     AdjointVerletStepper(const NumericsSettings& numerics, coupling::Scene& scene)
         : ExplicitStepper(scene, numerics, stepsPerEstimate),
-          step_(coupling::ConjugateVerlet::make(scene, adjointOptions(numerics, scene))) {}
+          step_(coupling::AdjointVerlet::make(scene, adjointOptions(numerics, scene))) {}
 
     void advance(double dt, double /*planned*/) override {
         scene_.broken = step_->advance(dt);
@@ -28,11 +28,11 @@ class AdjointVerletStepper final : public ExplicitStepper {
     void resumeScheme(long count) override { step_->resume(count, scene_.putBack); }
     long count() const override { return step_->steps(); }
     ExplicitRates estimate() override {
-        const coupling::ConjugateVerlet::Rates rates = step_->rates(powerIterations);
+        const coupling::AdjointVerlet::Rates rates = step_->rates(powerIterations);
         return {powerReserve * rates.viscous, powerReserve * rates.membrane, powerReserve * rates.spring2};
     }
 
-    std::unique_ptr<coupling::ConjugateVerlet> step_;
+    std::unique_ptr<coupling::AdjointVerlet> step_;
 };
 
 class AdjointVerlet final : public Scheme {

@@ -29,8 +29,8 @@ coupling::DensityBalance densityBalance(const coupling::Scene& scene) {
     return {volume, scene.model().density, scene.model().mass};
 }
 
-coupling::ConjugateOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene) {
-    coupling::ConjugateOptions options;
+coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene) {
+    coupling::AdjointOptions options;
     if (!numerics.isCorrected()) options.form = sph::OperatorForm::plain;
     if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
     options.balanceInterval = numerics.balanceInterval();

@@ -1,6 +1,6 @@
 // What several schemes have in common.
 #pragma once
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 #include "schemes/explicitLimits.hpp"
 #include "schemes/numericsSettings.hpp"
 
@@ -14,7 +14,7 @@ ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& n
 
 // The volume and density that density is balanced against (coupling/densityBalance.hpp).
 coupling::DensityBalance densityBalance(const coupling::Scene& scene);
-coupling::ConjugateOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene);
+coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene);
 
 // What corrected operators and jumps of viscosity ask for where operators are adjoint.
 void checkShifting(const NumericsSettings& numerics, Problems& problems);

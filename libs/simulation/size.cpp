@@ -11,7 +11,7 @@ namespace corpuscle::simulation {
 
 namespace {
 
-// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity Verlet on conjugate
+// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity Verlet on adjoint
 // operators); with membranes or bodies in the fluid there is more of them.
 struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several

@@ -1,7 +1,7 @@
 // Running account of energy and momentum: what the forces of a scheme put in and take away, added up at every step in the scheme's own quadrature
 // (docs/theory/conservation.md). With every particle's velocity u, that of walls and bodies included, the forces of a scheme do work at the rates
 //
-//     sum u.F = - dissipation - d(compression)/dt                     of pairs: viscosity and pressure are conjugate to the rates of density
+//     sum u.F = - dissipation - d(compression)/dt                     of pairs: viscosity and pressure are adjoint to the rates of density
 //     sum u.f = - d(elastic)/dt - dissipation in membranes            of membranes
 //     walls + bodies + body force = dissipation of both + d(kinetic + elastic + compression)/dt + what the solver leaves
 //

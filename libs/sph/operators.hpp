@@ -1,4 +1,4 @@
-// Conjugate operators of the fluid: viscosity, divergence, and the transpose of the divergence.
+// Adjoint operators of the fluid: viscosity, divergence, and the transpose of the divergence.
 //
 //     B_i = (sum_j V_j F d d^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
 //     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields

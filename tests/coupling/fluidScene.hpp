@@ -1,4 +1,4 @@
-// A scene of fluid alone for the steps on conjugate operators. Lengths in spacings, density 1, kernel support 2.4.
+// A scene of fluid alone for the steps on adjoint operators. Lengths in spacings, density 1, kernel support 2.4.
 #pragma once
 #include "coupling/scene.hpp"
 #include "sph/samples.hpp"

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "coupling/conjugateVerlet.hpp"
+#include "coupling/adjointVerlet.hpp"
 #include "coupling/fluidScene.hpp"
 #include "coupling/sphereScene.hpp"
 #include "implicit/implicitStep.hpp"
@@ -24,12 +24,12 @@ namespace swirl = sph::testing::swirl;
 
 namespace {
 
-const std::vector<std::string> allSchemes{"velocityVerlet", "rkl2", "conjugateVerlet", "midpoint", "backwardEuler"};
+const std::vector<std::string> allSchemes{"velocityVerlet", "rkl2", "adjointVerlet", "midpoint", "backwardEuler"};
 
 struct Fluid : FluidScene {
     std::function<void(double)> advance;
     std::unique_ptr<sph::ExplicitScheme> scheme;
-    std::unique_ptr<coupling::ConjugateVerlet> conjugate;
+    std::unique_ptr<coupling::AdjointVerlet> adjoint;
     std::unique_ptr<implicit::ImplicitStep> implicitStep;
 
     Fluid(const std::string& name, const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model,
@@ -43,10 +43,10 @@ struct Fluid : FluidScene {
             auto rkl2 = std::make_unique<sph::Rkl2>(*scene.system, *scene.forces, nullptr, &scene.account);
             rkl2->setRate(30);
             scheme = std::move(rkl2);
-        } else if (name == "conjugateVerlet") {
-            conjugate = coupling::ConjugateVerlet::make(scene, {});
-            conjugate->start();
-            advance = [this](double dt) { conjugate->advance(dt); };
+        } else if (name == "adjointVerlet") {
+            adjoint = coupling::AdjointVerlet::make(scene, {});
+            adjoint->start();
+            advance = [this](double dt) { adjoint->advance(dt); };
         } else {
             implicit::ImplicitStep::Options options;
             options.settings = {.step = 0.1, .tolerance = precision == Precision::full ? 1e-9 : 1e-5, .method = name};
@@ -227,7 +227,7 @@ TEST(Account, wallsWorkAsMuchAsCouetteFlowDissipates) {
     const double rate = 1, gap = 12, low = layers, viscosity = 1;
     const auto flow = [&](const Vec3& x) { return Vec3(rate * (x[2] - low - 0.5 * gap), 0, 0); };
     for (const std::string& name :
-         {std::string("velocityVerlet"), std::string("conjugateVerlet"), std::string("midpoint")}) {
+         {std::string("velocityVerlet"), std::string("adjointVerlet"), std::string("midpoint")}) {
         sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
         model.viscosity = viscosity, model.soundSpeed = name == "midpoint" ? 22 : 5;
         model.walls = {2, low, low + gap, {flow({0, 0, low}), flow({0, 0, low + gap})}};

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "coupling/conjugateVerlet.hpp"
+#include "coupling/adjointVerlet.hpp"
 #include "coupling/fluidScene.hpp"
 #include "implicit/implicitStep.hpp"
 #include "sph/velocityVerlet.hpp"
@@ -145,17 +145,17 @@ TEST(AngularMomentum, keptOverATurn) {
     };
     const int acoustic = 300;
     std::unique_ptr<sph::ExplicitScheme> scheme;
-    std::unique_ptr<coupling::ConjugateVerlet> conjugate;
+    std::unique_ptr<coupling::AdjointVerlet> verlet;
     std::unique_ptr<implicit::ImplicitStep> step;
     const auto verlet = [&](coupling::Scene& on) {
         scheme = std::make_unique<sph::VelocityVerlet>(*on.system, *on.forces, nullptr, std::vector<sph::Load*>{});
         scheme->start();
         return [&](double dt) { scheme->advance(dt); };
     };
-    const auto conjugated = [&](coupling::Scene& on) {
-        conjugate = coupling::ConjugateVerlet::make(on, {});
-        conjugate->start();
-        return [&](double dt) { conjugate->advance(dt); };
+    const auto adjoint = [&](coupling::Scene& on) {
+        verlet = coupling::AdjointVerlet::make(on, {});
+        verlet->start();
+        return [&](double dt) { verlet->advance(dt); };
     };
     const auto implicitly = [&](std::optional<double> shifting) {
         return [&, shifting](coupling::Scene& on) {
@@ -167,7 +167,7 @@ TEST(AngularMomentum, keptOverATurn) {
         };
     };
     EXPECT_LT(change("velocity Verlet, plain pairs", 0.3, verlet, acoustic), 2e-3);
-    EXPECT_LT(change("velocity Verlet, corrected", 0.3, conjugated, acoustic), 2e-3);
+    EXPECT_LT(change("velocity Verlet, corrected", 0.3, adjoint, acoustic), 2e-3);
     EXPECT_LT(change("implicit, corrected", 0, implicitly({}), 20), 2e-3);
     EXPECT_LT(change("the same with shifting", 0, implicitly(1), 20), 2e-3);
 }

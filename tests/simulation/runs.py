@@ -110,7 +110,7 @@ cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centr
 THINNING = "  viscosity: {shear: 1.6e-8 N s/m, thinning: {rate: 100 1/s, index: 0.5}}\n"  # at a shear rate of 375 1/s
 
 # The same by velocity Verlet on the same operators, for a shorter time.
-CONJUGATE_CASE = {
+ADJOINT_CASE = {
     **IMPLICIT_CASE,
     "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.15").replace("{strain: 0.3}", "{strain: 0.1}"),
     "system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("implicit\n", "velocityVerlet\n"),
@@ -305,18 +305,18 @@ def test_implicit(folder):
 
 def test_account(folder):
     """The account of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
-    after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, conjugate.)"""
+    after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, adjoint.)"""
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
     short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
     implicit = "spacing: 1 um\nprecision: double\nkernel: {type: wendlandC2, support: 2.4 dx}\nintegrator: implicit\nimplicit: {step: 0.01, tolerance: 1e-5}\n"
     every = "balance: {type: conservation, every: 0.06 strain}\n"
-    explicit = {**CONJUGATE_CASE, "system/control.yaml": short, "system/observers.yaml": every}
+    explicit = {**ADJOINT_CASE, "system/control.yaml": short, "system/observers.yaml": every}
     body = {**BODY_CASE, "system/control.yaml": short, "system/observers.yaml": every}
     driven = BODY_CASE["constant/bodies.yaml"].replace("free", "{type: driven, velocity: [0 m/s, 0 m/s, 0 m/s], angularVelocity: [0 1/s, 300 1/s, 0 1/s]}")
     rows = {}
     for name, files, allowed, agree in (
             ("implicit", {**IMPLICIT_CASE, "system/observers.yaml": every}, 1e-3, 1e-3),
-            ("conjugate", {**explicit, "constant/membranes.yaml": sheet}, 1e-4, 1e-6),
+            ("adjoint", {**explicit, "constant/membranes.yaml": sheet}, 1e-4, 1e-6),
             ("tearing", {**explicit, "constant/membranes.yaml": sheet.split("  viscosity")[0] + "  rupture: {type: bondStretch, limit: 1.02}\n"}, 1e-4, 1e-6),
             ("dualIdentity", {**CELL_CASE, "system/observers.yaml": every}, 1e-3, 1e-6),
             ("drivenBody", {**body, "constant/bodies.yaml": driven}, 0.01, 1e-6),
@@ -345,11 +345,11 @@ def test_account(folder):
         assert record["momentumDriftShare"] < 2e-3, record
         assert "energy account: walls put in" in (folder / f"{name}1" / "log.dmpFlow").read_text()
     assert rows["tearing"]["released_J"] > 0 and "released_J" not in rows["implicit"], rows["tearing"]
-    assert rows["conjugate"]["dissipatedInMembranes_J"] > 1e-4 * rows["conjugate"]["dissipated_J"], rows["conjugate"]
+    assert rows["adjoint"]["dissipatedInMembranes_J"] > 1e-4 * rows["adjoint"]["dissipated_J"], rows["adjoint"]
     assert rows["drivenBody"]["workOfBodies_J"] > 0, rows["drivenBody"]
     # In two parts on another number of ranks.
-    whole = table(folder / "conjugate1", "balance", "account.csv")[-1]
-    case = copied(folder / "conjugate", folder / "parts")
+    whole = table(folder / "adjoint1", "balance", "account.csv")[-1]
+    case = copied(folder / "adjoint", folder / "parts")
     run(case, "dmpFlow", "-steps", "30", ranks=2)
     run(case, "dmpFlow", ranks=1)
     ends = [float(value) for value in series(case, "balance", "account.csv")[-1]]
@@ -391,10 +391,10 @@ def test_stepControl(folder):
     assert abs(D["bonds"] - D["fine"]) < 0.02 * D["fine"] and abs(D["long"] - D["fine"]) < 0.03 * D["fine"], D
 
 
-def test_conjugate(folder):
+def test_adjoint(folder):
     """The explicit step on corrected operators with an immersed membrane: the same on 1, 2 and 4 ranks, restarts to the same bits in either
     precision, volume kept, no particle through the membrane, bonds break alike; checkpoints of the other coupling are refused."""
-    start = prepared(folder / "start", CONJUGATE_CASE)
+    start = prepared(folder / "start", ADJOINT_CASE)
     cases = {}
     for ranks in (1, 2, 4):
         case = cases[ranks] = copied(start, folder / f"np{ranks}")
@@ -416,13 +416,13 @@ def test_conjugate(folder):
     assert "coupling: the case now has dualIdentity, but " in said and "was written with immersed; start from firstTime" in said, said
     # Membrane viscosity slows the cell down and the step limit knows it; bonds break at the same step on any number of ranks.
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n"
-    slow = prepared(folder / "viscous", CONJUGATE_CASE, **{"constant/membranes.yaml": sheet + "  viscosity: {shear: 1e-8 N s/m}\n"})
-    swift = prepared(folder / "elastic", CONJUGATE_CASE, **{"constant/membranes.yaml": sheet})
+    slow = prepared(folder / "viscous", ADJOINT_CASE, **{"constant/membranes.yaml": sheet + "  viscosity: {shear: 1e-8 N s/m}\n"})
+    swift = prepared(folder / "elastic", ADJOINT_CASE, **{"constant/membranes.yaml": sheet})
     for case in (slow, swift):
         run(case, "dmpFlow", ranks=2)
     assert 0.02 < table(slow, "deformation")[-1]["D12_inertia"] < 0.98 * table(swift, "deformation")[-1]["D12_inertia"]
     assert json.loads((slow / "run.json").read_text())["extremes"]["largestStep_s"] < json.loads((swift / "run.json").read_text())["extremes"]["smallestStep_s"]
-    tearing = prepared(folder / "tearing", CONJUGATE_CASE, **{"constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.03}\n"})
+    tearing = prepared(folder / "tearing", ADJOINT_CASE, **{"constant/membranes.yaml": sheet + "  rupture: {type: bondStretch, limit: 1.03}\n"})
     losses = []
     for ranks in (1, 2):
         case = copied(tearing, folder / f"tearing{ranks}")
@@ -434,9 +434,9 @@ def test_conjugate(folder):
     run(parts, "dmpFlow")
     same_checkpoint(last_checkpoint(folder / "tearing1"), last_checkpoint(parts))
     # Plain operators, and a thick inside, which slows the cell down.
-    thick = prepared(folder / "thick", CONJUGATE_CASE, **{
-        "system/numerics.yaml": CONJUGATE_CASE["system/numerics.yaml"].replace("corrected", "plain"),
-        "constant/membranes.yaml": CONJUGATE_CASE["constant/membranes.yaml"] + "  interior: {viscosityRatio: 5}\n"})
+    thick = prepared(folder / "thick", ADJOINT_CASE, **{
+        "system/numerics.yaml": ADJOINT_CASE["system/numerics.yaml"].replace("corrected", "plain"),
+        "constant/membranes.yaml": ADJOINT_CASE["constant/membranes.yaml"] + "  interior: {viscosityRatio: 5}\n"})
     run(thick, "dmpFlow", ranks=2)
     last = table(thick, "balance")[-1]
     assert last["changedSide"] == 0 and abs(last["rbc_volumeChange"]) < 1e-12, last

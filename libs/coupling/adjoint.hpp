@@ -1,4 +1,4 @@
-// What every step on conjugate operators (sph/operators.hpp) does alike, the explicit one (conjugateVerlet.hpp) and the implicit one
+// What every step on adjoint operators (sph/operators.hpp) does alike, the explicit one (adjointVerlet.hpp) and the implicit one
 // (implicit/implicitStep.hpp).
 #pragma once
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace corpuscle::coupling {
 
-struct ConjugateOptions {
+struct AdjointOptions {
     sph::OperatorForm form = sph::OperatorForm::corrected;
     std::optional<double> shifting{};  // C, strength per unit of strain
     std::optional<DensityBalance> densityBalance{};
@@ -21,6 +21,6 @@ struct ConjugateOptions {
 void findPressures(const Scene& scene, particles::RealArray& pressure);
 
 // At the end of a step, the number of which is given: density balance when it is due, then what breaks. Collective.
-std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long number, double dt);
+std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long number, double dt);
 
 }  // namespace corpuscle::coupling

@@ -1,4 +1,4 @@
-// Velocity Verlet on conjugate operators (sph/operators.hpp), membranes immersed in the fluid (immersed.hpp): the equations that the implicit
+// Velocity Verlet on adjoint operators (sph/operators.hpp), membranes immersed in the fluid (immersed.hpp): the equations that the implicit
 // step solves, explicit in time.
 //
 //     M du/dt = -L u + D^T V p + M g + S^T P (f(x_m) - C P S u),   drho/dt = -rho D u,   dx/dt = u,   dx_m/dt = P S u
@@ -20,16 +20,16 @@
 #pragma once
 #include <memory>
 
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/noFlux.hpp"
 
 namespace corpuscle::coupling {
 
-class ConjugateVerlet {
+class AdjointVerlet {
   public:
-    using Options = ConjugateOptions;
-    virtual ~ConjugateVerlet() = default;
+    using Options = AdjointOptions;
+    virtual ~AdjointVerlet() = default;
 
     // Rates at the initial state. Not after a restart: they are part of the state. Collective.
     virtual void start() = 0;
@@ -54,7 +54,7 @@ class ConjugateVerlet {
     const NoFlux* noFlux() const { return noFlux_.get(); }  // none without cells
 
     // The scene must stay where it is.
-    static std::unique_ptr<ConjugateVerlet> make(Scene& scene, const Options& options);
+    static std::unique_ptr<AdjointVerlet> make(Scene& scene, const Options& options);
 
   protected:
     std::unique_ptr<Immersed> immersed_;  // none without cells

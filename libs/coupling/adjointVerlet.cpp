@@ -1,4 +1,4 @@
-#include "coupling/conjugateVerlet.hpp"
+#include "coupling/adjointVerlet.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 constexpr double probeInBonds = 1e-4;  // largest displacement of a difference of membrane forces
 
 template <class Real>
-class Verlet final : public ConjugateVerlet {
+class Verlet final : public AdjointVerlet {
   public:
     Verlet(Scene& scene, const Options& options)
         : scene_(scene),
@@ -260,7 +260,7 @@ class Verlet final : public ConjugateVerlet {
 
 }  // namespace
 
-std::unique_ptr<ConjugateVerlet> ConjugateVerlet::make(Scene& scene, const Options& options) {
+std::unique_ptr<AdjointVerlet> AdjointVerlet::make(Scene& scene, const Options& options) {
     if (scene.system->precision() == particles::Precision::mixed)
         return std::make_unique<Verlet<float>>(scene, options);
     return std::make_unique<Verlet<double>>(scene, options);

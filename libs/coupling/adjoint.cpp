@@ -1,4 +1,4 @@
-#include "coupling/conjugate.hpp"
+#include "coupling/adjoint.hpp"
 
 #include <utility>
 
@@ -13,7 +13,7 @@ void findPressures(const Scene& scene, particles::RealArray& pressure) {
     for (std::size_t i = 0; i < s.size(); ++i) pressure[i] *= s.density[i] * s.density[i];
 }
 
-std::vector<RuptureEvent> endStep(Scene& scene, ConjugateOptions& options, long number, double dt) {
+std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long number, double dt) {
     if (options.densityBalance && number % options.balanceInterval == 0)
         options.densityBalance->apply(*scene.system, scene.cells);
     std::vector<RuptureEvent> events;

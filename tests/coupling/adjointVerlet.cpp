@@ -1,6 +1,6 @@
-// The explicit step on conjugate operators: a shear wave, its limits against dense matrices, momentum, ranks, a sphere's membrane.
+// The explicit step on adjoint operators: a shear wave, its limits against dense matrices, momentum, ranks, a sphere's membrane.
 // Lengths in spacings, density 1.
-#include "coupling/conjugateVerlet.hpp"
+#include "coupling/adjointVerlet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,12 +24,12 @@ namespace {
 constexpr double skin = 0.3, pi = std::numbers::pi;
 
 struct ExplicitFluid : FluidScene {
-    std::unique_ptr<ConjugateVerlet> step;
+    std::unique_ptr<AdjointVerlet> step;
 
     ExplicitFluid(const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model, double rate,
                   MPI_Comm comm = MPI_COMM_WORLD, particles::Precision precision = particles::Precision::full)
         : FluidScene(all, size, model, rate, skin, comm, precision) {
-        step = ConjugateVerlet::make(scene, {});
+        step = AdjointVerlet::make(scene, {});
         step->start();
     }
     void run(double time, int steps) {
@@ -85,7 +85,7 @@ struct ShearWave {
 // Two spheres of membrane in still fluid, pulled out of shape.
 struct Cells : SphereScene {
     Scene scene;
-    std::unique_ptr<ConjugateVerlet> step;
+    std::unique_ptr<AdjointVerlet> step;
 
     explicit Cells(bool viscous = false) : SphereScene({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true) {
         for (Cell& cell : cells) {
@@ -108,7 +108,7 @@ struct Cells : SphereScene {
         scene.spacing = 1;
         scene.flow.rate = 0.02;
         scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
-        step = ConjugateVerlet::make(scene, {.shifting = 1.0});
+        step = AdjointVerlet::make(scene, {.shifting = 1.0});
         step->start();
     }
     // The largest eigenvalue of P S M^-1 S^T P A, whose eigenvalues are those of M^-1 S^T P A P S: A on the nodes, masses 1.
@@ -136,7 +136,7 @@ struct Cells : SphereScene {
 }  // namespace
 
 // The formulas of the header for du/dt = -rate u.
-TEST(ConjugateVerlet, stepsAsItsFormulasSay) {
+TEST(AdjointVerlet, stepsAsItsFormulasSay) {
     const ShearWave wave;
     const double dt = 0.4 / latticeRate(wave.model.viscosity, wave.size, {2, 2, 6});
     double u = 1, a = -wave.rate;
@@ -145,7 +145,7 @@ TEST(ConjugateVerlet, stepsAsItsFormulasSay) {
     EXPECT_LT(u, 0.95);
 }
 
-TEST(ConjugateVerlet, isOfSecondOrder) {
+TEST(AdjointVerlet, isOfSecondOrder) {
     const ShearWave wave;
     const double time = 1 / wave.rate;
     double error[3];
@@ -154,7 +154,7 @@ TEST(ConjugateVerlet, isOfSecondOrder) {
     EXPECT_NEAR(std::log2(error[1] / error[2]), 2, 0.1);
 }
 
-TEST(ConjugateVerlet, viscousRateIsThatOfTheLattice) {
+TEST(AdjointVerlet, viscousRateIsThatOfTheLattice) {
     const Index3 size{6, 6, 8};
     const sph::FluidModel model = sph::testing::model("wendlandC2");
     double exact = 0;
@@ -170,7 +170,7 @@ TEST(ConjugateVerlet, viscousRateIsThatOfTheLattice) {
     }
 }
 
-TEST(ConjugateVerlet, isStableUpToItsViscousLimitAndNotBeyond) {
+TEST(AdjointVerlet, isStableUpToItsViscousLimitAndNotBeyond) {
     const Index3 size{6, 6, 8};
     sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
     model.soundSpeed = 0.3;
@@ -189,7 +189,7 @@ TEST(ConjugateVerlet, isStableUpToItsViscousLimitAndNotBeyond) {
     }
 }
 
-TEST(ConjugateVerlet, springRateIsTheLargestEigenvalueOfWhatTheFluidFeels) {
+TEST(AdjointVerlet, springRateIsTheLargestEigenvalueOfWhatTheFluidFeels) {
     Cells cells;
     const double rate2 = cells.step->rates(300).spring2;
     constexpr double step = 1e-5;
@@ -204,7 +204,7 @@ TEST(ConjugateVerlet, springRateIsTheLargestEigenvalueOfWhatTheFluidFeels) {
     EXPECT_NEAR(rate2, exact, 0.01 * exact);
 }
 
-TEST(ConjugateVerlet, membraneRateIsTheLargestEigenvalueOfItsDamping) {
+TEST(AdjointVerlet, membraneRateIsTheLargestEigenvalueOfItsDamping) {
     EXPECT_EQ(Cells(false).step->rates(5).membrane, 0);
     Cells cells(true);
     const double rate = cells.step->rates(300).membrane;
@@ -217,7 +217,7 @@ TEST(ConjugateVerlet, membraneRateIsTheLargestEigenvalueOfItsDamping) {
     EXPECT_NEAR(rate, exact, 0.01 * exact);
 }
 
-TEST(ConjugateVerlet, keepsMomentumAndTakesEnergyAway) {
+TEST(AdjointVerlet, keepsMomentumAndTakesEnergyAway) {
     const Index3 size{6, 6, 8};
     const std::vector<Particle> all = still(size, 0.15);
     for (const auto precision : {particles::Precision::full, particles::Precision::mixed}) {
@@ -236,7 +236,7 @@ TEST(ConjugateVerlet, keepsMomentumAndTakesEnergyAway) {
     }
 }
 
-TEST(ConjugateVerlet, isTheSameOnOneRankAndOnAll) {
+TEST(AdjointVerlet, isTheSameOnOneRankAndOnAll) {
     const Index3 size{7, 6, 8};
     const std::vector<Particle> all = still(size, 0.15);
     const sph::FluidModel model = sph::testing::model("wendlandC2");
@@ -251,7 +251,7 @@ TEST(ConjugateVerlet, isTheSameOnOneRankAndOnAll) {
 }
 
 // Two spheres out of shape go back towards it through the fluid, their volume as it was; nothing passes their membranes.
-TEST(ConjugateVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
+TEST(AdjointVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
     Cells cells(true);
     const auto energy = [&] {
         double sum = 0;
@@ -259,7 +259,7 @@ TEST(ConjugateVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
         return sum;
     };
     const double before = energy();
-    const ConjugateVerlet::Rates rates = cells.step->rates(50);
+    const AdjointVerlet::Rates rates = cells.step->rates(50);
     const double drag = rates.viscous + rates.membrane,
                  dt = 0.9 * std::min(2 / rates.spring2 * (std::sqrt(drag * drag + rates.spring2) - drag), 1 / drag);
     const auto crossings = [&] {
