@@ -6,7 +6,7 @@
 A fault is one of five kinds (tests/simulation/faultInjection.cpp) at a random place before a random step; one in eleven comes again each time that
 the run gets to this step. Each run ends as one of
 
-    retreated   noticed, taken back; the end within the tolerance of the run without fault
+    rolledBack   noticed, taken back; the end within the tolerance of the run without fault
     healed      not noticed, and the end within the tolerance all the same
     reported    exit code 3, with a report and a checkpoint of the last good state
     wrong       exit code 0 and another end: there must be none
@@ -45,7 +45,7 @@ SCENES = {  # of a capsule of radius 4 um: settings, share of the faults
                                 "constant/flow.yaml:/inertia/Re=0.5"], 1),
 }
 TOLERANCE = {"D12_inertia": 0.005, "volume": 0.001}  # of the value without fault
-COLUMNS = ("number", "scene", "kind", "step", "seed", "again", "ranks", "end", "retreats", "D12", "volume", "exitCode", "message")
+COLUMNS = ("number", "scene", "kind", "step", "seed", "again", "ranks", "end", "rollbacks", "D12", "volume", "exitCode", "message")
 
 
 def prepare(scene, words):
@@ -103,13 +103,13 @@ def run(fault, words):
         command = ["mpirun", "-np", str(fault["ranks"]), *command]
     done = subprocess.run(command, capture_output=True, text=True, env=suite.ENVIRONMENT)
     record = left(folder)
-    row = {**fault, "step": step, "exitCode": done.returncode, "retreats": record.get("performance", {}).get("retreats", 0), "D12": "", "volume": "",
+    row = {**fault, "step": step, "exitCode": done.returncode, "rollbacks": record.get("performance", {}).get("rollbacks", 0), "D12": "", "volume": "",
            "message": ""}
     if done.returncode == 0 and record.get("status") == "done":
         found = end(folder)
         row["D12"], row["volume"] = (f"{found[key] / expected[key] - 1:+.2e}" for key in TOLERANCE)
         good = all(abs(found[key] / expected[key] - 1) <= allowed for key, allowed in TOLERANCE.items())
-        row["end"] = ("retreated" if row["retreats"] else "healed") if good else "wrong"
+        row["end"] = ("rolledBack" if row["rollbacks"] else "healed") if good else "wrong"
     else:
         reported = done.returncode == 3 and "fault" in record and list((folder / "checkpoints").glob("*.h5"))
         row["end"] = "reported" if reported else "crashed"
@@ -120,7 +120,7 @@ def run(fault, words):
 
 
 def tally(rows):
-    ends = ("retreated", "healed", "reported", "wrong", "crashed")
+    ends = ("rolledBack", "healed", "reported", "wrong", "crashed")
     lines = ["| fault | " + " | ".join(ends) + " | largest difference of D12 |", "|---|" + "---|" * (len(ends) + 1)]
     for kind in (*KINDS, "all"):
         mine = [row for row in rows if kind in (row["kind"], "all")]
@@ -146,7 +146,7 @@ def main():
         if fault["number"] in known or words.only not in (None, fault["number"]):
             continue
         row = run(fault, words)
-        print(f"{row['number']:3d} {row['scene']:15s}{row['kind']:9s} before step {row['step']:<7d}{row['end']:10s} {row['retreats']} retreats {row['D12']} {row['message']}",
+        print(f"{row['number']:3d} {row['scene']:15s}{row['kind']:9s} before step {row['step']:<7d}{row['end']:10s} {row['rollbacks']} rollbacks {row['D12']} {row['message']}",
               flush=True)
         rows.append({key: str(value) for key, value in row.items()})
         rows.sort(key=lambda other: int(other["number"]))

@@ -64,7 +64,7 @@ class Batch:
         directory.mkdir(parents=True, exist_ok=True)
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="work.", dir=directory))
         known = subprocess.run([binaries / "listModels", "numerics"], capture_output=True, text=True).stdout if (binaries / "listModels").exists() else ""
-        self.always = ["-set", "system/numerics.yaml:/retreats=0"] if "retreats" in known else []  # what fails is to be seen
+        self.always = ["-set", "system/numerics.yaml:/rollbacks=0"] if "rollbacks" in known else []  # what fails is to be seen
         self.environment = suite.ENVIRONMENT
 
     def call(self, run, case, program, ranks=1, more=()):

@@ -46,14 +46,14 @@ const Schema<NumericsSettings>& NumericsSettings::schema() {
             .quantity("safety", &NumericsSettings::safety, unit::none,
                       "fraction of the viscous and the spring limit that a time step may take",
                       {.fallback = "0.95", .range = between(0.01, 1)})
-            .integer("retreats", &NumericsSettings::retreats,
+            .integer("rollbacks", &NumericsSettings::rollbacks,
                      "how often in a row a run that fails goes back to its last good state and on with half the step, "
                      "before it ends; 0 for not at all",
                      {.fallback = "4", .range = between(0, 20)})
             .atRestart(AtRestart::fixed, {"spacing", "kernel", "coupling", "operators", "shifting", "skin"})
             .atRestart(AtRestart::resolved, {"integrator"})
             .atRestart(AtRestart::noted, {"precision", "guard", "densityBalance", "safety"})
-            .atRestart(AtRestart::free, {"retreats"});
+            .atRestart(AtRestart::free, {"rollbacks"});
     return s;
 }
 

@@ -18,7 +18,7 @@ struct NumericsSettings {
     long guard = 10;                       // steps between two looks of the leakage guard; 0: none
     std::optional<long> densityBalance{};  // as written
     double safety = 0.95;                  // fraction of each limit that the step takes
-    long retreats = 4;                     // in a row, to an earlier state with shorter steps
+    long rollbacks = 4;                    // in a row, to an earlier state with shorter steps
 
     // That steps the case: none as read, one once it is settled what absent and automatic keys stand for (choice.hpp).
     std::shared_ptr<const Scheme> scheme;

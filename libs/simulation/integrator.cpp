@@ -68,7 +68,7 @@ long Integrator::mostFallbacks() const { return std::max(stepper_->mostFallbacks
 
 void Integrator::updateLimits(Time& time) {
     limits_ = stepper_->limits(time.t);
-    if (longest_ < std::numeric_limits<double>::infinity()) limits_.add("retreat", longest_);
+    if (longest_ < std::numeric_limits<double>::infinity()) limits_.add("rollback", longest_);
     time.dt = limits_.binding().seconds;
     limits_.stages = stepper_->stages(time.dt);
 }

@@ -5,7 +5,7 @@
 // one surface inside another                      | a node of it, by the inside test
 // surfaces closer than 0.1 spacings               | nodes against the triangles of neighbours: no particle between them could stay on its side
 // a surface across a wall, or longer than a periodic box | its bounds
-// Particles are filled in and runs begin from what passes; during a run Watch looks at the same (watch.hpp).
+// Particles are filled in and runs begin from what passes; during a run StateCheck looks at the same (stateCheck.hpp).
 #pragma once
 #include "core/error.hpp"
 #include "coupling/scene.hpp"

@@ -1,6 +1,6 @@
 #include "simulation/run.hpp"
 
-#include "simulation/retreat.hpp"
+#include "simulation/rollback.hpp"
 
 namespace corpuscle::simulation {
 
@@ -18,7 +18,7 @@ ExitCode run(Application& app, const RunHooks& hooks) {
     if (app.has("dry-run")) return after.dryRun(scene, time);
 
     after.begin(scene, time);
-    Retreat step(input, scene, time, integrator, after, app.log());
+    Rollback step(input, scene, time, integrator, after, app.log());
     while (time.running() && !after.stopRequested(scene, time)) {
         hooks.beforeStep(scene, time, integrator);
         if (step.advance()) after.afterStep(scene, time);  // back where it fails

@@ -9,7 +9,7 @@
 #include "particles/isa.hpp"
 #include "schemes/cost.hpp"
 #include "simulation/groups.hpp"
-#include "simulation/watch.hpp"
+#include "simulation/stateCheck.hpp"
 
 namespace corpuscle::simulation {
 
@@ -130,7 +130,7 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     largestDt_ = std::max(largestDt_, time.dt);
     observers_.run(scene, time);
     if (results_.due(time)) {
-        Watch::requireFinite(scene, time, "results were");
+        StateCheck::requireFinite(scene, time, "results were");
         results_.write(scene, time);
         reportGuard(scene, time);
         reportRupture(scene, time);
@@ -182,7 +182,7 @@ void Schedule::reportGuard(const Scene& scene, const Time& time) {
 }
 
 void Schedule::saveCheckpoint(const Scene& scene, const Time& time) {
-    Watch::requireFinite(scene, time, "a checkpoint was");
+    StateCheck::requireFinite(scene, time, "a checkpoint was");
     writeCheckpoint(input_, scene, time, {.integrator = integrator_.state(time), .observers = observers_.state()});
 }
 

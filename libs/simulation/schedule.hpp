@@ -29,7 +29,7 @@ class Schedule {
     // Where steps are to end: the ends of the run, results, observers.
     std::vector<Event> events(const Time& time) const;
 
-    // What is to be seen and written again where the run goes back to an earlier state (retreat.hpp). Collective.
+    // What is to be seen and written again where the run goes back to an earlier state (rollback.hpp). Collective.
     struct Memory {
         observers::Observers::Memory observers;
         Ticker results;

@@ -1,4 +1,4 @@
-// dmpFlow with a fault put into its state between two steps: what Retreat is there for (simulation/run.hpp).
+// dmpFlow with a fault put into its state between two steps: what Rollback is there for (simulation/run.hpp).
 //
 //     faultInjection -case DIR -kind speed -at 12 -seed 3
 //

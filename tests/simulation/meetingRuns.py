@@ -124,7 +124,7 @@ def met(case, words, ranks, application="dmpFlow", *options):
     assert "there is no contact law in this version" in said or "the box is too short for it" in said, said
     assert "take a smaller" not in said, said
     record = json.loads((case / "run.json").read_text())
-    assert record["performance"]["retreats"] == 0 and len(record["fault"]["place_m"]) == 3, record
+    assert record["performance"]["rollbacks"] == 0 and len(record["fault"]["place_m"]) == 3, record
     assert list((case / "checkpoints").glob("*.h5")) and (case / "results/fault.pvd").exists()
 
 

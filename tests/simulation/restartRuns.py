@@ -171,7 +171,7 @@ def test_noted(folder):
         for place in (text, (case / "log.dmpFlow").read_text(), "\n".join(recorded)):
             assert expected in place, f"{change}: {expected}\n{place}"
     for k, change in enumerate(("system/control.yaml:/endStrain=0.5", "system/control.yaml:/write/strain=0.02", "system/control.yaml:/checkpoint/keep=3",
-                                "system/observers.yaml:/deformation/every=0.02 strain", "system/numerics.yaml:/retreats=2")):
+                                "system/observers.yaml:/deformation/every=0.02 strain", "system/numerics.yaml:/rollbacks=2")):
         text = said(copied(start, folder / f"free{k}"), "-steps", "2", *sets(change))
         assert "Restart from" in text and "changed at the restart" not in text, text
     # The laws go with the cell, whatever their entry is called.
@@ -279,7 +279,7 @@ def test_refused(folder):
     unchanged(case, "particleFill", *sets("system/mesh.yaml:/cells/0/centre=[1 um, 0 um, 0 um]"), code=2)  # of another mesh
     # A run that fails keeps its reason in the log.
     diverging = sets("constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}", "constant/flow.yaml:/Ca=2",
-                     "system/control.yaml:/endStrain=20", "system/numerics.yaml:/retreats=0")
+                     "system/control.yaml:/endStrain=20", "system/numerics.yaml:/rollbacks=0")
     reason = run(case, "dmpFlow", *diverging, code=3).stderr.strip()
     assert reason and reason in (case / "log.dmpFlow").read_text(), reason
     # membraneRelax
@@ -351,7 +351,7 @@ def test_lock(folder):
     # Failures of the case, of the numbers, and a signal before the first step.
     run(case, "dmpFlow", *sets("system/numerics.yaml:/kernel=lucy"), code=2)
     assert not lock.exists()
-    diverging = sets("constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}", "constant/flow.yaml:/Ca=2", "system/numerics.yaml:/retreats=0",
+    diverging = sets("constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}", "constant/flow.yaml:/Ca=2", "system/numerics.yaml:/rollbacks=0",
                      "system/control.yaml:/startFrom=firstTime")
     for ranks in (1, 2):
         run(case, "dmpFlow", *diverging, code=3, ranks=ranks)

@@ -838,7 +838,7 @@ def test_stop(folder):
     run(case, "dmpFlow", "-set", "system/control.yaml:/stop/wallClock=1 s", code=5)
 
 
-def test_retreat(folder):
+def test_rollback(folder):
     """A fault in the state: back and on with shorter steps, to the same end; one that comes again and again ends the run with all that helps to find it."""
     implicit = CELL_CASE["system/numerics.yaml"].replace("integrator: velocityVerlet\ncoupling: dualIdentity\n", "integrator: implicit\n")
     implicit = implicit.replace("shifting: {coefficient: 0.5, steps: 7}\n", "implicit: {step: 0.01}\n")
@@ -853,12 +853,12 @@ def test_retreat(folder):
         calm = copied(case, folder / (name + "Calm"))
         run(calm, "faultInjection", "-at", "1000000")
         expected, count = figures(calm)
-        assert json.loads((calm / "run.json").read_text())["performance"]["retreats"] == 0
+        assert json.loads((calm / "run.json").read_text())["performance"]["rollbacks"] == 0
         for kind in ("nan", "speed", "node", "triangle"):
             harmed = copied(case, folder / f"{name}-{kind}")
             run(harmed, "faultInjection", "-kind", kind, "-at", str(at), "-seed", "5", ranks=ranks)
             record = json.loads((harmed / "run.json").read_text())
-            assert record["performance"]["retreats"] >= 1, kind
+            assert record["performance"]["rollbacks"] >= 1, kind
             found, rows = figures(harmed)
             assert rows == count, f"{name}, {kind}: {rows} rows, {count} without the fault"
             for key in ("D12_extent", "inclination_rad"):
@@ -866,9 +866,9 @@ def test_retreat(folder):
         harmed = copied(case, folder / (name + "Always"))
         options = ("-kind", "nan", "-at", str(at), "-seed", "5")
         said = run(harmed, "faultInjection", *options, "-always", ranks=ranks, code=3).stderr
-        assert "4 retreats" in said and "results/fault.pvd" in said and "checkpoint" in said, said
+        assert "4 rollbacks" in said and "results/fault.pvd" in said and "checkpoint" in said, said
         record = json.loads((harmed / "run.json").read_text())
-        assert record["status"] == "failed" and len(record["fault"]["place_m"]) == 3 and record["performance"]["retreats"] == 4, record
+        assert record["status"] == "failed" and len(record["fault"]["place_m"]) == 3 and record["performance"]["rollbacks"] == 4, record
         assert (harmed / "results/fault.pvd").exists() and (harmed / "results/fault_rbc.pvd").exists()
         run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
         found, _ = figures(harmed)
@@ -876,7 +876,7 @@ def test_retreat(folder):
         if name == "implicit":  # what is taken for a membrane is one
             run(harmed, "renderCase", "-times", "0,0.3", "-output", str(harmed / "cells.png"))
         never = copied(case, folder / (name + "Never"))
-        run(never, "faultInjection", *options, "-set", "system/numerics.yaml:/retreats=0", code=3)
+        run(never, "faultInjection", *options, "-set", "system/numerics.yaml:/rollbacks=0", code=3)
         assert not list(never.glob("checkpoints/*.h5"))
     # Two cells, one of them moved into the other.
     cells = "".join(f"  - {{name: {name}, membrane: rbc, shape: {{type: sphere, radius: 2.5 um}}, edge: 1 um, centre: [{x} um, 0 um, 0 um]}}\n"
@@ -888,7 +888,7 @@ def test_retreat(folder):
         harmed = copied(two, folder / f"two{ranks}")
         said = run(harmed, "faultInjection", "-kind", "cells", "-at", "7", ranks=ranks, code=3).stderr
         assert "the cells 'left' and 'right' touch or cross at (" in said and "no contact law" in said and "take a smaller" not in said, said
-        assert json.loads((harmed / "run.json").read_text())["performance"]["retreats"] == 0
+        assert json.loads((harmed / "run.json").read_text())["performance"]["rollbacks"] == 0
         run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
 
 
@@ -903,7 +903,7 @@ def test_endings(folder):
     assert "viscosity" in run(case, "dmpFlow", "-set", "constant/fluid.yaml:/viscosty=1 Pa s", code=2).stderr
     for ranks in (1, 2):  # said once, whichever rank it befell
         said = run(case, "dmpFlow", "-set", "constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}",
-                   "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", "-set", "system/numerics.yaml:/retreats=0",
+                   "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", "-set", "system/numerics.yaml:/rollbacks=0",
                    ranks=ranks, code=3).stderr
         assert said.count("diverged") == 1 and "[rank" not in said, said
     for extra in ("results", "postProcessing", "checkpoints"):

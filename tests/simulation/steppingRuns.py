@@ -89,7 +89,7 @@ def test_strain(folder):
         assert abs(rows[-1][0] - rows[-2][0] - 0.1 / 600) < 1e-12, rows
         assert abs(record(where)["result"]["strain"] - 0.6) < 1e-15
         assert abs(record(where)["result"]["time_s"] - first - 0.3 / 600) < 1e-12
-    assert record(harmed)["performance"]["retreats"] == 1
+    assert record(harmed)["performance"]["rollbacks"] == 1
     # And back to the first rate, where no strain is left: the end is reached already.
     run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=0.5")
     assert abs(record(case)["result"]["strain"] - 0.6) < 1e-15
@@ -113,7 +113,7 @@ def test_creeping(folder):
     explicit = prepared(folder / "explicit")
     for kind, at in (("nan", "3"), ("nan", "4")):  # between two looks at the state
         case = copied(explicit, folder / f"{kind}{at}")
-        said = run(case, "faultInjection", "-kind", kind, "-at", at, "-seed", at, "-steps", "5", "-set", "system/numerics.yaml:/retreats=0", code=3).stderr
+        said = run(case, "faultInjection", "-kind", kind, "-at", at, "-seed", at, "-steps", "5", "-set", "system/numerics.yaml:/rollbacks=0", code=3).stderr
         assert "no finite" in said, said
         assert not list(case.glob("checkpoints/*.h5")), kind
 
@@ -129,8 +129,8 @@ def test_burst(folder):
         assert json.loads(found.stdout)["predicted_s"] > 0
         assert before == sorted(str(p) for p in case.rglob("*") if not p.name.startswith("log.")), "nothing is written"
         run(case, "dmpFlow", *more)
-        print(case.name, record(case)["performance"]["retreats"], found.stderr)
-        assert (record(case)["performance"]["retreats"] > 0) == ("Back to step" in found.stderr), found.stderr
+        print(case.name, record(case)["performance"]["rollbacks"], found.stderr)
+        assert (record(case)["performance"]["rollbacks"] > 0) == ("Back to step" in found.stderr), found.stderr
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ def check(programs, cell, case):
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         D = float(rows[-1]["D12_inertia"])
         print(f"{what}: {record['performance']['steps']} steps, {record['performance']['wallClock_s']:.1f} s, "
-              f"{record['performance']['retreats']} rollbacks, D12 {float(rows[0]['D12_inertia']):.4f} -> {D:.4f}", flush=True)
+              f"{record['performance']['rollbacks']} rollbacks, D12 {float(rows[0]['D12_inertia']):.4f} -> {D:.4f}", flush=True)
         if record["result"]["strain"] != 0.5 or len(rows) != 6:
             faults.append(f"{what}: ended at strain {record['result']['strain']} with {len(rows)} rows")
         if not math.isfinite(D) or D > 0.9:

@@ -20,7 +20,7 @@
 #include "schemes/cost.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
-#include "simulation/retreat.hpp"
+#include "simulation/rollback.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
 #include "simulation/schedule.hpp"
@@ -307,8 +307,8 @@ void reportRun(Report& report, const simulation::Case& input) {
     const double dt = time.dt;
     Timing timing(report);
     const auto begin = std::chrono::steady_clock::now();
-    simulation::Retreat step(input, scene, time, integrator,
-                             app.log());  // as the solver steps, and back where it would go back
+    simulation::Rollback step(input, scene, time, integrator,
+                              app.log());  // as the solver steps, and back where it would go back
     int made = 0;
     for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) {
         made += step.advance();

@@ -1,4 +1,4 @@
-#include "simulation/watch.hpp"
+#include "simulation/stateCheck.hpp"
 
 #include <fmt/format.h>
 
@@ -39,13 +39,13 @@ std::string words(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) 
 
 }  // namespace
 
-Watch::Watch(const Case& input, const Scene& scene) : input_(input) {
+StateCheck::StateCheck(const Case& input, const Scene& scene) : input_(input) {
     particles_ = Communicator(scene.system->comm()).sum(static_cast<long>(scene.system->owned()));
     lengths_.resize(scene.cells.size());
     take(scene);
 }
 
-void Watch::take(const Scene& scene) {
+void StateCheck::take(const Scene& scene) {
     const auto& s = scene.store();
     double most = 0;
     for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.velocity(i).squaredNorm());
@@ -57,14 +57,14 @@ void Watch::take(const Scene& scene) {
 }
 
 // Where every rank holds every cell, each looks at its share of them.
-bool Watch::isMine(const Scene& scene, std::size_t index) const {
+bool StateCheck::isMine(const Scene& scene, std::size_t index) const {
     const particles::Decomposition& ranks = scene.system->decomposition();
     if (!scene.cells[index].held) return false;
     return !input_.numerics.isImmersed() ||
            index % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
 }
 
-Fault Watch::find(const Scene& scene, const Time& time) {
+Fault StateCheck::find(const Scene& scene, const Time& time) {
     ++lookedAt_;
     const MPI_Comm comm = scene.system->comm();
     const Communicator ranks(comm);
@@ -96,7 +96,7 @@ Fault Watch::find(const Scene& scene, const Time& time) {
     return {};
 }
 
-Fault Watch::ofParticles(const Scene& scene, const Time& time, double& fastest2) const {
+Fault StateCheck::ofParticles(const Scene& scene, const Time& time, double& fastest2) const {
     const auto& s = scene.store();
     const sph::FluidModel& model = scene.model();
     const double scale2 = std::max(fastest2_, input_.flow.speed * input_.flow.speed);
@@ -126,7 +126,7 @@ Fault Watch::ofParticles(const Scene& scene, const Time& time, double& fastest2)
     return {};
 }
 
-bool Watch::isSuspicious(const Membrane& m) const {
+bool StateCheck::isSuspicious(const Membrane& m) const {
     const membrane::Network& network = m.network();
     const std::vector<Index3>& triangles = network.triangles();
     std::vector<Vec3> normals(triangles.size());
@@ -144,7 +144,7 @@ bool Watch::isSuspicious(const Membrane& m) const {
 }
 
 // The first bond that has changed too much since the last look, null: none; takes up the lengths of now. No lengths yet: nothing to compare.
-const Bond* Watch::compareBonds(const Membrane& m, std::vector<double>& lengths) {
+const Bond* StateCheck::compareBonds(const Membrane& m, std::vector<double>& lengths) {
     const bool isFirst = lengths.empty();
     lengths.resize(m.network().allBonds().size());
     for (const Bond& bond : m.network().bonds()) {
@@ -156,7 +156,7 @@ const Bond* Watch::compareBonds(const Membrane& m, std::vector<double>& lengths)
     return nullptr;
 }
 
-Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
+Fault StateCheck::ofCell(const Scene& scene, std::size_t index, const Time& time) {
     const Cell& cell = scene.cells[index];
     const Membrane& m = cell.membrane;
     const auto when = [&] {
@@ -187,7 +187,7 @@ Fault Watch::ofCell(const Scene& scene, std::size_t index, const Time& time) {
 
 // Of closed cells that this rank holds and of bodies, against each other, their periodic images and walls. Where all
 // ranks know all, each looks at its share.
-Fault Watch::ofSurfaces(const Scene& scene, const Time& time) const {
+Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
     struct Surface {
         std::string name;
         geometry::SurfaceView view;
@@ -263,7 +263,7 @@ Fault Watch::ofSurfaces(const Scene& scene, const Time& time) const {
     return {};
 }
 
-void Watch::requireFinite(const Scene& scene, const Time& time, const std::string& what) {
+void StateCheck::requireFinite(const Scene& scene, const Time& time, const std::string& what) {
     const auto& s = scene.store();
     std::string text;
     for (std::size_t i = 0; i < s.size() && text.empty(); ++i) {
@@ -285,7 +285,7 @@ void Watch::requireFinite(const Scene& scene, const Time& time, const std::strin
                   ExitCode::numerics);
 }
 
-Vec3 Watch::suspect(const Scene& scene) {
+Vec3 StateCheck::suspect(const Scene& scene) {
     const auto& s = scene.store();
     double most = -1;
     Vec3 place = Vec3::Zero();

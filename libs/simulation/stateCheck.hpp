@@ -31,9 +31,9 @@ struct Fault {
     explicit operator bool() const { return !text.empty(); }
 };
 
-class Watch {
+class StateCheck {
   public:
-    Watch(const Case& input, const coupling::Scene& scene);
+    StateCheck(const Case& input, const coupling::Scene& scene);
 
     // The first fault that there is, the same on all ranks. What is sound is what the next look compares with. Collective.
     Fault find(const coupling::Scene& scene, const Time& time);

@@ -1,4 +1,4 @@
-#include "simulation/retreat.hpp"
+#include "simulation/rollback.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ namespace {
 constexpr long goodStepsToRelax = 10;                    // past a fault
 constexpr double surroundings = 5;                       // supports
 constexpr double leastStep = 1e-7, leastAdvance = 1e-4;  // of a full step
-constexpr long triesToLook = 200;                        // at progress since the last retreat
+constexpr long triesToLook = 200;                        // at progress since the last rollback
 constexpr double mostSteps = 1e9;                        // of a run
 constexpr auto patience = std::chrono::seconds(10);      // for ranks on their way with the same failure
 // What to do about a limit of the step that lets a run come no further.
@@ -31,12 +31,12 @@ std::string cureOf(const sph::StepLimit& limit) {
 }
 }  // namespace
 
-Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule& schedule, Log& log)
-    : Retreat(input, scene, time, integrator, &schedule, log) {}
-Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Log& log)
-    : Retreat(input, scene, time, integrator, nullptr, log) {}
+Rollback::Rollback(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule& schedule, Log& log)
+    : Rollback(input, scene, time, integrator, &schedule, log) {}
+Rollback::Rollback(const Case& input, Scene& scene, Time& time, Integrator& integrator, Log& log)
+    : Rollback(input, scene, time, integrator, nullptr, log) {}
 
-Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule* schedule, Log& log)
+Rollback::Rollback(const Case& input, Scene& scene, Time& time, Integrator& integrator, Schedule* schedule, Log& log)
     : input_(input),
       scene_(scene),
       time_(time),
@@ -44,10 +44,10 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
       schedule_(schedule),
       log_(log),
       traits_(input.scheme().traits()),
-      watch_(input, scene),
+      check_(input, scene),
       meeting_(MPI_COMM_NULL) {
     MPI_Comm_dup(scene.system->comm(), &meeting_);
-    if (schedule_) schedule_->record().set("performance", "retreats", count_);
+    if (schedule_) schedule_->record().set("performance", "rollbacks", count_);
     full_ = input.scheme().fullStep(input.facts(), time.dt);
     furthest_.t = lookNear_.t = lookFar_.t = time.t;
     if (const double steps = time.left() / full_; !time.lastStep && steps > mostSteps)
@@ -58,15 +58,15 @@ Retreat::Retreat(const Case& input, Scene& scene, Time& time, Integrator& integr
                         steps, full_, integrator.limits().binding().name, cureOf(integrator.limits().binding())));
 }
 
-Retreat::~Retreat() { MPI_Comm_free(&meeting_); }
+Rollback::~Rollback() { MPI_Comm_free(&meeting_); }
 
 // Half, a quarter ... of the step that failed first.
-double Retreat::longest() const {
+double Rollback::longest() const {
     return inRow_ > 0 ? std::ldexp(failed_, -static_cast<int>(inRow_)) : std::numeric_limits<double>::infinity();
 }
 
-bool Retreat::advance() {
-    if (input_.numerics.retreats > 0 && (good_[0].step < 0 || time_.step >= good_[0].step + traits_.stepsPerKeptState))
+bool Rollback::advance() {
+    if (input_.numerics.rollbacks > 0 && (good_[0].step < 0 || time_.step >= good_[0].step + traits_.stepsPerKeptState))
         remember();
     if (const Fault stall = creeping()) end(stall, "", cureOf(integrator_.limits().binding()));
     const Fault fault = step();
@@ -82,7 +82,7 @@ bool Retreat::advance() {
 }
 
 // What is wrong after one; nothing where all is well.
-Fault Retreat::step() {
+Fault Rollback::step() {
     const schemes::Stepper& stepper = integrator_.stepper();
     const long before = stepper.tries();
     bool isEvent = false;
@@ -94,14 +94,14 @@ Fault Retreat::step() {
     } catch (const Failure& failure) {
         if (failure.code() != ExitCode::numerics || !allFailed()) throw;
         furthest_.tries += std::max(1L, stepper.tries() - before);
-        return {failure.what(), Watch::suspect(scene_)};
+        return {failure.what(), StateCheck::suspect(scene_)};
     }
     if (time_.step % traits_.stepsPerLook != 0 && !isEvent && time_.running()) return {};
-    return watch_.find(scene_, time_);
+    return check_.find(scene_, time_);
 }
 
 // A rank that failed alone leaves the others waiting within the step: then there is no way back, and the failure goes on to end the run.
-bool Retreat::allFailed() {
+bool Rollback::allFailed() {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibarrier(meeting_, &request);
     const auto start = std::chrono::steady_clock::now();
@@ -113,7 +113,7 @@ bool Retreat::allFailed() {
     return false;
 }
 
-void Retreat::remember() {
+void Rollback::remember() {
     std::swap(good_[0], good_[1]);
     Good& good = good_[0];
     simulation::remember(good.state, input_, scene_, time_, {.integrator = integrator_.state(time_), .observers = {}});
@@ -121,45 +121,45 @@ void Retreat::remember() {
     good.t = time_.t, good.step = time_.step;
 }
 
-void Retreat::goBack(Good& good) {
+void Rollback::goBack(Good& good) {
     const RunState state = recall(good.state, input_, scene_, time_);
     integrator_.goBack(state.integrator, time_);
     integrator_.shorten(longest(), inRow_ > 1);
     time_.dt = std::min(time_.dt, longest());
     if (schedule_) schedule_->goBack(good.schedule, scene_, time_);
-    watch_.take(scene_);
+    check_.take(scene_);
     goodSteps_ = 0;
     lookNear_ = {furthest_.tries, time_.t};
 }
 
-void Retreat::report(const Fault& fault) {
+void Rollback::report(const Fault& fault) {
     faultTime_ = inRow_ > 0 ? std::max(faultTime_, time_.t) : time_.t;
     if (inRow_ == 0) failed_ = integrator_.tried();
-    const long most = input_.numerics.retreats;
+    const long most = input_.numerics.rollbacks;
     if (fault.isGeometric)
         end(fault, "a shorter step would not help", "place cells further apart, or end the run earlier");
     if (inRow_ < most) {
         ++inRow_, ++count_;
-        if (schedule_) schedule_->record().set("performance", "retreats", count_);
+        if (schedule_) schedule_->record().set("performance", "rollbacks", count_);
         if (inRow_ > 2 && good_[1].step >= 0) std::swap(good_[0], good_[1]), good_[1].step = -1;
         log_.warning("{}. Back to step {}, t = {:.6g} s, and on with 1/{} of the step{}", fault.text, good_[0].step,
                      good_[0].t, 1L << inRow_, inRow_ > 1 && traits_.hasDampedSteps ? ", by backward Euler" : "");
         goBack(good_[0]);
         return;
     }
-    end(fault, most > 0 ? fmt::format("{} retreats with steps down to 1/{} did not help", most, 1L << most) : "",
+    end(fault, most > 0 ? fmt::format("{} rollbacks with steps down to 1/{} did not help", most, 1L << most) : "",
         fmt::format("take a smaller '{}' in system/numerics.yaml, or a finer mesh or spacing", traits_.stepKey));
 }
 
-void Retreat::end(const Fault& fault, const std::string& tried, const std::string& cure) {
+void Rollback::end(const Fault& fault, const std::string& tried, const std::string& cure) {
     throw Failure(ExitCode::numerics,
                   fault.text + keepFault(fault) + (tried.empty() ? "" : ". " + tried) + ": " + cure);
 }
 
-std::string Retreat::keepFault(const Fault& fault) {
+std::string Rollback::keepFault(const Fault& fault) {
     if (!schedule_) return "";
     std::string where = "; its surroundings are in " + writeFault(input_, scene_, time_, fault.place);
-    if (input_.numerics.retreats > 0) {
+    if (input_.numerics.rollbacks > 0) {
         goBack(good_[0]);
         schedule_->saveCheckpoint(scene_, time_);
         where += fmt::format(", and a checkpoint of the last good state, t = {:.6g} s, is written", time_.t);
@@ -170,21 +170,21 @@ std::string Retreat::keepFault(const Fault& fault) {
     return where;
 }
 
-Fault Retreat::creeping() {
+Fault Rollback::creeping() {
     const sph::StepLimit bound = integrator_.limits().binding();
     const auto because = [&](const std::string& what) {
         faultTime_ = time_.t;
         return Fault{
             fmt::format("step {}, t = {:.6g} s: {}. A full step is {:.3g} s; the limit '{}' holds it at {:.3g} s, "
-                        "after {} retreat{} since the start",
+                        "after {} rollback{} since the start",
                         time_.step, time_.t, what, full_, bound.name, bound.seconds, count_, count_ == 1 ? "" : "s"),
-            Watch::suspect(scene_)};
+            StateCheck::suspect(scene_)};
     };
     if (time_.dt < leastStep * full_)
         return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
-    // Steps since the last retreat; and, so that a run does not go back and forth for ever, all steps, over more of
+    // Steps since the last rollback; and, so that a run does not go back and forth for ever, all steps, over more of
     // them than it takes to come past a fault from the earlier state by the shortest step.
-    const long toPassFault = 4 * traits_.stepsPerKeptState << std::min(input_.numerics.retreats, 20L);
+    const long toPassFault = 4 * traits_.stepsPerKeptState << std::min(input_.numerics.rollbacks, 20L);
     for (const auto& [look, now, enough] : {std::tuple(&lookNear_, Progress{furthest_.tries, time_.t}, triesToLook),
                                             std::tuple(&lookFar_, furthest_, std::max(triesToLook, toPassFault))}) {
         const long tries = now.tries - look->tries;
