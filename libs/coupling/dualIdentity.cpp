@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/communicator.hpp"
+
 namespace corpuscle::coupling {
 
 using particles::ParticleSystem;
