@@ -168,27 +168,27 @@ void Bodies::addAccelerations(ParticleSystem&) {
     }
 }
 
-void Bodies::addRates(const ParticleSystem& system, const sph::FluidForces&, sph::Account::Values& rates) const {
+void Bodies::addRates(const ParticleSystem& system, const sph::FluidForces&, sph::Budget::Values& rates) const {
     if (system.decomposition().rank() != 0) return;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         addRates(system, bodies_[b], groups_.motion[b], rates);
         if (bodies_[b].behaviour->yields())
-            rates[sph::Account::kinetic] += groups_.motion[b].linear.dot(bodies_[b].wrench.force) +
-                                            groups_.motion[b].angular.dot(bodies_[b].wrench.torque);
+            rates[sph::Budget::kinetic] += groups_.motion[b].linear.dot(bodies_[b].wrench.force) +
+                                           groups_.motion[b].angular.dot(bodies_[b].wrench.torque);
     }
 }
 
 void Bodies::addRates(const ParticleSystem& system, const Body& body, const RigidMotion& motion,
-                      sph::Account::Values& rates) const {
+                      sph::Budget::Values& rates) const {
     const Vec3 byBodyForce = medium_.density * body.solid.volume * medium_.bodyForce;
     if (body.behaviour->yields()) {
         const Vec3 x = system.box().minimumImage(body.state.centre - system.box().middle());
-        sph::Account::addBodyForce(rates, motion.linear, x, byBodyForce);
+        sph::Budget::addBodyForce(rates, motion.linear, x, byBodyForce);
         return;
     }
     const Vec3 onFluid = byBodyForce - body.wrench.force;
-    rates[sph::Account::ofBodies] += motion.linear.dot(onFluid) - motion.angular.dot(body.wrench.torque);
-    sph::Account::add(rates, sph::Account::givenBodies, onFluid);
+    rates[sph::Budget::ofBodies] += motion.linear.dot(onFluid) - motion.angular.dot(body.wrench.torque);
+    sph::Budget::add(rates, sph::Budget::givenBodies, onFluid);
 }
 
 void Bodies::kicked(ParticleSystem& system, double dt) {

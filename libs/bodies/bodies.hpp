@@ -41,10 +41,10 @@ class Bodies : public sph::Load {
     void addAccelerations(particles::ParticleSystem& system) override;
     void kicked(particles::ParticleSystem& system, double dt) override;
     void addRates(const particles::ParticleSystem& system, const sph::FluidForces& forces,
-                  sph::Account::Values& rates) const override;
+                  sph::Budget::Values& rates) const override;
     // The same of one body of this motion, acted on by its wrench; on the root only.
     void addRates(const particles::ParticleSystem& system, const Body& body, const RigidMotion& motion,
-                  sph::Account::Values& rates) const;
+                  sph::Budget::Values& rates) const;
 
     // For whoever steps bodies and particles in another way: who of the bodies' particles is here, after particles have changed their
     // order; and these to their places, the images nearest to where they are.

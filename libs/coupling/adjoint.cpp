@@ -21,10 +21,10 @@ std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long nu
         if (!cell.membrane.canRupture()) continue;
         std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
         if (broken.empty()) continue;
-        const bool counts = scene.account.kept && scene.system->decomposition().rank() == 0;
+        const bool counts = scene.budget.kept && scene.system->decomposition().rank() == 0;
         const double before = counts ? cell.membrane.energy() : 0;
         cell.membrane.breakBonds(broken);
-        if (counts) scene.account.total[sph::Account::released] += before - cell.membrane.energy();
+        if (counts) scene.budget.total[sph::Budget::released] += before - cell.membrane.energy();
         events.push_back({cell.membrane.cell, std::move(broken)});
     }
     return events;

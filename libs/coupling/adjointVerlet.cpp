@@ -97,7 +97,7 @@ class Verlet final : public AdjointVerlet {
         field_.resize(width * n);
         for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
         operators_.apply(*scene_.system, field_, [&](std::size_t i, double) { return pressure_[i]; });
-        const bool keeps = scene_.account.kept;
+        const bool keeps = scene_.budget.kept;
         if (keeps) findRates();
         if (!immersed_) return;
         immersed_->place(*scene_.system, operators_.volumes());
@@ -113,7 +113,7 @@ class Verlet final : public AdjointVerlet {
         if (keeps) addMembraneRates(viscous);
     }
 
-    // Of the account (sph/account.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
+    // Of the budget (sph/budget.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
     double power() const {
         double sum = 0;
         for (std::size_t i = 0; i < store().size(); ++i) sum += velocityUsed(i).dot(force(i));
@@ -125,23 +125,23 @@ class Verlet final : public AdjointVerlet {
         for (std::size_t i = 0; i < store().size(); ++i)
             compression -= operators_.volume(i) * pressure_[i] * operators_.divergence(i);
         fluidPower_ = power();
-        rates_[sph::Account::compression] = compression;
-        rates_[sph::Account::viscous] = -fluidPower_ - compression;
+        rates_[sph::Budget::compression] = compression;
+        rates_[sph::Budget::viscous] = -fluidPower_ - compression;
     }
     // viscous: power of the membranes' viscosity, the same on all ranks.
     void addMembraneRates(double viscous) {
         const double own = scene_.system->decomposition().rank() == 0 ? viscous : 0;
-        rates_[sph::Account::inMembranes] = -own;
-        rates_[sph::Account::elastic] = own - (power() - fluidPower_);
+        rates_[sph::Budget::inMembranes] = -own;
+        rates_[sph::Budget::elastic] = own - (power() - fluidPower_);
     }
     void addRatesOfParticle(std::size_t i, const Vec3& middle) {
         const Vec3 u = velocityUsed(i), f = force(i), x = store().position(i) - middle;
         if (isFixed(i))
-            sph::Account::addWall(rates_, scene_.model().walls.isUpper(store().position(i)), u, x, -f);
+            sph::Budget::addWall(rates_, scene_.model().walls.isUpper(store().position(i)), u, x, -f);
         else {
             const Vec3& g = scene_.model().bodyForce;
-            if (!g.isZero()) sph::Account::addBodyForce(rates_, u, x, scene_.mass(i) * g);
-            rates_[sph::Account::kinetic] += u.dot(f + scene_.mass(i) * g);
+            if (!g.isZero()) sph::Budget::addBodyForce(rates_, u, x, scene_.mass(i) * g);
+            rates_[sph::Budget::kinetic] += u.dot(f + scene_.mass(i) * g);
         }
     }
     Vec3 velocityUsed(std::size_t i) const { return {field_[at(i)], field_[at(i) + 1], field_[at(i) + 2]}; }
@@ -151,7 +151,7 @@ class Verlet final : public AdjointVerlet {
     void accelerate(double dt, double extrapolation) {
         ParticleStore& s = scene_.store();
         const Vec3& g = scene_.model().bodyForce;
-        const bool keeps = scene_.account.kept;
+        const bool keeps = scene_.budget.kept;
         const Vec3 middle = scene_.system->box().middle();
         Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
         for (std::size_t i = 0; i < s.size(); ++i) {
@@ -170,7 +170,7 @@ class Verlet final : public AdjointVerlet {
             put(i, s.velocity(i));
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
-        if (keeps) scene_.account.add(dt, rates_);
+        if (keeps) scene_.budget.add(dt, rates_);
     }
 
     // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at the end of the
@@ -254,7 +254,7 @@ class Verlet final : public AdjointVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
-    sph::Account::Values rates_{};  // of the last evaluation
+    sph::Budget::Values rates_{};  // of the last evaluation
     double fluidPower_ = 0;
 };
 

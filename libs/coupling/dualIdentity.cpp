@@ -68,7 +68,7 @@ void DualIdentity::addAccelerations(ParticleSystem& system) {
     }
 }
 
-void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& forces, sph::Account::Values& rates) const {
+void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& forces, sph::Budget::Values& rates) const {
     std::vector<Vectors> viscous(cells_.size());  // of held cells
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         const membrane::Membrane& m = cells_[c].membrane;
@@ -83,12 +83,12 @@ void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& force
         all += u.dot(cells_[c].membrane.force[node]);
         if (!viscous[c].empty()) byViscosity += u.dot(viscous[c][node]);
     }
-    rates[sph::Account::kinetic] += all;
-    rates[sph::Account::elastic] -= all - byViscosity;
-    rates[sph::Account::inMembranes] -= byViscosity;
+    rates[sph::Budget::kinetic] += all;
+    rates[sph::Budget::elastic] -= all - byViscosity;
+    rates[sph::Budget::inMembranes] -= byViscosity;
 }
 
-std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt, sph::Account* account) {
+std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt, sph::Budget* budget) {
     ++steps_;
     std::vector<RuptureEvent> events;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -100,9 +100,9 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
         const bool owner = std::any_of(exchange_.owned().begin(), exchange_.owned().end(), [&](const auto& n) {
             return static_cast<std::size_t>(n.cell) == c && n.node == 0;
         });
-        const double before = account && owner ? membrane.energy() : 0;
+        const double before = budget && owner ? membrane.energy() : 0;
         membrane.breakBonds(broken);
-        if (account && owner) account->total[sph::Account::released] += before - membrane.energy();
+        if (budget && owner) budget->total[sph::Budget::released] += before - membrane.energy();
         events.push_back({membrane.cell, std::move(broken)});
     }
     const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };

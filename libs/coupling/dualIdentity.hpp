@@ -34,10 +34,10 @@ class DualIdentity : public sph::Load {
     void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) override;
     void addAccelerations(particles::ParticleSystem& system) override;
     void addRates(const particles::ParticleSystem& system, const sph::FluidForces& forces,
-                  sph::Account::Values& rates) const override;
+                  sph::Budget::Values& rates) const override;
 
-    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. account: null, or what is to be kept. Collective.
-    std::vector<RuptureEvent> endStep(particles::ParticleSystem& system, double dt, sph::Account* account = nullptr);
+    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. budget: null, or what is to be kept. Collective.
+    std::vector<RuptureEvent> endStep(particles::ParticleSystem& system, double dt, sph::Budget* budget = nullptr);
 
     LeakageGuard& guard() { return guard_; }
     const LeakageGuard& guard() const { return guard_; }

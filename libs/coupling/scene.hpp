@@ -21,7 +21,7 @@ struct Scene {
     std::vector<Cell> cells;                   // empty for a fluid alone
     std::unique_ptr<DualIdentity> coupling;    // none without cells
     std::vector<RuptureEvent> broken;          // at the last step
-    sph::Account account;                      // of energy and momentum; not kept unless an observer asks for it
+    sph::Budget budget;                        // of energy and momentum; not kept unless an observer asks for it
     long putBack = 0;    // fluid particles of this rank that had crossed a membrane and were put back, since the start
     double spacing = 0;  // dx [m]
 

@@ -10,7 +10,7 @@
 #include "implicit/disturbance.hpp"
 #include "implicit/movement.hpp"
 #include "implicit/preconditioner.hpp"
-#include "implicit/stepAccount.hpp"
+#include "implicit/stepBudget.hpp"
 
 namespace corpuscle::implicit {
 
@@ -39,7 +39,7 @@ class Step final : public ImplicitStep {
           system_(scene, options.form, options_.settings, immersed_.get(), isOnGrid(options.settings.preconditioner)),
           preconditioner_(makePreconditioner(options.settings.preconditioner, system_)),
           movement_(system_, options.shifting, noFlux_.get()),
-          account_(system_) {
+          budget_(system_) {
         allowed_ = firstStep(options_.settings, scene.flow.rate);
     }
 
@@ -130,7 +130,7 @@ class Step final : public ImplicitStep {
                 return false;
             }
             for (std::size_t k = 0; k < velocity_.size(); ++k) velocity_[k] += correction_[k];
-            if (scene_.account.kept) account_.addLeft(residual_, refinement == 0);
+            if (scene_.budget.kept) budget_.addLeft(residual_, refinement == 0);
             if (fault_ = system_.refusal(velocity_, system_.time().dt); !fault_.empty()) return false;
             if (system_.isLinear()) return true;
             const double enough = linearisation * linearisation * std::max(reference, c.energy);
@@ -196,7 +196,7 @@ class Step final : public ImplicitStep {
             if (system_.isPrescribed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += vectorAt(residual_, i);
         }
         scene_.forces->setWallForces(walls[0], walls[1]);
-        if (scene_.account.kept) account_.keep(velocity_, residual_, rate_);
+        if (scene_.budget.kept) budget_.keep(velocity_, residual_, rate_);
         state.reference = disturbanceOf(system_, velocity_, rate_);
         for (std::size_t i = 0; i < s.size(); ++i) {
             s.densityRate[i] = -s.density[i] * rate_[i];
@@ -212,7 +212,7 @@ class Step final : public ImplicitStep {
     System<Real> system_;
     std::unique_ptr<Preconditioner<Real>> preconditioner_;
     Movement<Real> movement_;
-    StepAccount<Real> account_;
+    StepBudget<Real> budget_;
     ConjugateGradients<Real> solver_;
     double planned_ = 0;  // length of the step but for an event [s]
     Field velocity_, residual_, correction_;

@@ -78,13 +78,13 @@ double MembraneTerm<Real>::power(const Field& v, const Field& w) {
 }
 
 template <class Real>
-void MembraneTerm<Real>::addRates(sph::Account::Values& rates) const {
+void MembraneTerm<Real>::addRates(sph::Budget::Values& rates) const {
     Vectors elastic = load_, viscous(nodes_.size(), Vec3::Zero());
     immersed_.addStiffness(-reach_.total(), nodes_, elastic);
     immersed_.addDamping(nodes_, viscous);
     for (std::size_t m = 0; m < nodes_.size(); ++m) {
-        rates[sph::Account::elastic] -= nodes_[m].dot(elastic[m]);
-        rates[sph::Account::inMembranes] -= nodes_[m].dot(viscous[m]);
+        rates[sph::Budget::elastic] -= nodes_[m].dot(elastic[m]);
+        rates[sph::Budget::inMembranes] -= nodes_[m].dot(viscous[m]);
     }
 }
 

@@ -14,7 +14,7 @@
 #include "coupling/immersed.hpp"
 #include "implicit/implicitSettings.hpp"
 #include "implicit/term.hpp"
-#include "sph/account.hpp"
+#include "sph/budget.hpp"
 
 namespace corpuscle::implicit {
 
@@ -40,8 +40,8 @@ class MembraneTerm final : public Term<Real> {
     void takeDefect() override;
     double power(const Field& v, const Field& w) override;
 
-    // What the velocity last given does for the account, the same on all ranks: power against elasticity and against viscosity.
-    void addRates(sph::Account::Values& rates) const;
+    // What the velocity last given does for the budget, the same on all ranks: power against elasticity and against viscosity.
+    void addRates(sph::Budget::Values& rates) const;
 
     // Of all nodes, for the velocity last given to addFirstForces, addForces or refusal.
     const Vectors& velocities() const { return nodes_; }

@@ -287,7 +287,7 @@ void RigidUnknowns<Real>::findWrenches(const RealArray& force) {
 }
 
 template <class Real>
-double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::Account::Values& rates) const {
+double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const {
     double continuation = 0;
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         const Body& body = bodies()[b];
@@ -298,8 +298,8 @@ double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::
         if (!isFree(b)) continue;
         const Vec3 force = body.solid.mass * (c1 * (now.linear - last.linear) - c2 * rate.linear),
                    torque = inertiaInSpace(body) * (c1 * (now.angular - last.angular) - c2 * rate.angular);
-        rates[sph::Account::kinetic] += now.linear.dot(force) + now.angular.dot(torque);
-        rates[sph::Account::ofSolver] +=
+        rates[sph::Budget::kinetic] += now.linear.dot(force) + now.angular.dot(torque);
+        rates[sph::Budget::ofSolver] +=
             now.linear.dot(body.wrench.force - force) + now.angular.dot(body.wrench.torque - torque - gyroscopic_[b]);
     }
     return continuation;

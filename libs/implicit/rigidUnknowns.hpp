@@ -32,7 +32,7 @@
 
 #include "coupling/scene.hpp"
 #include "implicit/term.hpp"
-#include "sph/account.hpp"
+#include "sph/budget.hpp"
 #include "sph/operators.hpp"
 
 namespace corpuscle::implicit {
@@ -92,8 +92,8 @@ class RigidUnknowns final : public Term<Real> {
     // Force and torque of the fluid, from the forces at the velocity found. Collective.
     void findWrenches(const particles::RealArray& force);
 
-    // What bodies do for the account at the velocity u found, after findWrenches; the power of the continuation on them is returned. This rank's part.
-    double addRates(double c1, double c2, const Field& u, sph::Account::Values& rates) const;
+    // What bodies do for the budget at the velocity u found, after findWrenches; the power of the continuation on them is returned. This rank's part.
+    double addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const;
 
     bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }
 

@@ -56,7 +56,7 @@ class System {
     void findForcesOnBodies(const Field& v);
     // Of what was found last [N].
     Vec3 force(std::size_t i) const { return particles::vectorAt(forces_, i); }
-    // w.(load - A v) of the terms outside the fluid's account [W]. Collective.
+    // w.(load - A v) of the terms outside the fluid's budget [W]. Collective.
     double power(const Field& v, const Field& w);
 
     // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms), 0 where the velocity is

@@ -48,7 +48,7 @@ class Term {
     virtual bool isLinear() const { return true; }
     virtual void addDefect(Forces&) {}
     virtual void takeDefect() {}
-    // w.(load - A v) [W] where it is not in the fluid's account: energy that the flow v gives to the disturbance w. The same on all ranks.
+    // w.(load - A v) [W] where it is not in the fluid's budget: energy that the flow v gives to the disturbance w. The same on all ranks.
     virtual double power(const Field& /*v*/, const Field& /*w*/) { return 0; }
 };
 

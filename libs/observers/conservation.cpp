@@ -1,6 +1,6 @@
-// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the account of energy and momentum, account.csv.
+// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the budget of energy and momentum, budget.csv.
 //
-// account.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is by geometry (cells.hpp);
+// budget.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is by geometry (cells.hpp);
 // leak is changedSide and guardMoves together. A torn cell's volume is that with its holes closed by fans.
 //
 // Expected: residualShare below 0.01, momentumDrift of rounding by explicit schemes and of the solver's tolerance by the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's membrane keeps its area
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/communicator.hpp"
-#include "observers/account.hpp"
+#include "observers/budget.hpp"
 #include "observers/cells.hpp"
 #include "observers/observer.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 class ConservationObservation : public Observation {
   public:
     ConservationObservation(std::vector<Table> tables, const Scene& scene) : Observation(std::move(tables)) {
-        if (scene.account.kept) book_.emplace(scene);
+        if (scene.budget.kept) book_.emplace(scene);
     }
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
@@ -104,7 +104,7 @@ class ConservationObservation : public Observation {
         for (const auto& cell : measured) row.insert(row.end(), cell.begin(), cell.begin() + 4);
     }
 
-    std::optional<AccountBook> book_;
+    std::optional<BudgetTable> book_;
 };
 
 std::vector<io::Column> columnsOf(const SceneParts& parts) {
@@ -135,10 +135,10 @@ struct ConservationObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    bool wantsAccount() const override { return true; }
+    bool wantsBudget() const override { return true; }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<Table> all{{"conservation", columnsOf(parts)}};
-        if (parts.account) all.push_back({"account", AccountBook::columns(parts)});
+        if (parts.budget) all.push_back({"budget", BudgetTable::columns(parts)});
         return all;
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {

@@ -44,7 +44,7 @@ SceneParts SceneParts::of(const Scene& scene) {
     parts.walls = scene.flow.walls.exist();
     parts.shear = scene.flow.shearRate != 0;
     parts.bodyForce = !scene.model().bodyForce.isZero();
-    parts.account = scene.account.kept;
+    parts.budget = scene.budget.kept;
     return parts;
 }
 

@@ -41,7 +41,7 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 struct SceneParts {
     std::vector<std::string> cells, bodies;  // their names
     bool walls = false, shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false,
-         rupture = false, account = false;
+         rupture = false, budget = false;
     static SceneParts of(const Scene& scene);
     // Everything, with cells and bodies "<cell>" and "<body>": for the documentation.
     static SceneParts all();
@@ -103,8 +103,8 @@ class Observer : public ObserverSettings {
     virtual ~Observer() = default;
     // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
     virtual std::string obstacle(const Subject&) const { return {}; }
-    // Whether the scene is to keep its account of energy and momentum (sph/account.hpp).
-    virtual bool wantsAccount() const { return false; }
+    // Whether the scene is to keep its budget of energy and momentum (sph/budget.hpp).
+    virtual bool wantsBudget() const { return false; }
     // What it writes of a scene with these parts.
     virtual std::vector<Table> tables(const SceneParts& parts) const = 0;
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;

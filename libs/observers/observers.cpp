@@ -29,8 +29,8 @@ void ObserversSettings::check(const Node& dictionary, const Subject& subject, Pr
     }
 }
 
-bool ObserversSettings::wantAccount() const {
-    return std::any_of(models.begin(), models.end(), [](const auto& entry) { return entry.second->wantsAccount(); });
+bool ObserversSettings::wantBudget() const {
+    return std::any_of(models.begin(), models.end(), [](const auto& entry) { return entry.second->wantsBudget(); });
 }
 
 namespace {

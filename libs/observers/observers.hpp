@@ -26,7 +26,7 @@ struct ObserversSettings {
     static const Schema<ObserversSettings>& schema();
     // Adds a problem for each observer that does not suit the subject, at its place in `dictionary`, from which these were read.
     void check(const Node& dictionary, const Subject& subject, Problems& problems) const;
-    bool wantAccount() const;  // whether any does
+    bool wantBudget() const;  // whether any does
 };
 
 class Observers {

@@ -30,7 +30,7 @@ class ExplicitStepper : public Stepper {
     virtual ExplicitRates estimate() = 0;
     virtual void setRates(const ExplicitRates&) {}
     virtual void addLimits(const ExplicitMedium& medium, double t, sph::StepLimits& limits) const;
-    sph::Account* account() { return scene_.account.kept ? &scene_.account : nullptr; }
+    sph::Budget* budget() { return scene_.budget.kept ? &scene_.budget : nullptr; }
 
     coupling::Scene& scene_;
     double safety_;

@@ -17,7 +17,7 @@ class Rkl2Stepper final : public ExplicitStepper {
         : ExplicitStepper(scene, numerics, stepsPerEstimate),
           settings_(settings),
           flow_(facts.flow),
-          step_(*scene.system, *scene.forces, scene.shifting.get(), account()) {}
+          step_(*scene.system, *scene.forces, scene.shifting.get(), budget()) {}
 
     void advance(double dt, double /*planned*/) override { step_.advance(dt); }
     // Its limits depend on the time.

@@ -26,13 +26,13 @@ class VelocityVerletStepper final : public ExplicitStepper {
         }
         if (scene.bodies) loads.push_back(scene.bodies.get());
         step_ =
-            std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads, account());
+            std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads, budget());
     }
 
     void advance(double dt, double /*planned*/) override {
         step_->advance(dt);
         if (!scene_.coupling) return;
-        scene_.broken = scene_.coupling->endStep(*scene_.system, dt, account());
+        scene_.broken = scene_.coupling->endStep(*scene_.system, dt, budget());
         scene_.putBack = scene_.coupling->guard().moves();
     }
     double largestDensityBalance() const override {

@@ -30,11 +30,11 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
     return result;
 }
 
-// Every rank's part of the account, rank after rank, the same on all.
-std::vector<double> gathered(const sph::Account& account, MPI_Comm comm) {
-    std::vector<double> own(account.total.begin(), account.total.end());
-    own.insert(own.end(), account.last.begin(), account.last.end());
-    own.push_back(account.lastKnown);
+// Every rank's part of the budget, rank after rank, the same on all.
+std::vector<double> gathered(const sph::Budget& budget, MPI_Comm comm) {
+    std::vector<double> own(budget.total.begin(), budget.total.end());
+    own.insert(own.end(), budget.last.begin(), budget.last.end());
+    own.push_back(budget.lastKnown);
     int ranks = 1;
     MPI_Comm_size(comm, &ranks);
     std::vector<double> all(own.size() * static_cast<std::size_t>(ranks));
@@ -43,14 +43,14 @@ std::vector<double> gathered(const sph::Account& account, MPI_Comm comm) {
     return all;
 }
 // A rank's own part where there are as many ranks; else all of it to the root.
-void restoreAccount(sph::Account& account, const std::vector<double>& all, bool sameRanks, int rank) {
-    constexpr std::size_t count = sph::Account::count, length = 2 * count + 1;
-    account.total.fill(0), account.last.fill(0);
+void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sameRanks, int rank) {
+    constexpr std::size_t count = sph::Budget::count, length = 2 * count + 1;
+    budget.total.fill(0), budget.last.fill(0);
     for (std::size_t part = 0; part < all.size() / length; ++part) {
         const double* values = all.data() + length * part;
-        account.lastKnown = values[2 * count] != 0;
+        budget.lastKnown = values[2 * count] != 0;
         if (sameRanks ? part != static_cast<std::size_t>(rank) : rank != 0) continue;
-        for (std::size_t k = 0; k < count; ++k) account.total[k] += values[k], account.last[k] += values[count + k];
+        for (std::size_t k = 0; k < count; ++k) budget.total[k] += values[k], budget.last[k] += values[count + k];
     }
 }
 
@@ -65,10 +65,11 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.writeReplicated(schemeName(input), state.integrator.scheme);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
-    if (!scene.cells.empty()) file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.putBack)));
+    if (!scene.cells.empty())
+        file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.putBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
-    if (scene.account.kept) file.writeReplicated("account", gathered(scene.account, comm));
+    if (scene.budget.kept) file.writeReplicated("budget", gathered(scene.budget, comm));
     scene.store().forEachField([&](std::string_view name, const auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
@@ -133,9 +134,9 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
         cell.membrane.restore({alive.begin(), alive.end()},
                               file.has(damage) ? file.template readReplicated<double>(damage) : std::vector<double>{});
     }
-    if (scene.account.kept && file.has("account"))
-        restoreAccount(scene.account, file.template readReplicated<double>("account"), file.sameRanks(),
-                       scene.system->decomposition().rank());
+    if (scene.budget.kept && file.has("budget"))
+        restoreBudget(scene.budget, file.template readReplicated<double>("budget"), file.sameRanks(),
+                      scene.system->decomposition().rank());
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.template readReplicated<double>("bodies/" + body.name + "/state"));

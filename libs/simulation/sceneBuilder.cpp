@@ -121,7 +121,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.spacing = input.spacing();
     scene.fluidBox = input.fluidBox();
     scene.flow = input.flow;
-    scene.account.kept = input.observers.wantAccount();
+    scene.budget.kept = input.observers.wantBudget();
     const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
     const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
                                          .viscosity = input.varyingViscosity(),

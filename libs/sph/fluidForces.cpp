@@ -107,7 +107,7 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     model_.equationOfState->specificPressure(density_.data(), pressure_.data(), system.owned(), model_.density,
                                              model_.soundSpeed);
     double* const results[4] = {s.fx.data(), s.fy.data(), s.fz.data(), s.densityRate.data()};
-    if (keepsAccount_) {
+    if (keepsBudget_) {
         const RealArray *const velocity[3] = {&s.u, &s.v, &s.w}, *const rate[3] = {&s.fx, &s.fy, &s.fz};
         for (int k = 0; k < 3; ++k) {
             used_[k].resize(n);
@@ -126,7 +126,7 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
     if (groups_)
         groups_->wrenches =
             groups_->gather(groups_->motion, s.fx.data(), s.fy.data(), s.fz.data(), s.mass.data(), system.comm());
-    if (keepsAccount_) findRates(system);
+    if (keepsBudget_) findRates(system);
     for (Vec3& f : wallForce_) f.setZero();
     for (const int i : wallParticles_) {
         const double mass = variant_.varyingMass ? s.mass[i] : model_.mass;
@@ -156,19 +156,19 @@ void FluidForces::findRates(const ParticleSystem& system) {
         power += force.dot(u);
         if (kind == Kind::wall) {
             const Vec3 x = s.position(i);
-            Account::addWall(rates_, model_.walls.isUpper(x), u, x - middle, -force);
+            Budget::addWall(rates_, model_.walls.isUpper(x), u, x - middle, -force);
             continue;
         }
         moving += force.dot(u);
-        if (!g.isZero()) Account::addBodyForce(rates_, u, s.position(i) - middle, mass * g);
+        if (!g.isZero()) Budget::addBodyForce(rates_, u, s.position(i) - middle, mass * g);
     }
     if (groups_ && system.decomposition().rank() == 0)
         for (std::size_t b = 0; b < groups_->motion.size(); ++b)
             power += groups_->motion[b].linear.dot(groups_->wrenches[b].force) +
                      groups_->motion[b].angular.dot(groups_->wrenches[b].torque);
-    rates_[Account::compression] = compression;
-    rates_[Account::viscous] = -power - compression;
-    rates_[Account::kinetic] = moving + rates_[Account::ofBodyForce];
+    rates_[Budget::compression] = compression;
+    rates_[Budget::viscous] = -power - compression;
+    rates_[Budget::kinetic] = moving + rates_[Budget::ofBodyForce];
 }
 
 void FluidForces::findWalls(const ParticleSystem& system) {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "particles/particleSystem.hpp"
-#include "sph/account.hpp"
+#include "sph/budget.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/kernel.hpp"
 #include "sph/rigidGroups.hpp"
@@ -38,10 +38,10 @@ class FluidForces {
     // set to zero.
     void evaluate(particles::ParticleSystem& system, double extrapolation);
 
-    // What the last evaluation does for the account (account.hpp), members of rigid groups and other loads left out; and the velocity of particle i
+    // What the last evaluation does for the budget (budget.hpp), members of rigid groups and other loads left out; and the velocity of particle i
     // that it was made with. Only where it is kept: it costs one loop over particles and the memory of their velocities.
-    void keepAccount() { keepsAccount_ = true; }
-    const Account::Values& rates() const { return rates_; }
+    void keepBudget() { keepsBudget_ = true; }
+    const Budget::Values& rates() const { return rates_; }
     Vec3 velocityUsed(std::size_t i) const { return {used_[0][i], used_[1][i], used_[2][i]}; }
 
     // Particles that are walls, found anew after each list build.
@@ -95,8 +95,8 @@ class FluidForces {
     particles::RealArray sums_, density_, pressure_, unused_;
     std::vector<int> wallParticles_;
     Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
-    bool keepsAccount_ = false;
-    Account::Values rates_{};
+    bool keepsBudget_ = false;
+    Budget::Values rates_{};
     particles::RealArray used_[3];
 };
 

@@ -41,11 +41,11 @@ void Rkl2Settings::addLimits(const FlowState& flow, double t, double lambda, Ste
     if (flow.transient > 0) limits.add("unsteady flow", accurateStep(flow, t, lambda));
 }
 
-Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting, Account* account)
-    : system_(system), forces_(forces), shifting_(shifting), account_(account) {
-    if (!account_) return;
-    forces_.keepAccount();
-    account_->lastKnown = false;  // of a checkpoint of another scheme
+Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting, Budget* budget)
+    : system_(system), forces_(forces), shifting_(shifting), budget_(budget) {
+    if (!budget_) return;
+    forces_.keepBudget();
+    budget_->lastKnown = false;  // of a checkpoint of another scheme
 }
 
 void Rkl2::start() {
@@ -76,7 +76,7 @@ void Rkl2::advance(double dt) {
     densityRate_ = s.densityRate;
     for (std::size_t i = 0; i < n; ++i) s.density[i] += half * s.densityRate[i];
     forces_.evaluate(system_, 0);
-    if (account_) account_->add(half, forces_.rates());
+    if (budget_) budget_->add(half, forces_.rates());
     findIncrement(dt);
     for (std::size_t i = 0; i < n; ++i) {
         s.u[i] += increment_[0][i], s.v[i] += increment_[1][i], s.w[i] += increment_[2][i];
@@ -84,7 +84,7 @@ void Rkl2::advance(double dt) {
     }
     densityRate_ = s.densityRate;
     forces_.evaluate(system_, 0);
-    if (account_) account_->add(half, forces_.rates());
+    if (budget_) budget_->add(half, forces_.rates());
     for (std::size_t i = 0; i < n; ++i) s.density[i] += half * (s.densityRate[i] - densityRate_[i]);
     drift(half);
 }

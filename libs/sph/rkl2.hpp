@@ -38,8 +38,8 @@ class Rkl2 final : public ExplicitScheme {
     // stable. Velocity Verlet's steps are seldom bound by it, those of RKL2 often.
     static constexpr double acousticReach = 3;
 
-    // account: null, or what is to be kept; its rates are the means of those with the velocities of the step's beginning and end, at x*.
-    Rkl2(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, Account* account = nullptr);
+    // budget: null, or what is to be kept; its rates are the means of those with the velocities of the step's beginning and end, at x*.
+    Rkl2(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, Budget* budget = nullptr);
 
     void start() override;
     void resume() override;
@@ -56,7 +56,7 @@ class Rkl2 final : public ExplicitScheme {
     particles::ParticleSystem& system_;
     FluidForces& forces_;
     Shifting* shifting_;
-    Account* account_;
+    Budget* budget_;
     double rate_ = 0;
     Vectors increment_, before_, viscous_;
     particles::RealArray densityRate_;

@@ -10,9 +10,9 @@ using particles::ParticleStore;
 using particles::ParticleSystem;
 
 VelocityVerlet::VelocityVerlet(ParticleSystem& system, FluidForces& forces, Shifting* shifting,
-                               std::vector<Load*> loads, Account* account)
-    : system_(system), forces_(forces), shifting_(shifting), loads_(std::move(loads)), account_(account) {
-    if (account_) forces_.keepAccount();
+                               std::vector<Load*> loads, Budget* budget)
+    : system_(system), forces_(forces), shifting_(shifting), loads_(std::move(loads)), budget_(budget) {
+    if (budget_) forces_.keepBudget();
 }
 
 void VelocityVerlet::start() {
@@ -52,10 +52,10 @@ void VelocityVerlet::advance(double dt) {
     }
     const bool rebuilt = system_.mustRebuild(displacement2);
     if (rebuilt) system_.rebuild();
-    if (account_ && account_->lastKnown) account_->add(half, account_->last);
-    const double after = account_ && account_->lastKnown ? half : dt;
+    if (budget_ && budget_->lastKnown) budget_->add(half, budget_->last);
+    const double after = budget_ && budget_->lastKnown ? half : dt;
     evaluate(half, rebuilt);  // Eqs 5, 6, 14
-    if (account_) account_->add(after, account_->last);
+    if (budget_) budget_->add(after, budget_->last);
 
     ParticleStore& t = system_.store();
     const int m = system_.owned();
@@ -73,10 +73,10 @@ void VelocityVerlet::evaluate(double extrapolation, bool rebuilt) {
     for (Load* load : loads_) load->moved(system_, extrapolation, rebuilt);
     forces_.evaluate(system_, extrapolation);
     for (Load* load : loads_) load->addAccelerations(system_);
-    if (!account_) return;
-    account_->last = forces_.rates();
-    for (const Load* load : loads_) load->addRates(system_, forces_, account_->last);
-    account_->lastKnown = true;
+    if (!budget_) return;
+    budget_->last = forces_.rates();
+    for (const Load* load : loads_) load->addRates(system_, forces_, budget_->last);
+    budget_->lastKnown = true;
 }
 
 }  // namespace corpuscle::sph

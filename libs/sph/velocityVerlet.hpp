@@ -30,15 +30,15 @@ class Load {
     virtual void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) = 0;
     // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
     virtual void addAccelerations(particles::ParticleSystem& system) = 0;
-    // What it does for the account of this evaluation, after addAccelerations; this rank's part.
-    virtual void addRates(const particles::ParticleSystem&, const FluidForces&, Account::Values&) const {}
+    // What it does for the budget of this evaluation, after addAccelerations; this rank's part.
+    virtual void addRates(const particles::ParticleSystem&, const FluidForces&, Budget::Values&) const {}
 };
 
 class VelocityVerlet final : public ExplicitScheme {
   public:
-    // account: null, or what is to be kept; its rates are added by the trapezoidal rule, as velocities are.
+    // budget: null, or what is to be kept; its rates are added by the trapezoidal rule, as velocities are.
     VelocityVerlet(particles::ParticleSystem& system, FluidForces& forces, Shifting* shifting, std::vector<Load*> loads,
-                   Account* account = nullptr);
+                   Budget* budget = nullptr);
 
     void start() override;  // with ubar = u
     void resume() override;
@@ -52,7 +52,7 @@ class VelocityVerlet final : public ExplicitScheme {
     FluidForces& forces_;
     Shifting* shifting_;
     std::vector<Load*> loads_;
-    Account* account_;
+    Budget* budget_;
 };
 
 }  // namespace corpuscle::sph

@@ -149,14 +149,14 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
 }
 
 // Energies and momentum of the state against what forces are said to have done, from a start at which both were not zero.
-TEST(Conservation, AccountOfWorkAndState) {
-    using sph::Account;
+TEST(Conservation, BudgetOfWorkAndState) {
+    using sph::Budget;
     Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
     couple(scene);
-    EXPECT_EQ(begin("{type: conservation, every: 10 steps}", scene)->tables().size(), 1u) << "no account is kept";
-    scene.account.kept = true;
+    EXPECT_EQ(begin("{type: conservation, every: 10 steps}", scene)->tables().size(), 1u) << "no budget is kept";
+    scene.budget.kept = true;
     const double ranks = Communicator().size();
-    scene.account.total.fill(7e-15);
+    scene.budget.total.fill(7e-15);
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
     const auto now = [&](const std::unique_ptr<Observation>& o, const std::string& header) {
         return value(*o, o->observe(scene, {}), header, 1);
@@ -184,11 +184,11 @@ TEST(Conservation, AccountOfWorkAndState) {
     for (const membrane::Bond& bond : scene.cells[0].membrane.network().allBonds())
         elastic += 0.5 * 5e-4 * 0.01 * bond.rest * bond.rest;
     const double kinetic = 0.5 * moving * 4e-6, stored = kinetic + compression + elastic, walls = 3 * stored;
-    const auto addTotal = [&](std::size_t entry, double sum) { scene.account.total[entry] += sum / ranks; };
-    addTotal(Account::ofWalls, walls), addTotal(Account::viscous, 1.9 * stored);
-    addTotal(Account::kinetic, kinetic + 0.06 * stored), addTotal(Account::elastic, elastic + 0.03 * stored);
-    addTotal(Account::compression, compression + 0.01 * stored);
-    addTotal(Account::lowerWall + 1, 1e-3 * moving), addTotal(Account::upperWall + 1, 0.8e-3 * moving);
+    const auto addTotal = [&](std::size_t entry, double sum) { scene.budget.total[entry] += sum / ranks; };
+    addTotal(Budget::ofWalls, walls), addTotal(Budget::viscous, 1.9 * stored);
+    addTotal(Budget::kinetic, kinetic + 0.06 * stored), addTotal(Budget::elastic, elastic + 0.03 * stored);
+    addTotal(Budget::compression, compression + 0.01 * stored);
+    addTotal(Budget::lowerWall + 1, 1e-3 * moving), addTotal(Budget::upperWall + 1, 0.8e-3 * moving);
     const double close = 1e-9 * stored;
     EXPECT_NEAR(now(observation, "workOfWalls_J"), walls, close);
     EXPECT_NEAR(now(observation, "stored_J"), elastic, close);

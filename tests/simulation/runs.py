@@ -189,7 +189,7 @@ def same_in_parts(whole, start, application, steps, *options, ranks=1, observers
     for observer in observers:
         assert series(whole, observer) == series(parts, observer), observer
         if observer == "balance":
-            assert series(whole, observer, "account.csv") == series(parts, observer, "account.csv"), "account"
+            assert series(whole, observer, "budget.csv") == series(parts, observer, "budget.csv"), "budget"
     return parts
 
 
@@ -303,8 +303,8 @@ def test_implicit(folder):
         assert f"integrator: the case now has {second}, but " in said and f"was written with {first}; start from firstTime" in said, said
 
 
-def test_account(folder):
-    """The account of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
+def test_budget(folder):
+    """The budget of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
     after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, adjoint.)"""
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
     short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
@@ -325,7 +325,7 @@ def test_account(folder):
         for ranks in (1, 2):
             case = copied(start, folder / f"{name}{ranks}")
             run(case, "dmpFlow", ranks=ranks)
-        last = rows[name] = table(folder / f"{name}1", "balance", "account.csv")[-1]
+        last = rows[name] = table(folder / f"{name}1", "balance", "budget.csv")[-1]
         print(name, {key: value for key, value in last.items() if key.endswith("_J") or key == "residualShare"})
         given = sum(last.get(key, 0) for key in ("workOfWalls_J", "workOfBodyForce_J", "workOfBodies_J"))
         taken = sum(last.get(key, 0) for key in ("dissipated_J", "stored_J", "released_J", "compressed_J", "kineticEnergy_J"))
@@ -336,30 +336,30 @@ def test_account(folder):
         drift = math.hypot(*(last[f"momentumDrift_{k}_Ns"] for k in "xyz"))
         exchanged = sum(math.hypot(*(last[f"impulseOf{wall}Wall_{k}_Ns"] for k in "xyz")) for wall in ("Lower", "Upper"))
         assert drift < (2e-3 if "mplicit" in name else 1e-3) * exchanged, (name, drift / exchanged)
-        other = table(folder / f"{name}2", "balance", "account.csv")[-1]
+        other = table(folder / f"{name}2", "balance", "budget.csv")[-1]
         for key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J", "kineticEnergy_J"):
             if key in last:
                 assert abs(last[key] - other[key]) <= agree * given, (name, key, last[key], other[key])
         record = json.loads((folder / f"{name}1" / "run.json").read_text())["observers"]["balance"]
         assert record["residualShare"] == last["residualShare"] and record["workOfWalls_J"] == last["workOfWalls_J"], record
         assert record["momentumDriftShare"] < 2e-3, record
-        assert "energy account: walls put in" in (folder / f"{name}1" / "log.dmpFlow").read_text()
+        assert "energy budget: walls put in" in (folder / f"{name}1" / "log.dmpFlow").read_text()
     assert rows["tearing"]["released_J"] > 0 and "released_J" not in rows["implicit"], rows["tearing"]
     assert rows["adjoint"]["dissipatedInMembranes_J"] > 1e-4 * rows["adjoint"]["dissipated_J"], rows["adjoint"]
     assert rows["drivenBody"]["workOfBodies_J"] > 0, rows["drivenBody"]
     # In two parts on another number of ranks.
-    whole = table(folder / "adjoint1", "balance", "account.csv")[-1]
+    whole = table(folder / "adjoint1", "balance", "budget.csv")[-1]
     case = copied(folder / "adjoint", folder / "parts")
     run(case, "dmpFlow", "-steps", "30", ranks=2)
     run(case, "dmpFlow", ranks=1)
-    ends = [float(value) for value in series(case, "balance", "account.csv")[-1]]
+    ends = [float(value) for value in series(case, "balance", "budget.csv")[-1]]
     for key, value in zip(["time_s", "strain"] + list(whole)[2:], ends):
         if key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J"):
             assert abs(value - whole[key]) < 1e-6 * whole["workOfWalls_J"], (key, value, whole[key])
     # RKL2: a fluid alone.
     case = prepared(folder / "rkl2", {**FLUID_CASE, "system/observers.yaml": "balance: {type: conservation, every: 0.1 s}\n"})
     run(case, "sphFlow", "-set", "system/numerics.yaml:/integrator=rkl2")
-    last = table(case, "balance", "account.csv")[-1]
+    last = table(case, "balance", "budget.csv")[-1]
     print("rkl2", last)
     assert last["residualShare"] < 1e-4 and "stored_J" not in last and last["dissipated_J"] > 0, last
 

@@ -35,7 +35,7 @@ def body(case, name):
     return [line for line in (case / "postProcessing" / name).read_text().splitlines() if not line.startswith("#")]
 
 
-NAMES = ["balance/account.csv", "balance/conservation.csv", "layers/profile.csv"]
+NAMES = ["balance/budget.csv", "balance/conservation.csv", "layers/profile.csv"]
 
 
 def prepared(folder):
@@ -97,7 +97,7 @@ def test_changed(folder):
     (kept,) = table.parent.glob("conservation.csv.until_*")
     assert kept.read_text() == before
     assert series(case, "balance", "conservation.csv")[0]["time_s"] > 0.1
-    assert series(case, "balance", "account.csv")[0]["time_s"] == 0
+    assert series(case, "balance", "budget.csv")[0]["time_s"] == 0
 
 
 def test_killed(folder):

@@ -1,4 +1,4 @@
-// Account of energy, momentum, mass and volume of a scene since somebody began to look (docs/theory/conservation.md); the columns of account.csv
+// Budget of energy, momentum, mass and volume of a scene since somebody began to look (docs/theory/conservation.md); the columns of budget.csv
 // of the observer `conservation`, and its lines at the end of a run.
 #pragma once
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace corpuscle::observers {
 
-class AccountBook {
+class BudgetTable {
   public:
-    explicit AccountBook(const Scene& scene);  // begins now. Collective
+    explicit BudgetTable(const Scene& scene);  // begins now. Collective
 
     static std::vector<io::Column> columns(const SceneParts& parts);
     std::vector<double> row(const Scene& scene) const;  // collective
@@ -34,7 +34,7 @@ class AccountBook {
     static Content contentFrom(std::span<const double> numbers);
 
     struct Balance {
-        sph::Account::Values work;                               // since the beginning, of all ranks
+        sph::Budget::Values work;                                // since the beginning, of all ranks
         double elastic, compression, kinetic;                    // changes of what is stored
         double dissipated, residual, share;                      // share: |residual| over the largest of the entries
         double ofInertia, ofMembranes, ofCompression, ofSolver;  // what the residual is made of
@@ -46,7 +46,7 @@ class AccountBook {
 
     SceneParts parts_;
     Content start_;
-    sph::Account::Values before_;  // what the account held at the beginning
+    sph::Budget::Values before_;  // what the budget held at the beginning
 };
 
 }  // namespace corpuscle::observers

@@ -1,4 +1,4 @@
-// The account of energy (sph/account.hpp) by each scheme: on a swirl in a periodic box what it dissipates is v.L v worked out by itself, and the
+// The budget of energy (sph/budget.hpp) by each scheme: on a swirl in a periodic box what it dissipates is v.L v worked out by itself, and the
 // energies of the state change by what forces did, to the order of the scheme; walls work as much as Couette flow dissipates.
 // Lengths in spacings, density 1.
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using coupling::testing::FluidScene;
 using particles::Kind;
 using particles::ParticleStore;
 using particles::Precision;
-using sph::Account;
+using sph::Budget;
 using sph::testing::Particle;
 namespace swirl = sph::testing::swirl;
 
@@ -35,12 +35,12 @@ struct Fluid : FluidScene {
     Fluid(const std::string& name, const std::vector<Particle>& all, const Index3& size, const sph::FluidModel& model,
           Precision precision = Precision::full)
         : FluidScene(all, size, model, 1, isImplicit(name) ? 0 : 0.3, MPI_COMM_WORLD, precision) {
-        scene.account.kept = true;
+        scene.budget.kept = true;
         if (name == "velocityVerlet") {
             scheme = std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, nullptr,
-                                                           std::vector<sph::Load*>{}, &scene.account);
+                                                           std::vector<sph::Load*>{}, &scene.budget);
         } else if (name == "rkl2") {
-            auto rkl2 = std::make_unique<sph::Rkl2>(*scene.system, *scene.forces, nullptr, &scene.account);
+            auto rkl2 = std::make_unique<sph::Rkl2>(*scene.system, *scene.forces, nullptr, &scene.budget);
             rkl2->setRate(30);
             scheme = std::move(rkl2);
         } else if (name == "adjointVerlet") {
@@ -59,7 +59,7 @@ struct Fluid : FluidScene {
     }
     static bool isImplicit(const std::string& name) { return name == "midpoint" || name == "backwardEuler"; }
 
-    double total(Account::Entry entry) const { return sph::testing::sumOverRanks(scene.account.total[entry]); }
+    double total(Budget::Entry entry) const { return sph::testing::sumOverRanks(scene.budget.total[entry]); }
     double kinetic() const {
         return sum([&](std::size_t i) {
             const ParticleStore& s = scene.store();
@@ -111,17 +111,17 @@ Outcome run(const std::string& name, double time, int steps) {
     Fluid fluid(name, swirl::particles(), swirl::size, thin());
     if (Fluid::isImplicit(name))  // past the first steps, which are of first order
         for (int k = 0; k < steps / 4; ++k) fluid.advance(time / steps);
-    const Account::Values before = [&] {
-        Account::Values values;
-        for (std::size_t k = 0; k < Account::count; ++k) values[k] = fluid.total(static_cast<Account::Entry>(k));
+    const Budget::Values before = [&] {
+        Budget::Values values;
+        for (std::size_t k = 0; k < Budget::count; ++k) values[k] = fluid.total(static_cast<Budget::Entry>(k));
         return values;
     }();
     const double K = fluid.kinetic(), C = fluid.compression();
     for (int k = 0; k < steps; ++k) fluid.advance(time / steps);
-    const auto grown = [&](Account::Entry entry) { return fluid.total(entry) - before[entry]; };
+    const auto grown = [&](Budget::Entry entry) { return fluid.total(entry) - before[entry]; };
     const double dK = fluid.kinetic() - K, dC = fluid.compression() - C;
-    Outcome r{-grown(Account::viscous) - dK - dC, -dK - dC, 0, grown(Account::kinetic) - dK};
-    const double parts[] = {grown(Account::kinetic) - dK, grown(Account::compression) - dC, grown(Account::ofSolver)};
+    Outcome r{-grown(Budget::viscous) - dK - dC, -dK - dC, 0, grown(Budget::kinetic) - dK};
+    const double parts[] = {grown(Budget::kinetic) - dK, grown(Budget::compression) - dC, grown(Budget::ofSolver)};
     for (const double part : parts) r.ofParts += part;
     EXPECT_GT(std::abs(dC), 1e-4 * std::abs(dK)) << "sound takes part";
     return r;
@@ -129,24 +129,24 @@ Outcome run(const std::string& name, double time, int steps) {
 
 }  // namespace
 
-TEST(Account, dissipationIsThatOfTheOperator) {
+TEST(Budget, dissipationIsThatOfTheOperator) {
     for (const std::string& name : allSchemes) {
         Fluid fluid(name, swirl::particles(), swirl::size, thin());
         const double expected = fluid.dissipation(name), dt = 1e-6;
         fluid.advance(dt);
-        EXPECT_NEAR(fluid.total(Account::viscous) / dt, expected, 2e-5 * expected) << name;
+        EXPECT_NEAR(fluid.total(Budget::viscous) / dt, expected, 2e-5 * expected) << name;
     }
 }
 
 // From rest, with membranes pulled out of shape and a solver that stops early: in the first step everything is taken where it stands, so v.L v can be
-// worked out by itself. Whatever the solver leaves, over refinements too, must be in the account.
-TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
+// worked out by itself. Whatever the solver leaves, over refinements too, must be in the budget.
+TEST(Budget, dissipationBesideMembranesWhateverTheSolverLeaves) {
     using coupling::testing::SphereScene;
     const auto build = [] {
         coupling::Scene scene =
             SphereScene({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true)
                 .immersedScene(0.02, [](const Vec3& d) { return Vec3(1.3 * d[0], 0.9 * d[1], 0.85 * d[2]); });
-        scene.account.kept = true;
+        scene.budget.kept = true;
         return scene;
     };
     for (const double tolerance : {0.3, 1e-8}) {
@@ -176,21 +176,19 @@ TEST(Account, dissipationBesideMembranesWhateverTheSolverLeaves) {
         double power = 0;
         for (std::size_t k = 0; k < u.size(); ++k) power -= u[k] * operators.force()[k];
         power = sph::testing::sumOverRanks(power);
-        const auto total = [&](Account::Entry entry) {
-            return sph::testing::sumOverRanks(moving.account.total[entry]);
-        };
-        EXPECT_NEAR(total(Account::viscous) / dt, power, 1e-9 * power) << tolerance;
+        const auto total = [&](Budget::Entry entry) { return sph::testing::sumOverRanks(moving.budget.total[entry]); };
+        EXPECT_NEAR(total(Budget::viscous) / dt, power, 1e-9 * power) << tolerance;
         std::printf("tolerance %g: %ld refinements, solver leaves %.2g of the dissipation\n", tolerance,
-                    step->statistics.refinements, total(Account::ofSolver) / (dt * power));
+                    step->statistics.refinements, total(Budget::ofSolver) / (dt * power));
         if (tolerance > 0.1) {
-            EXPECT_GT(std::abs(total(Account::ofSolver)), 1e-7 * dt * power) << "it has left something";
+            EXPECT_GT(std::abs(total(Budget::ofSolver)), 1e-7 * dt * power) << "it has left something";
         }
-        EXPECT_LT(total(Account::elastic), 0);
-        EXPECT_GT(total(Account::elastic), -elastic);
+        EXPECT_LT(total(Budget::elastic), 0);
+        EXPECT_GT(total(Budget::elastic), -elastic);
     }
 }
 
-TEST(Account, closesToTheOrderOfTheScheme) {
+TEST(Budget, closesToTheOrderOfTheScheme) {
     for (const std::string& name : allSchemes) {
         const Outcome coarse = run(name, 0.4, 32), fine = run(name, 0.4, 64);
         std::printf("%-16s lost %.6g, residual %.3g and %.3g of it\n", name.c_str(), coarse.lost,
@@ -208,20 +206,20 @@ TEST(Account, closesToTheOrderOfTheScheme) {
     }
 }
 
-TEST(Account, mixedPrecisionDissipatesAsMuch) {
+TEST(Budget, mixedPrecisionDissipatesAsMuch) {
     for (const std::string& name : allSchemes) {
         double dissipated[2];
         for (const Precision precision : {Precision::full, Precision::mixed}) {
             Fluid fluid(name, swirl::particles(), swirl::size, thin(), precision);
             for (int k = 0; k < 4; ++k) fluid.advance(0.01);
-            dissipated[precision == Precision::mixed] = fluid.total(Account::viscous);
+            dissipated[precision == Precision::mixed] = fluid.total(Budget::viscous);
         }
         EXPECT_NEAR(dissipated[1], dissipated[0], 1e-4 * dissipated[0]) << name;
     }
 }
 
 // Developed, on disordered particles: mu rate^2 in every unit of volume, put in by the walls.
-TEST(Account, wallsWorkAsMuchAsCouetteFlowDissipates) {
+TEST(Budget, wallsWorkAsMuchAsCouetteFlowDissipates) {
     const int layers = 3;
     const Index3 size{6, 6, 12 + 2 * layers};
     const double rate = 1, gap = 12, low = layers, viscosity = 1;
@@ -236,7 +234,7 @@ TEST(Account, wallsWorkAsMuchAsCouetteFlowDissipates) {
         const int steps = name == "midpoint" ? 40 : 400;
         const double time = name == "midpoint" ? 2 : 4;
         for (int k = 0; k < steps; ++k) box.advance(time / steps);
-        const double walls = box.total(Account::ofWalls), dissipated = box.total(Account::viscous);
+        const double walls = box.total(Budget::ofWalls), dissipated = box.total(Budget::viscous);
         const double expected = viscosity * rate * rate * size[0] * size[1] * gap * time;
         std::printf("%-16s walls %.5f, dissipated %.5f of mu rate^2 V t\n", name.c_str(), walls / expected,
                     dissipated / expected);
@@ -244,8 +242,8 @@ TEST(Account, wallsWorkAsMuchAsCouetteFlowDissipates) {
         EXPECT_NEAR(dissipated / expected, 1, plain ? 0.03 : 0.015) << name;
         EXPECT_NEAR(dissipated / walls, 1, 0.01) << name;
         // Forces on both walls are opposite, those on the lower one act against the flow.
-        const double lower = sph::testing::sumOverRanks(box.scene.account.total[Account::lowerWall]),
-                     upper = sph::testing::sumOverRanks(box.scene.account.total[Account::upperWall]);
+        const double lower = sph::testing::sumOverRanks(box.scene.budget.total[Budget::lowerWall]),
+                     upper = sph::testing::sumOverRanks(box.scene.budget.total[Budget::upperWall]);
         EXPECT_LT(lower, 0);
         EXPECT_NEAR(lower + upper, 0, 0.01 * upper);
         EXPECT_NEAR(0.5 * rate * gap * (upper - lower), walls, 1e-6 * walls);

@@ -1,4 +1,4 @@
-// What an implicit step does for the account of energy and momentum (sph/account.hpp), from the velocity v found, what its solutions leave of the
+// What an implicit step does for the budget of energy and momentum (sph/budget.hpp), from the velocity v found, what its solutions leave of the
 // equations, and the forces that prescribe velocities.
 //
 // The energy balance of the system, v.(A v - b) = - v.left: all forces of the terms follow from it without another application, where there are no
@@ -9,11 +9,11 @@
 namespace corpuscle::implicit {
 
 template <class Real>
-class StepAccount {
+class StepBudget {
   public:
     using Field = typename System<Real>::Field;
 
-    explicit StepAccount(System<Real>& system) : system_(system) {}
+    explicit StepBudget(System<Real>& system) : system_(system) {}
 
     // After each solution: what it leaves, which the next right-hand side does not take up.
     void addLeft(const Field& residual, bool first);
@@ -25,7 +25,7 @@ class StepAccount {
     Field left_;
 };
 
-extern template class StepAccount<double>;
-extern template class StepAccount<float>;
+extern template class StepBudget<double>;
+extern template class StepBudget<float>;
 
 }  // namespace corpuscle::implicit

@@ -1,4 +1,4 @@
-// Running account of energy and momentum: what the forces of a scheme put in and take away, added up at every step in the scheme's own quadrature
+// Running budget of energy and momentum: what the forces of a scheme put in and take away, added up at every step in the scheme's own quadrature
 // (docs/theory/conservation.md). With every particle's velocity u, that of walls and bodies included, the forces of a scheme do work at the rates
 //
 //     sum u.F = - dissipation - d(compression)/dt                     of pairs: viscosity and pressure are adjoint to the rates of density
@@ -15,7 +15,7 @@
 
 namespace corpuscle::sph {
 
-struct Account {
+struct Budget {
     enum Entry : std::size_t {
         ofWalls,      // power of the walls on the fluid [W]
         ofBodyForce,  // of the body force on fluid, nodes and bodies that yield

@@ -1,4 +1,4 @@
-#include "observers/account.hpp"
+#include "observers/budget.hpp"
 
 #include <fmt/format.h>
 
@@ -12,14 +12,14 @@
 
 namespace corpuscle::observers {
 
-using sph::Account;
+using sph::Budget;
 
 namespace {
 
-Account::Values summed(const Scene& scene) {
-    const Account::Values& own = scene.account.total;
+Budget::Values summed(const Scene& scene) {
+    const Budget::Values& own = scene.budget.total;
     const std::vector<double> all = Communicator(scene.system->comm()).sum(std::vector<double>(own.begin(), own.end()));
-    Account::Values values;
+    Budget::Values values;
     std::copy(all.begin(), all.end(), values.begin());
     return values;
 }
@@ -29,10 +29,10 @@ std::vector<double> numbers(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-AccountBook::AccountBook(const Scene& scene)
+BudgetTable::BudgetTable(const Scene& scene)
     : parts_(SceneParts::of(scene)), start_(contentOf(scene)), before_(summed(scene)) {}
 
-AccountBook::Content AccountBook::contentOf(const Scene& scene) {
+BudgetTable::Content BudgetTable::contentOf(const Scene& scene) {
     const Communicator ranks(scene.system->comm());
     const particles::ParticleStore& s = scene.store();
     const sph::FluidModel& model = scene.model();
@@ -69,36 +69,36 @@ AccountBook::Content AccountBook::contentOf(const Scene& scene) {
     return c;
 }
 
-AccountBook::Content AccountBook::contentFrom(std::span<const double> numbers) {
+BudgetTable::Content BudgetTable::contentFrom(std::span<const double> numbers) {
     Numbers own;
     std::copy_n(numbers.begin(), contentLength, own.begin());
     return std::bit_cast<Content>(own);
 }
 
-AccountBook::Balance AccountBook::balance(const Scene& scene) const {
+BudgetTable::Balance BudgetTable::balance(const Scene& scene) const {
     const Content now = contentOf(scene);
     Balance b{};
     b.work = summed(scene);
-    for (std::size_t k = 0; k < Account::count; ++k) b.work[k] -= before_[k];
-    const Account::Values& w = b.work;
+    for (std::size_t k = 0; k < Budget::count; ++k) b.work[k] -= before_[k];
+    const Budget::Values& w = b.work;
     b.elastic = now.elastic - start_.elastic, b.compression = now.compression - start_.compression,
     b.kinetic = now.kinetic - start_.kinetic;
-    b.dissipated = w[Account::viscous] + w[Account::inMembranes];
-    const double given = w[Account::ofWalls] + w[Account::ofBodyForce] + w[Account::ofBodies];
-    b.residual = given - b.dissipated - w[Account::released] - b.elastic - b.compression - b.kinetic;
-    b.ofInertia = w[Account::kinetic] - b.kinetic;
-    b.ofMembranes = w[Account::elastic] - w[Account::released] - b.elastic;
-    b.ofCompression = w[Account::compression] - b.compression;
-    b.ofSolver = w[Account::ofSolver];
+    b.dissipated = w[Budget::viscous] + w[Budget::inMembranes];
+    const double given = w[Budget::ofWalls] + w[Budget::ofBodyForce] + w[Budget::ofBodies];
+    b.residual = given - b.dissipated - w[Budget::released] - b.elastic - b.compression - b.kinetic;
+    b.ofInertia = w[Budget::kinetic] - b.kinetic;
+    b.ofMembranes = w[Budget::elastic] - w[Budget::released] - b.elastic;
+    b.ofCompression = w[Budget::compression] - b.compression;
+    b.ofSolver = w[Budget::ofSolver];
     const double largest =
-        std::max({std::abs(given), std::abs(w[Account::ofWalls]), std::abs(w[Account::ofBodyForce]),
-                  std::abs(w[Account::ofBodies]), std::abs(b.dissipated), std::abs(b.elastic), std::abs(b.kinetic)});
+        std::max({std::abs(given), std::abs(w[Budget::ofWalls]), std::abs(w[Budget::ofBodyForce]),
+                  std::abs(w[Budget::ofBodies]), std::abs(b.dissipated), std::abs(b.elastic), std::abs(b.kinetic)});
     b.share = largest > 0 ? std::abs(b.residual) / largest : 0;
 
     b.momentum = Vec3::Map(now.momentum) - Vec3::Map(start_.momentum);
     b.angular = Vec3::Map(now.angular) - Vec3::Map(start_.angular);
-    const Vec3 lower = Account::vector(w, Account::lowerWall), upper = Account::vector(w, Account::upperWall),
-               force = Account::vector(w, Account::bodyForce), bodies = Account::vector(w, Account::givenBodies);
+    const Vec3 lower = Budget::vector(w, Budget::lowerWall), upper = Budget::vector(w, Budget::upperWall),
+               force = Budget::vector(w, Budget::bodyForce), bodies = Budget::vector(w, Budget::givenBodies);
     b.drift = b.momentum - lower - upper - force - bodies;
     const double exchanged =
         std::max({lower.norm() + upper.norm(), force.norm(), bodies.norm(), now.speeds, start_.speeds});
@@ -107,7 +107,7 @@ AccountBook::Balance AccountBook::balance(const Scene& scene) const {
     return b;
 }
 
-std::vector<io::Column> AccountBook::columns(const SceneParts& parts) {
+std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
     std::vector<io::Column> columns;
     const auto joules = [&](const std::string& name, const std::string& meaning) {
         columns.push_back({name, "J", meaning});
@@ -150,37 +150,37 @@ std::vector<io::Column> AccountBook::columns(const SceneParts& parts) {
     return columns;
 }
 
-std::vector<double> AccountBook::row(const Scene& scene) const {
+std::vector<double> BudgetTable::row(const Scene& scene) const {
     const Balance b = balance(scene);
-    const Account::Values& w = b.work;
+    const Budget::Values& w = b.work;
     const bool walls = parts_.walls, force = parts_.bodyForce, bodies = parts_.givenBodies,
                cells = !parts_.cells.empty();
     std::vector<double> row;
-    if (walls) row.push_back(w[Account::ofWalls]);
-    if (force) row.push_back(w[Account::ofBodyForce]);
-    if (bodies) row.push_back(w[Account::ofBodies]);
+    if (walls) row.push_back(w[Budget::ofWalls]);
+    if (force) row.push_back(w[Budget::ofBodyForce]);
+    if (bodies) row.push_back(w[Budget::ofBodies]);
     row.push_back(b.dissipated);
-    if (parts_.viscousMembranes) row.push_back(w[Account::inMembranes]);
+    if (parts_.viscousMembranes) row.push_back(w[Budget::inMembranes]);
     if (cells) row.push_back(b.elastic);
-    if (parts_.rupture) row.push_back(w[Account::released]);
+    if (parts_.rupture) row.push_back(w[Budget::released]);
     row.insert(row.end(), {b.compression, b.kinetic, b.residual, b.share, b.ofInertia});
     if (cells) row.push_back(b.ofMembranes);
     row.push_back(b.ofCompression), row.push_back(b.ofSolver);
     add(row, b.momentum);
-    if (walls) add(row, Account::vector(w, Account::lowerWall)), add(row, Account::vector(w, Account::upperWall));
-    if (force) add(row, Account::vector(w, Account::bodyForce));
-    if (bodies) add(row, Account::vector(w, Account::givenBodies));
+    if (walls) add(row, Budget::vector(w, Budget::lowerWall)), add(row, Budget::vector(w, Budget::upperWall));
+    if (force) add(row, Budget::vector(w, Budget::bodyForce));
+    if (bodies) add(row, Budget::vector(w, Budget::givenBodies));
     add(row, b.drift);
     add(row, b.angular);
-    if (walls) add(row, Account::vector(w, Account::wallTorque));
-    if (force) add(row, Account::vector(w, Account::forceTorque));
+    if (walls) add(row, Budget::vector(w, Budget::wallTorque));
+    if (force) add(row, Budget::vector(w, Budget::forceTorque));
     row.push_back(b.mass), row.push_back(b.volume);
     return row;
 }
 
-Summary AccountBook::summary(const Scene& scene) const {
+Summary BudgetTable::summary(const Scene& scene) const {
     const Balance b = balance(scene);
-    const Account::Values& w = b.work;
+    const Budget::Values& w = b.work;
     const std::vector<double> values = row(scene);
     Summary summary;
     const std::vector<io::Column> names = columns(parts_);
@@ -190,12 +190,12 @@ Summary AccountBook::summary(const Scene& scene) const {
     summary.figures["momentumDriftShare"] = b.driftShare;
     const auto joule = [](double value) { return formatQuantity(value, unit::joule); };
     std::string given;
-    if (parts_.walls) given += "walls put in " + joule(w[Account::ofWalls]) + ", ";
-    if (parts_.bodyForce) given += "the body force " + joule(w[Account::ofBodyForce]) + ", ";
-    if (parts_.givenBodies) given += "bodies of given motion " + joule(w[Account::ofBodies]) + ", ";
+    if (parts_.walls) given += "walls put in " + joule(w[Budget::ofWalls]) + ", ";
+    if (parts_.bodyForce) given += "the body force " + joule(w[Budget::ofBodyForce]) + ", ";
+    if (parts_.givenBodies) given += "bodies of given motion " + joule(w[Budget::ofBodies]) + ", ";
     if (!parts_.cells.empty()) given += "stored in membranes " + joule(b.elastic) + ", ";
     summary.lines.push_back(
-        fmt::format("energy account: {}dissipated {}, kinetic {}, compression {}; closes to {:.2g} %", given,
+        fmt::format("energy budget: {}dissipated {}, kinetic {}, compression {}; closes to {:.2g} %", given,
                     joule(b.dissipated), joule(b.kinetic), joule(b.compression), 100 * b.share));
     summary.lines.push_back(
         fmt::format("momentum drifts by {:.2g} of what is exchanged, mass by {:.2g}, volume (sum of m/rho) by {:.2g}",
@@ -212,14 +212,14 @@ Summary AccountBook::summary(const Scene& scene) const {
     return summary;
 }
 
-std::vector<double> AccountBook::state() const {
+std::vector<double> BudgetTable::state() const {
     const auto own = std::bit_cast<Numbers>(start_);
     std::vector<double> all(own.begin(), own.end());
     all.insert(all.end(), before_.begin(), before_.end());
     return all;
 }
 
-void AccountBook::setState(std::span<const double> saved) {
+void BudgetTable::setState(std::span<const double> saved) {
     start_ = contentFrom(saved);
     std::copy(saved.begin() + contentLength, saved.end(), before_.begin());
 }
