@@ -12,7 +12,7 @@
 #include "geometry/insideTest.hpp"
 #include "geometry/kuchelFackerell.hpp"
 #include "geometry/mesher.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::geometry;
@@ -36,7 +36,7 @@ double secondsPerItem(std::size_t items, Work&& work) {
 int main(int argc, char* argv[]) {
     const double edge = (argc > 1 ? std::atof(argv[1]) : 0.25) * 1e-6, reach = 2 * edge;
     const TriangleMesh mesh = meshSurface(KuchelFackerell(8e-6, 2.12e-6, 1e-6), edge);
-    TriangleGrid grid(mesh, reach);
+    TriangleTree grid(mesh, reach);
     const InsideTest test(mesh);
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(-6e-6, 6e-6);

@@ -6,7 +6,7 @@
 
 #include "bodies/extrapolation.hpp"
 #include "core/error.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 namespace corpuscle::bodies {
 
@@ -24,7 +24,7 @@ Body::Body(std::string name, std::string type, const geometry::TriangleMesh& mes
       distance(solid.surface, gridInSpacings * spacing, reach + spacing) {}
 
 void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach) {
-    const geometry::TriangleGrid grid(solid.surface, reach);
+    const geometry::TriangleTree grid(solid.surface, reach);
     particles.clear();
     for (const Vec3& x : places) {
         const Vec3 place = solid.startOrientation().conjugate() * (x - solid.startCentre());

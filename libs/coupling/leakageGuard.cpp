@@ -17,10 +17,10 @@ constexpr double restoredDistanceInSpacings = 0.1;
 constexpr std::size_t longestReport = 1000;
 }  // namespace
 
-geometry::TriangleGrid& LeakageGuard::grid(const Cell& cell, std::size_t index) {
+geometry::TriangleTree& LeakageGuard::grid(const Cell& cell, std::size_t index) {
     const double reach = reachInSpacings * spacing_;
     if (!grids_[index])
-        grids_[index] = std::make_unique<geometry::TriangleGrid>(
+        grids_[index] = std::make_unique<geometry::TriangleTree>(
             geometry::TriangleMesh{cell.membrane.position, cell.membrane.network().triangles()}, reach);
     else
         grids_[index]->update(cell.membrane.position);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "coupling/cell.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 #include "particles/particleSystem.hpp"
 
 namespace corpuscle::coupling {
@@ -38,11 +38,11 @@ class LeakageGuard {
     void restore(long moves) { moves_ = moves; }
 
   private:
-    geometry::TriangleGrid& grid(const Cell& cell, std::size_t index);
+    geometry::TriangleTree& grid(const Cell& cell, std::size_t index);
 
     double spacing_, deepest_ = 0;
     long moves_ = 0;
-    std::vector<std::unique_ptr<geometry::TriangleGrid>> grids_;
+    std::vector<std::unique_ptr<geometry::TriangleTree>> grids_;
     std::vector<std::vector<int>> candidates_;  // [cell]: particles
     std::vector<GuardMove> report_;
 };

@@ -21,11 +21,11 @@ double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell)
 }
 }  // namespace
 
-geometry::TriangleGrid& NoFlux::surface(std::size_t c) {
+geometry::TriangleTree& NoFlux::surface(std::size_t c) {
     const membrane::Membrane& m = cells_[c].membrane;
     grids_.resize(cells_.size());
     if (!grids_[c])
-        grids_[c] = std::make_unique<geometry::TriangleGrid>(
+        grids_[c] = std::make_unique<geometry::TriangleTree>(
             geometry::TriangleMesh{m.position, m.network().triangles()}, reachInSpacings * spacing_);
     else
         grids_[c]->update(m.position);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "coupling/cell.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 #include "particles/particleSystem.hpp"
 
 namespace corpuscle::coupling {
@@ -45,14 +45,14 @@ class NoFlux {
         double side, chi;
         Vec3 normal;
     };
-    geometry::TriangleGrid& surface(std::size_t cell);
+    geometry::TriangleTree& surface(std::size_t cell);
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
 
     std::vector<Cell>& cells_;
     double spacing_, deepest_ = 0;
     long crossings_ = 0;
-    std::vector<std::unique_ptr<geometry::TriangleGrid>> grids_;
+    std::vector<std::unique_ptr<geometry::TriangleTree>> grids_;
     std::vector<Near> near_;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 namespace corpuscle::geometry {
 
@@ -19,7 +19,7 @@ DistanceField::DistanceField(const TriangleMesh& mesh, double spacing, double re
         all *= static_cast<std::size_t>(count_[k]);
     }
     // A node's neighbours beyond the reach are needed to interpolate up to it.
-    const TriangleGrid surface(mesh, reach + std::sqrt(3.0) * spacing);
+    const TriangleTree surface(mesh, reach + std::sqrt(3.0) * spacing);
     const InsideTest inside(mesh);
     values_.reserve(all);
     for (int k = 0; k < count_[2]; ++k)

@@ -147,7 +147,7 @@ std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, con
     std::size_t moved = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const TriangleMesh& mesh = meshes[m];
-        const TriangleGrid grid(mesh, least);
+        const TriangleTree grid(mesh, least);
         const NearestImages surface(grid, mesh.nodes, period);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const auto [at, x] = surface.nearest(points[i]);

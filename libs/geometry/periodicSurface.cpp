@@ -5,7 +5,7 @@
 
 namespace corpuscle::geometry {
 
-NearestImages::NearestImages(const TriangleGrid& grid, const std::vector<Vec3>& nodes, const Period& period)
+NearestImages::NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Period& period)
     : grid_(grid), period_(period), low_(nodes.front()), high_(nodes.front()) {
     for (const Vec3& x : nodes) low_ = low_.cwiseMin(x), high_ = high_.cwiseMax(x);
     low_.array() -= grid.reach();

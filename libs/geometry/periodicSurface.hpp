@@ -1,7 +1,7 @@
 // Nearest points and signed distances of a closed surface in a periodic box, over all images of a point.
 #pragma once
 #include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 namespace corpuscle::geometry {
 
@@ -9,7 +9,7 @@ namespace corpuscle::geometry {
 class NearestImages {
   public:
     // grid: with these nodes, and it must stay where it is.
-    NearestImages(const TriangleGrid& grid, const std::vector<Vec3>& nodes, const Period& period);
+    NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Period& period);
 
     struct Found {
         SurfacePoint at;
@@ -21,7 +21,7 @@ class NearestImages {
     Found nearest(const Vec3& x) const;
 
   private:
-    const TriangleGrid& grid_;
+    const TriangleTree& grid_;
     Period period_;
     Vec3 low_, high_;  // of what is within reach
 };
@@ -43,7 +43,7 @@ class PeriodicSurface {
     Place at(const Vec3& x) const;
 
   private:
-    TriangleGrid grid_;
+    TriangleTree grid_;
     NearestImages images_;
     InsideTest inside_;
     Period period_;

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geometry/insideTest.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 #include "particles/period.hpp"
 
 namespace corpuscle::simulation {
@@ -139,7 +139,7 @@ class Clearance {
     // Of the nodes of `other`, moved, in the surface `one`.
     Deepest deepest(std::size_t one, std::size_t other, const Vec3& shift) {
         Deepest most;
-        const geometry::TriangleGrid far(meshOf(one), bounds_[one].diagonal().norm());
+        const geometry::TriangleTree far(meshOf(one), bounds_[one].diagonal().norm());
         for (const Vec3& node : *all_[other].surface.nodes) {
             const Vec3 x = node + shift;
             if (!bounds_[one].contains(x) || !inside(one).inside(x)) continue;
@@ -155,9 +155,9 @@ class Clearance {
         if (!test) test = std::make_unique<geometry::InsideTest>(meshOf(s));
         return *test;
     }
-    geometry::TriangleGrid& grid(std::size_t s) {
-        std::unique_ptr<geometry::TriangleGrid>& grid = grid_[s];
-        if (!grid) grid = std::make_unique<geometry::TriangleGrid>(meshOf(s), gap_);
+    geometry::TriangleTree& grid(std::size_t s) {
+        std::unique_ptr<geometry::TriangleTree>& grid = grid_[s];
+        if (!grid) grid = std::make_unique<geometry::TriangleTree>(meshOf(s), gap_);
         return *grid;
     }
     std::string words(const Vec3& x) const {
@@ -174,7 +174,7 @@ class Clearance {
     std::vector<Problem> problems_;
     std::set<std::pair<std::size_t, std::size_t>> told_;
     std::map<std::size_t, std::unique_ptr<geometry::InsideTest>> inside_;
-    std::map<std::size_t, std::unique_ptr<geometry::TriangleGrid>> grid_;
+    std::map<std::size_t, std::unique_ptr<geometry::TriangleTree>> grid_;
 };
 
 Placed placed(const SurfaceSettings& settings, bool isBody, std::size_t number, const SurfaceView& surface) {

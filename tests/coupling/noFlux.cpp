@@ -170,7 +170,7 @@ TEST(NoFlux, takesTheNearestImageWhereACellNearlyMeetsItsOwn) {
     std::vector<Vec3>& nodes = scene.cells[0].membrane.position;
     for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n][1] = scene.start[0][n][1] * 7.4 / (2 * radius);
     scene.find();
-    const geometry::TriangleGrid grid({nodes, scene.cells[0].membrane.network().triangles()}, 1);
+    const geometry::TriangleTree grid({nodes, scene.cells[0].membrane.network().triangles()}, 1);
     int between = 0;
     scene.noFlux.forNear([&](int particle, double, double chi, const Vec3&, const Vec3&) {
         const Vec3 x = scene.system->store().position(static_cast<std::size_t>(particle));

@@ -97,7 +97,7 @@ TEST_P(Tailed, sidesAreThoseOfTheSurfaceByThreeMethods) {
 TEST_P(Tailed, theNearestImageIsTheNearestOfAll) {
     const TriangleMesh mesh = tailed(GetParam().axis, GetParam().centre);
     const double reach = 1.5 * um;
-    const TriangleGrid grid(mesh, reach);
+    const TriangleTree grid(mesh, reach);
     const NearestImages images(grid, mesh.nodes, period());
     const PeriodicSurface surface(mesh, reach, period());
     std::size_t found = 0;

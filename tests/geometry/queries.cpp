@@ -7,7 +7,7 @@
 #include "geometry/insideTest.hpp"
 #include "geometry/kuchelFackerell.hpp"
 #include "geometry/mesher.hpp"
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::geometry;
@@ -64,10 +64,10 @@ TEST(WindingNumber, oneInsideZeroOutside) {
     EXPECT_NEAR(windingNumber(cell(), {0, 0, 9e-6}), 0, 1e-12);
 }
 
-TEST(TriangleGrid, agreesWithBruteForce) {
+TEST(TriangleTree, agreesWithBruteForce) {
     const TriangleMesh& mesh = cell();
     const double reach = 0.7e-6;
-    const TriangleGrid grid(mesh, reach);
+    const TriangleTree grid(mesh, reach);
     int within = 0;
     for (const Vec3& x : randomPoints(4000, 4.8e-6)) {
         double least = std::numeric_limits<double>::infinity();
@@ -93,12 +93,12 @@ TEST(TriangleGrid, agreesWithBruteForce) {
 }
 
 // A spike: at its tip the nearest triangle alone would give the wrong side.
-TEST(TriangleGrid, signAtNodesAndEdges) {
+TEST(TriangleTree, signAtNodesAndEdges) {
     TriangleMesh spike;
     spike.nodes = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {3, 0, 6}};
     spike.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     ASSERT_TRUE(checkClosedManifold(spike).empty());
-    const TriangleGrid grid(spike, 2);
+    const TriangleTree grid(spike, 2);
     int nodesAndEdges = 0;
     for (const Vec3& d : randomPoints(4000, 1)) {
         const Vec3 x = spike.nodes[3] + 0.9 * d;
@@ -110,9 +110,9 @@ TEST(TriangleGrid, signAtNodesAndEdges) {
     EXPECT_GT(nodesAndEdges, 500);
 }
 
-TEST(TriangleGrid, followsTheMovedMesh) {
+TEST(TriangleTree, followsTheMovedMesh) {
     TriangleMesh mesh = cell();
-    TriangleGrid grid(mesh, 0.5e-6);
+    TriangleTree grid(mesh, 0.5e-6);
     mesh.translate({20e-6, 0, 0});
     const Vec3 x = mesh.nodes[10] * 1.0;
     EXPECT_FALSE(grid.nearest(x));
@@ -121,11 +121,11 @@ TEST(TriangleGrid, followsTheMovedMesh) {
 }
 
 // A run that goes on from a checkpoint has a tree of the shape there, one that was not stopped has that of its start.
-TEST(TriangleGrid, answersDoNotDependOnTheTree) {
+TEST(TriangleTree, answersDoNotDependOnTheTree) {
     TriangleMesh turned = cell();
     for (Vec3& x : turned.nodes) x = {x[1] + 0.3 * x[2], -x[0], 0.7 * x[2] + 0.2 * x[1]};
-    const TriangleGrid own(cell(), 1e-6);
-    TriangleGrid moved(turned, 1e-6);
+    const TriangleTree own(cell(), 1e-6);
+    TriangleTree moved(turned, 1e-6);
     moved.update(cell().nodes);
     const std::vector<Vec3> away = randomPoints(static_cast<int>(cell().nodes.size()), 0.3e-6);
     for (std::size_t m = 0; m < away.size(); ++m) {  // most are nearest to a node or an edge, which triangles share

@@ -23,7 +23,7 @@ std::vector<double> distances(const std::vector<Vec3>& points, const std::vector
                               const geometry::Period& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
     for (const TriangleMesh& cell : cells) {
-        const geometry::TriangleGrid grid(cell, reach);
+        const geometry::TriangleTree grid(cell, reach);
         const geometry::NearestImages images(grid, cell.nodes, period);
         for (std::size_t i = 0; i < points.size(); ++i)
             if (const auto nearest = images.nearest(points[i]))

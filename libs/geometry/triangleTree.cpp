@@ -1,4 +1,4 @@
-#include "geometry/triangleGrid.hpp"
+#include "geometry/triangleTree.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -44,7 +44,7 @@ constexpr double slack = 1 + 1e-12;
 Vec3 combine(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) { return w[0] * a + w[1] * b + w[2] * c; }
 }  // namespace
 
-TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach)
+TriangleTree::TriangleTree(const TriangleMesh& mesh, double reach)
     : nodes_(mesh.nodes), reach_(reach), sideEdge_(mesh.triangles.size()), edges_(mesh.edges()) {
     std::vector<Vec3> centres;
     for (const auto& [i, j, k] : mesh.triangles) centres.push_back((nodes_[i] + nodes_[j] + nodes_[k]) / 3);
@@ -67,7 +67,7 @@ TriangleGrid::TriangleGrid(const TriangleMesh& mesh, double reach)
     update(mesh.nodes);
 }
 
-void TriangleGrid::split(int first, int count, const std::vector<Vec3>& centres, std::vector<int>& order) {
+void TriangleTree::split(int first, int count, const std::vector<Vec3>& centres, std::vector<int>& order) {
     const int self = static_cast<int>(boxes_.size());
     boxes_.push_back({Vec3::Zero(), Vec3::Zero(), first, count, 0});
     if (count <= 4) return;
@@ -87,13 +87,13 @@ void TriangleGrid::split(int first, int count, const std::vector<Vec3>& centres,
     split(first + half, count - half, centres, order);
 }
 
-void TriangleGrid::update(const std::vector<Vec3>& nodes) {
+void TriangleTree::update(const std::vector<Vec3>& nodes) {
     nodes_ = nodes;
     computeNormals();
     computeBoxes();
 }
 
-void TriangleGrid::computeNormals() {
+void TriangleTree::computeNormals() {
     faceNormal_.resize(triangles_.size());
     nodeNormal_.assign(nodes_.size(), Vec3::Zero());
     edgeNormal_.assign(edges_.size(), Vec3::Zero());
@@ -108,7 +108,7 @@ void TriangleGrid::computeNormals() {
     }
 }
 
-void TriangleGrid::computeBoxes() {
+void TriangleTree::computeBoxes() {
     for (int n = static_cast<int>(boxes_.size()) - 1; n >= 0; --n) {
         Box& box = boxes_[n];
         if (box.count == 0) {
@@ -125,7 +125,7 @@ void TriangleGrid::computeBoxes() {
     }
 }
 
-SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
+SurfacePoint TriangleTree::nearest(const Vec3& x) const {
     SurfacePoint best;
     double least2 = reach_ * reach_;
     struct Waiting {
@@ -172,7 +172,7 @@ SurfacePoint TriangleGrid::nearest(const Vec3& x) const {
     return best;
 }
 
-Vec3 TriangleGrid::pseudoNormal(int triangle, const Vec3& w) const {
+Vec3 TriangleTree::pseudoNormal(int triangle, const Vec3& w) const {
     for (int s = 0; s < 3; ++s)
         if (w[s] == 1) return nodeNormal_[triangles_[triangle][s]];
     for (int s = 0; s < 3; ++s)

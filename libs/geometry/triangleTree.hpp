@@ -24,10 +24,10 @@ struct SurfacePoint {
 // Nearest point of one triangle to x, as barycentric weights; a weight of exactly 0 marks an edge, two mark a node.
 Vec3 nearestWeights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
-class TriangleGrid {
+class TriangleTree {
   public:
     // A closed, outward oriented mesh; reach in metres.
-    TriangleGrid(const TriangleMesh& mesh, double reach);
+    TriangleTree(const TriangleMesh& mesh, double reach);
 
     // The nodes have moved; the triangles are the same.
     void update(const std::vector<Vec3>& nodes);
