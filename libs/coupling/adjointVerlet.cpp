@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/communicator.hpp"
+#include "core/powerIteration.hpp"
 #include "coupling/transport.hpp"
+#include "particles/vectorField.hpp"
 #include "sph/randomSigns.hpp"
 
 namespace corpuscle::coupling {
@@ -225,28 +227,29 @@ class Verlet final : public AdjointVerlet {
             put(i, isFixed(i)
                        ? Vec3(Vec3::Zero())
                        : Vec3(sph::randomSign(s.id[i], 0), sph::randomSign(s.id[i], 1), sph::randomSign(s.id[i], 2)));
-        double rate = 0, length = norm();
-        for (int it = 0; it < iterations && length > 0; ++it) {
+        double square = findSquare();
+        const auto normalise = [&] {
+            const double length = std::sqrt(square);
+            if (length == 0) return 0.0;
             for (Real& v : field_) v = static_cast<Real>(static_cast<double>(v) / length);
+            return 1.0;
+        };
+        return corpuscle::largestEigenvalue(iterations, normalise, [&] {
             const double factor = image();
             for (std::size_t i = 0; i < s.size(); ++i) {
-                const double* f = operators_.force().data() + at(i);
-                put(i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(factor / scene_.mass(i) * Vec3(f[0], f[1], f[2])));
+                const Vec3 f = particles::vectorAt(operators_.force(), i);
+                put(i, isFixed(i) ? Vec3(Vec3::Zero()) : Vec3(factor / scene_.mass(i) * f));
             }
-            rate = length = norm();
-        }
-        return rate;
+            return square = findSquare();
+        });
     }
-    double norm() const {
+    double findSquare() const {
         double sum = 0;
         for (const Real v : field_) sum += static_cast<double>(v) * static_cast<double>(v);
-        return std::sqrt(Communicator(scene_.system->comm()).sum(sum));
+        return Communicator(scene_.system->comm()).sum(sum);
     }
 
-    void put(std::size_t i, const Vec3& v) {
-        for (int k = 0; k < 3; ++k) field_[at(i) + static_cast<std::size_t>(k)] = static_cast<Real>(v[k]);
-        field_[at(i) + 3] = 0;
-    }
+    void put(std::size_t i, const Vec3& v) { particles::setVector(field_, i, v); }
 
     Scene& scene_;
     Options options_;

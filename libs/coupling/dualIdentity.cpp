@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/communicator.hpp"
+#include "core/powerIteration.hpp"
 
 namespace corpuscle::coupling {
 
@@ -21,23 +22,23 @@ double largestEigenvalue(const Cell& cell, int iterations, F&& stiffness) {
     for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
         mode[k] = Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
                        std::sin(3 + 37.719 * static_cast<double>(k)));
-    double value = 0;
-    for (int it = 0; it < iterations; ++it) {
+    const auto square = [&] {
+        double sum = 0;
+        for (std::size_t k = 0; k < mode.size(); ++k) sum += cell.nodeMass[k] * mode[k].squaredNorm();
+        return sum;
+    };
+    const auto normalise = [&] {
         double longest = 0;
         for (const Vec3& v : mode) longest = std::max(longest, v.norm());
-        if (longest == 0) return value;
+        if (longest == 0) return 0.0;
         for (Vec3& v : mode) v /= longest;
+        return square();
+    };
+    return corpuscle::largestEigenvalue(iterations, normalise, [&] {
         const Vectors& image = stiffness(mode);
-        double before = 0, after = 0;
-        for (std::size_t k = 0; k < mode.size(); ++k) {
-            const double mass = cell.nodeMass[k];
-            before += mass * mode[k].squaredNorm();
-            mode[k] = image[k] / mass;
-            after += mass * mode[k].squaredNorm();
-        }
-        value = std::sqrt(after / before);
-    }
-    return value;
+        for (std::size_t k = 0; k < mode.size(); ++k) mode[k] = image[k] / cell.nodeMass[k];
+        return square();
+    });
 }
 
 }  // namespace

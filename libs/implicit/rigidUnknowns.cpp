@@ -6,12 +6,12 @@ namespace corpuscle::implicit {
 
 using bodies::Body;
 using particles::RealArray;
+using particles::setVector;
+using particles::vectorAt;
 using sph::RigidMotion;
 using sph::Wrench;
 
 namespace {
-
-Vec3 vector(const RealArray& f, std::size_t i) { return {f[4 * i], f[4 * i + 1], f[4 * i + 2]}; }
 
 Mat3 cross(const Vec3& r) {  // cross(r) v = r x v
     Mat3 m;
@@ -70,11 +70,11 @@ void RigidUnknowns<Real>::prepare(const Reach&) {
     operators_.applyViscosity(*scene_.system, marks);
     kappa_.clear(), outward_.clear();
     for (const auto& near : scene_.bodies->groups().near)
-        kappa_.push_back(vector(operators_.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
+        kappa_.push_back(vectorAt(operators_.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
                          near.inverseDistance);
     for (const auto& m : members()) {
         const auto i = static_cast<std::size_t>(m.particle);
-        outward_.push_back(std::clamp(-vector(operators_.force(), i)[1] / operators_.viscousDiagonal(i), 0.0, 1.0));
+        outward_.push_back(std::clamp(-vectorAt(operators_.force(), i)[1] / operators_.viscousDiagonal(i), 0.0, 1.0));
     }
 }
 
@@ -134,7 +134,8 @@ void RigidUnknowns<Real>::addProduct(const Field& u, Forces& force) {
     for (std::size_t k = 0; k < near.size(); ++k) {
         const auto b = static_cast<std::size_t>(near[k].group);
         const std::size_t at = width * static_cast<std::size_t>(near[k].particle);
-        const Vec3 w = Vec3(u[at], u[at + 1], u[at + 2]) - motion(u, b).at(near[k].arm), f = kappa_[k] * w;
+        const Vec3 w = vectorAt(u, static_cast<std::size_t>(near[k].particle)) - motion(u, b).at(near[k].arm),
+                   f = kappa_[k] * w;
         for (int c = 0; c < 3; ++c) force[at + static_cast<std::size_t>(c)] -= f[c];
         add(reaction_[b], near[k].arm, f);
     }
@@ -193,7 +194,7 @@ template <class Real>
 std::vector<Wrench> RigidUnknowns<Real>::gather(const RealArray& force) const {
     std::vector<Wrench> sums(bodies().size());
     for (const auto& m : members())
-        add(sums[static_cast<std::size_t>(m.group)], m.arm, vector(force, static_cast<std::size_t>(m.particle)));
+        add(sums[static_cast<std::size_t>(m.group)], m.arm, vectorAt(force, static_cast<std::size_t>(m.particle)));
     return sums;
 }
 
@@ -255,10 +256,8 @@ template <class Real>
 void RigidUnknowns<Real>::project(Field& z) {
     std::vector<Wrench> sums(bodies().size());
     if (onGrid_) {
-        for (const auto& m : members()) {
-            const std::size_t at = width * static_cast<std::size_t>(m.particle);
-            add(sums[static_cast<std::size_t>(m.group)], m.arm, Vec3(z[at], z[at + 1], z[at + 2]));
-        }
+        for (const auto& m : members())
+            add(sums[static_cast<std::size_t>(m.group)], m.arm, vectorAt(z, static_cast<std::size_t>(m.particle)));
         addUp(sums);
     }
     for (std::size_t b = 0; b < sums.size(); ++b) {
@@ -336,10 +335,7 @@ void RigidUnknowns<Real>::spread(Field& u) const {
     std::vector<RigidMotion> motions;
     for (std::size_t b = 0; b < bodies().size(); ++b) motions.push_back(motion(u, b));
     const auto set = [&](std::size_t entry, std::size_t group, const Vec3& arm) {
-        const Vec3 at = motions[group].at(arm);
-        Real* to = u.data() + width * entry;
-        for (int k = 0; k < 3; ++k) to[k] = static_cast<Real>(at[k]);
-        to[3] = Real(0);
+        setVector(u, entry, motions[group].at(arm));
     };
     for (const auto& m : members()) set(static_cast<std::size_t>(m.particle), static_cast<std::size_t>(m.group), m.arm);
     for (const OtherMember& m : others_) set(m.entry, m.group, m.arm);

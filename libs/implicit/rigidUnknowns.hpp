@@ -32,6 +32,7 @@
 
 #include "coupling/scene.hpp"
 #include "implicit/term.hpp"
+#include "particles/vectorField.hpp"
 #include "sph/budget.hpp"
 #include "sph/operators.hpp"
 

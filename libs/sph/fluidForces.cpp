@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/communicator.hpp"
+#include "core/powerIteration.hpp"
 #include "particles/sumOverPairs.hpp"
 #include "sph/randomSigns.hpp"
 
@@ -211,21 +213,23 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
     if (groups_)
         groups_->spread(std::vector<RigidMotion>(groups_->motion.size()), vector[0].data(), vector[1].data(),
                         vector[2].data());
-    const auto norm = [&](const RealArray* v) {
+    const auto findSquare = [&] {
         double sum = 0;
-        for (int k = 0; k < 3; ++k)
-            for (const double a : v[k]) sum += a * a;
-        MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, system.comm());
-        return std::sqrt(sum);
+        for (const RealArray& component : vector)
+            for (const double a : component) sum += a * a;
+        return Communicator(system.comm()).sum(sum);
     };
     std::vector<RigidMotion> motion(groups_ ? groups_->motion.size() : 0);
-    double rate = 0;
-    for (int it = 0; it < iterations; ++it) {
-        const double length = norm(vector);
-        if (length == 0) return 0;
+    double square = findSquare();
+    const auto normalise = [&] {
+        const double length = std::sqrt(square);
+        if (length == 0) return 0.0;
         for (auto& component : vector)
             for (double& a : component) a /= length;
         for (RigidMotion& m : motion) m.linear /= length, m.angular /= length;
+        return 1.0;
+    };
+    return largestEigenvalue(iterations, normalise, [&] {
         runViscosity(system, vector, motion, image);
         std::swap(vector, image);
         clearWalls();
@@ -234,9 +238,8 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
                                                        s.mass.data(), system.comm()));
             groups_->spread(motion, vector[0].data(), vector[1].data(), vector[2].data());
         }
-        rate = norm(vector);
-    }
-    return rate;
+        return square = findSquare();
+    });
 }
 
 }  // namespace corpuscle::sph
