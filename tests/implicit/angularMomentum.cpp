@@ -145,7 +145,7 @@ TEST(AngularMomentum, keptOverATurn) {
     };
     const int acoustic = 300;
     std::unique_ptr<sph::ExplicitScheme> scheme;
-    std::unique_ptr<coupling::AdjointVerlet> verlet;
+    std::unique_ptr<coupling::AdjointVerlet> adjointStep;
     std::unique_ptr<implicit::ImplicitStep> step;
     const auto verlet = [&](coupling::Scene& on) {
         scheme = std::make_unique<sph::VelocityVerlet>(*on.system, *on.forces, nullptr, std::vector<sph::Load*>{});
@@ -153,9 +153,9 @@ TEST(AngularMomentum, keptOverATurn) {
         return [&](double dt) { scheme->advance(dt); };
     };
     const auto adjoint = [&](coupling::Scene& on) {
-        verlet = coupling::AdjointVerlet::make(on, {});
-        verlet->start();
-        return [&](double dt) { verlet->advance(dt); };
+        adjointStep = coupling::AdjointVerlet::make(on, {});
+        adjointStep->start();
+        return [&](double dt) { adjointStep->advance(dt); };
     };
     const auto implicitly = [&](std::optional<double> shifting) {
         return [&, shifting](coupling::Scene& on) {
