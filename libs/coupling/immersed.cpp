@@ -180,7 +180,7 @@ void Immersed::findWeights() {
         if (!(all > 0))
             throw Failure(ExitCode::numerics, "node " + std::to_string(m) +
                                                   " of the membranes, counted through all cells, has no fluid within " +
-                                                  std::to_string(radius_) + " m: the run has come apart");
+                                                  std::to_string(radius_) + " m: the run has diverged");
         if (!(absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights)) {
             along_[m] = Polynomial(1 / all, 0, 0, 0, 0), extra_[m] = Polynomial::Zero();
             ++fallbacks_;

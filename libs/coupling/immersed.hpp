@@ -11,7 +11,7 @@
 //
 // A closed cell keeps its volume exactly: of velocities and forces the part along the gradient of its volume is taken away,
 //     P = I - g g^T/(g.g),  g = dV/dx;     u_m = P S u,   f_fluid = S^T P f_m
-// so that power is neither made nor lost, and what the finite step leaves is put right along g (restoreVolume). P ends when a cell
+// so that power is neither made nor lost, and what the finite step leaves is corrected along g (restoreVolume). P ends when a cell
 // opens. The stiffness that the fluid feels is S^T P K P S, symmetric and positive semi-definite as K is.
 //
 // All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are added up. Whoever needs forces

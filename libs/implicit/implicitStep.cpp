@@ -95,11 +95,11 @@ class Step final : public ImplicitStep {
         return true;
     }
 
-    // Whether the velocities of two middles are known. After the first step only where the flow begins as it goes on: beside
+    // Whether the velocities of two middles are known. After the first step only where the flow starts fully developed: beside
     // cells and bodies, where walls or a body force set in and where the viscosity jumps, its acceleration is the jump from
     // a velocity that did not know of the forces, which does not go on.
-    bool hasAcceleration() const { return state.steps > (beginsAsItGoesOn() ? 0 : 1); }
-    bool beginsAsItGoesOn() const {
+    bool hasAcceleration() const { return state.steps > (startsDeveloped() ? 0 : 1); }
+    bool startsDeveloped() const {
         return !immersed_ && !system_.rigid() && !scene_.flow.settles && !scene_.store().optional().viscosity;
     }
     // By how much the store's velocity is later than the middle of the last step.

@@ -22,7 +22,7 @@
 // would come back as -x^n from step to step, with a velocity 2 x^n/dt that looks the worse the shorter the step. Elastic forces are therefore
 // those at x* + dt/2 (v - u) + e (v - v0): the second difference of the velocity is an error of third order in the step, and the stiffest
 // deviation comes back as half of itself (the largest root of 0.52 r^3 + 0.44 r^2 + 0.06 r - 0.02; of all e, 0.0185 dt has the least). In the first two
-// steps, where v0 knows nothing of the forces, e is 0; in the first alone, of a flow that begins as it goes on. Walls have prescribed velocities: their rows and columns are taken out, which
+// steps, where v0 knows nothing of the forces, e is 0; in the first alone, of a flow that starts fully developed. Walls have prescribed velocities: their rows and columns are taken out, which
 // keeps the system symmetric. Pressure needs no saddle point: density carries it from step to step.
 // Backward Euler: everything at the end of the step, dt in place of dt/2, c1 = 1/dt, c2 = 0 and e = 0.
 //

@@ -13,7 +13,7 @@
 // Steps of different length: the second difference is scaled to what it would be over steps as long as the last.
 // With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is asked for.
 //
-// Nothing is known of the error before the third step (the second, of a flow that begins as it goes on), and the start from a velocity that does not
+// Nothing is known of the error before the third step (the second, of a flow that starts fully developed), and the start from a velocity that does not
 // know of the forces is of first order: where `error` is below its default, the first step is (error/default)^(1/2) as long as `step`, and the
 // second twice that.
 //

@@ -1,4 +1,4 @@
-// Second derivatives of internal coordinates (coordinates.hpp): their gradients, worked out on numbers that carry first derivatives.
+// Second derivatives of internal coordinates (coordinates.hpp): their gradients, computed on numbers that carry first derivatives.
 #pragma once
 #include <unsupported/Eigen/AutoDiff>
 

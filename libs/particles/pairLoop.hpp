@@ -1,4 +1,4 @@
-// The one pair loop. Every law between particles goes through it, and every pair of owned particles is worked out once:
+// The one pair loop. Every law between particles goes through it, and every pair of owned particles is computed once:
 //
 //     sum_j += p(i, j),   sum_i += (-p0, -p1, -p2, +p3)(i, j)            (Newton's third law)
 //
@@ -15,7 +15,7 @@
 // doubles) are packed by the integrator for owned particles and come over the halo for ghosts.
 //
 // A block of `lanes` particles i meets its list one j at a time: a row. The square root takes as long as half of the rest: that of
-// the next row is worked out while this row's law is. Within the block every particle meets those r lanes on, r = 1 .. lanes/2. Lanes
+// the next row is computed while this row's law is. Within the block every particle meets those r lanes on, r = 1 .. lanes/2. Lanes
 // beyond the support vanish by arithmetic (max(0, 1 - q)): there are no masks.
 #pragma once
 #include "particles/simd.hpp"

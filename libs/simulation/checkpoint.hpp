@@ -24,7 +24,7 @@ void writeCheckpoint(const Case& input, const coupling::Scene& scene, const Time
 // Fills an empty scene, of a case that compareSettings (restart.hpp) has let pass. Collective.
 RunState readCheckpoint(const std::filesystem::path& path, const Case& input, coupling::Scene& scene, Time& time);
 
-// The same to memory and back into the scene of this run, which may have gone on or come apart since. Collective.
+// The same to memory and back into the scene of this run, which may have gone on or diverged since. Collective.
 void remember(io::MemoryCheckpoint& memory, const Case& input, const coupling::Scene& scene, const Time& time,
               const RunState& state);
 RunState recall(const io::MemoryCheckpoint& memory, const Case& input, coupling::Scene& scene, Time& time);

@@ -69,7 +69,7 @@ class FluidForces {
         particles::AlignedVector<Real> records;
         PairKernels::Fluid<Real> away{}, atWall{};
     };
-    // Packs the records and works out the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of `motion`;
+    // Packs the records and computes the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of `motion`;
     // pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
     void run(particles::ParticleSystem& system, const particles::RealArray& density,

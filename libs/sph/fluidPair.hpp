@@ -1,4 +1,4 @@
-// Pressure, viscosity and continuity between two particles (paper, Eqs 5 and 6 put right), as accelerations:
+// Pressure, viscosity and continuity between two particles (paper, Eqs 5 and 6 corrected), as accelerations:
 //
 //     du_i/dt   = sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) F x_ij  -  sum_j 2 mu_ij m_j/(rho_i rho_j) F beta u_ij
 //     drho_i/dt = - sum_j m_j F x_ij . u_ij                      F = -W'(r)/r,  grad W = -F x_ij

@@ -15,7 +15,7 @@
 // D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above), and no force is left over in the
 // sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
 //
-// The weights are worked out anew at each application: that needs a hundred bytes a particle and is as fast as reading them.
+// The weights are computed anew at each application: that needs a hundred bytes a particle and is as fast as reading them.
 // Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the last one 0.
 //
 // Over ranks: the divergence of an own particle needs the velocities of its neighbours, of which this rank may know those of others already; then

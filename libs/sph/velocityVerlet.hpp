@@ -26,7 +26,7 @@ class Load {
     virtual void drifted(particles::ParticleSystem&, double /*dt*/) {}
     virtual void kicked(particles::ParticleSystem&, double /*dt*/) {}
     // Particles have moved; lists may have been rebuilt (then `rebuilt` is set and every index has changed). The velocity that forces are
-    // worked out with is u + extrapolation f. Collective.
+    // computed with is u + extrapolation f. Collective.
     virtual void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) = 0;
     // Adds to fx, fy, fz [m/s^2] of the owned particles. Collective.
     virtual void addAccelerations(particles::ParticleSystem& system) = 0;

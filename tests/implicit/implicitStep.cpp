@@ -101,7 +101,7 @@ TEST(ImplicitStep, midpointIsOfSecondOrder) {
     EXPECT_NEAR(std::log2(fine / finest), 2, 0.1);
 }
 
-// A wave goes on as it begins: already after the first step the store has the velocity of its end, not that of its middle.
+// A wave starts fully developed: already after the first step the store has the velocity of its end, not that of its middle.
 TEST(ImplicitStep, firstStepOfADecayingFlowEndsAtItsEnd) {
     const ShearWave wave;
     const double step = 0.1;  // of 1/rate

@@ -6,7 +6,7 @@
 // Only fluid particles nearer than 4 dx to a membrane move; nodes, walls and all others stay. Only what lies within their
 // reach enters the sums, so the cost goes with the membranes' area, not with the box.
 //
-// What it is worth is read off sigma_i = sum_j V_j W_ij, which is 1 where particles fill space.
+// How even it is can be read off sigma_i = sum_j V_j W_ij, which is 1 where particles fill space.
 #pragma once
 #include "geometry/triangleMesh.hpp"
 #include "particles/particleSystem.hpp"
