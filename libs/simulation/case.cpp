@@ -154,11 +154,11 @@ void Case::throwIfAny(const Problems& problems) const {
     }
 }
 
-Case Case::read(const Application& app) {
-    Problems problems;
+namespace {
+
+// All files, by their own declarations; throws with every problem found.
+void readFiles(const Application& app, Case& c, Problems& problems) {
     const std::set<std::string> misnamed = checkFiles(app, problems);
-    Case c;
-    c.directory = app.caseDirectory();
     const auto readInto = [&]<class T>(T& settings, const std::string& file) {
         if (!misnamed.contains(file)) settings = readFile<T>(app, file, c, problems);
     };
@@ -176,7 +176,9 @@ Case Case::read(const Application& app) {
     if (app.hasDictionary("system/observers.yaml"))
         c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
     problems.throwIfAny();
+}
 
+void prepareSurfaces(Case& c, Problems& problems) {
     const auto resolve = [&](SurfaceSettings& surface) { surface.edge = surface.edgeLength.metres(c.spacing()); };
     std::for_each(c.mesh.cells.begin(), c.mesh.cells.end(), resolve);
     std::for_each(c.mesh.bodies.begin(), c.mesh.bodies.end(), resolve);
@@ -188,11 +190,9 @@ Case Case::read(const Application& app) {
         }
     }
     c.throwIfAny(problems);
-    c.written = c.numerics;
-    c.numerics = schemes::settled(c.written, c.facts(), c.written.integrator);
-    checkTogether(c, problems);
-    c.throwIfAny(problems);
+}
 
+void resolveFlow(Case& c, Problems& problems) {
     sph::FlowContext context{.box = c.fluidBox(),
                              .viscosity = c.fluid.viscosity,
                              .density = c.fluid.density,
@@ -209,13 +209,15 @@ Case Case::read(const Application& app) {
     c.throwIfAny(problems);
     checkSizes(c, context.shearModulus, problems);
     c.throwIfAny(problems);
+    const std::string noShear = "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give ";
     if (c.control.endStrain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "endStrain",
-                     "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give endTime");
+        problems.add({"system/control.yaml", 0, 0}, "endStrain", noShear + "endTime");
     if (c.control.write.strain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "write.strain",
-                     "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give write.time");
-    // Now that the flow is known.
+        problems.add({"system/control.yaml", 0, 0}, "write.strain", noShear + "write.time");
+}
+
+// What automatic keys stand for now that the flow is known.
+void settle(Case& c) {
     const schemes::CaseFacts facts = c.facts();
     c.integratorChosen = c.written.isAutomatic();
     c.numerics =
@@ -227,6 +229,22 @@ Case Case::read(const Application& app) {
             table = write(c.numerics);
         else if (file == "system/mesh.yaml")
             table = write(c.mesh);
+}
+
+}  // namespace
+
+Case Case::read(const Application& app) {
+    Problems problems;
+    Case c;
+    c.directory = app.caseDirectory();
+    readFiles(app, c, problems);
+    prepareSurfaces(c, problems);
+    c.written = c.numerics;
+    c.numerics = schemes::settled(c.written, c.facts(), c.written.integrator);
+    checkTogether(c, problems);
+    c.throwIfAny(problems);
+    resolveFlow(c, problems);
+    settle(c);
     c.observers.check(c.files["system/observers.yaml"],
                       {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
                       problems);

@@ -156,19 +156,19 @@ void checkLayers(const Case& c, Problems& problems) {
     }
 }
 
-}  // namespace
+void checkApplication(const Case& c, Problems& problems) {
+    if (c.control.application != "sphFlow") return;
+    for (const auto& [isThere, what] : {std::pair(!c.mesh.cells.empty(), "cells"), {!c.mesh.bodies.empty(), "bodies"}})
+        if (isThere)
+            problems.add({"system/control.yaml", 0, 0}, "application",
+                         fmt::format("found sphFlow, which is for a fluid alone, but system/mesh.yaml has {0}; write "
+                                     "dmpFlow, or remove the {0}",
+                                     what));
+}
 
-void checkTogether(const Case& c, Problems& problems) {
+void checkDomain(const Case& c, Problems& problems) {
     const int wall = c.flowModel->wallAxis();
     const Mark mesh{"system/mesh.yaml", 0, 0};
-    if (c.control.application == "sphFlow" && !c.mesh.cells.empty())
-        problems.add({"system/control.yaml", 0, 0}, "application",
-                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has cells; write dmpFlow, or "
-                     "remove the cells");
-    if (c.control.application == "sphFlow" && !c.mesh.bodies.empty())
-        problems.add({"system/control.yaml", 0, 0}, "application",
-                     "found sphFlow, which is for a fluid alone, but system/mesh.yaml has bodies; write dmpFlow, or "
-                     "remove the bodies");
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (k == wall && c.mesh.domain.periodic[axis])
@@ -189,11 +189,15 @@ void checkTogether(const Case& c, Problems& problems) {
                     "); nearest that fit: " + formatQuantity(std::max(1.0, std::floor(n)) * c.spacing(), unit::metre) +
                     ", " + formatQuantity(std::ceil(n) * c.spacing(), unit::metre));
     }
+}
+
+// Names, entries and shapes of all cells and bodies.
+void checkSurfaces(const Case& c, Problems& problems) {
     std::set<std::string> names;
     for (const PlacedSurface& surface : surfacesOf(c.mesh)) {
         const std::string& name = surface.settings.name;
         if (!names.insert(name).second || io::isReservedStream(name))
-            problems.add(mesh, surface.key + ".name",
+            problems.add({"system/mesh.yaml", 0, 0}, surface.key + ".name",
                          "the name '" + name +
                              "' is taken; each cell and body needs its own, and fluid, walls, bodies, holes, fault and "
                              "what begins with fault_ are reserved");
@@ -209,8 +213,9 @@ void checkTogether(const Case& c, Problems& problems) {
     if (c.numerics.isImmersed())
         for (std::size_t i = 0; i < c.mesh.cells.size(); ++i)
             if (c.mesh.cells[i].shape) checkImmersed(c, c.mesh.cells[i], "cells[" + std::to_string(i) + "]", problems);
-    checkLayers(c, problems);
-    schemes::check(c.numerics, c.written, c.facts(), problems);
+}
+
+void checkFirstBreak(const Case& c, Problems& problems) {
     const bool breaks = std::any_of(c.mesh.cells.begin(), c.mesh.cells.end(), [&](const CellSettings& cell) {
         const auto type = c.membranes.types.find(cell.type());
         return type != c.membranes.types.end() && type->second.rupture;
@@ -220,12 +225,27 @@ void checkTogether(const Case& c, Problems& problems) {
             {"system/control.yaml", 0, 0}, "stop.firstBreak",
             "found true, but nothing can break: no cell's entry of constant/membranes.yaml names a rupture law (" +
                 joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
+}
+
+void checkSupport(const Case& c, Problems& problems) {
     const double support = c.support() / c.spacing();
     if (!(support >= leastSupport && support <= largestSupport))
         problems.add({"system/numerics.yaml", 0, 0}, "kernel.support",
                      fmt::format("found {} dx, which reaches too {} neighbours; {:g} to {:g} dx, usually 2.4 to 3 dx",
                                  formatQuantity(support, unit::none), support > largestSupport ? "many" : "few",
                                  leastSupport, largestSupport));
+}
+
+}  // namespace
+
+void checkTogether(const Case& c, Problems& problems) {
+    checkApplication(c, problems);
+    checkDomain(c, problems);
+    checkSurfaces(c, problems);
+    checkLayers(c, problems);
+    schemes::check(c.numerics, c.written, c.facts(), problems);
+    checkFirstBreak(c, problems);
+    checkSupport(c, problems);
 }
 
 void checkSizes(const Case& c, double shearModulus, Problems& problems) {

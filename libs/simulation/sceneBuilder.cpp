@@ -144,77 +144,108 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     return scene;
 }
 
+namespace {
+
+// Puts this rank's share of all particles of the start into a scene, numbered kind after kind.
+class StartingParticles {
+  public:
+    StartingParticles(const Case& input, Scene& scene)
+        : input_(input), scene_(scene), s_(scene.store()), comm_(scene.system->comm()) {}
+
+    void addFluid() {
+        const sph::FluidModel& model = scene_.model();
+        const io::PolyData fluid = readStart(input_, "fluid");
+        const auto& side = fluid.point.integer("side");
+        forShare(fluid.points.size(), comm_, [&](std::size_t k) {
+            const Vec3& x = fluid.points[k];
+            const double density =
+                model.equationOfState->density(input_.flow.pressure(x), model.density, model.soundSpeed);
+            const std::size_t i = add(Kind::fluid, k, x, input_.flow.velocity(x), density);
+            if (s_.optional().side) s_.side[i] = side[k];
+            if (s_.optional().viscosity && side[k] > 0)
+                s_.viscosity[i] *= scene_.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
+        });
+        firstId_ += fluid.points.size();
+    }
+    void addWalls() {
+        const sph::FluidModel& model = scene_.model();
+        if (!model.walls.exist()) return;
+        const io::PolyData walls = readStart(input_, "walls");
+        forShare(walls.points.size(), comm_, [&](std::size_t k) {
+            const Vec3& x = walls.points[k];
+            const std::size_t i = add(Kind::wall, k, x, model.walls.velocity[model.walls.isUpper(x)], model.density);
+            if (s_.optional().side) s_.side[i] = 0;
+        });
+        firstId_ += walls.points.size();
+    }
+    // Membranes move with the flow; their nodes are particles where the coupling says so.
+    void addMembranes() {
+        const sph::FluidModel& model = scene_.model();
+        for (Cell& cell : scene_.cells) {
+            const auto first = static_cast<std::size_t>(cell.firstNode);
+            for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
+                cell.membrane.velocity[k] = input_.flow.velocity(cell.membrane.position[k]);
+            forShare(cell.nodeMass.size(), comm_, [&](std::size_t k) {
+                const std::size_t i =
+                    add(Kind::membrane, first + k, cell.membrane.position[k], cell.membrane.velocity[k], model.density);
+                s_.mass[i] = cell.nodeMass[k];
+                s_.side[i] = cell.membrane.cell;
+                s_.node[i] = static_cast<std::int64_t>(first + k);
+                if (s_.optional().viscosity) s_.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
+            });
+        }
+        for (const Cell& cell : scene_.cells) firstId_ += cell.nodeMass.size();
+    }
+    void addBodies() {
+        if (!scene_.bodies) return;
+        for (bodies::Body& body : scene_.bodies->all()) {
+            const Vec3 centre = body.state.centre;
+            body.state.motion = body.behaviour->start(motionOfFlow(input_, centre));
+            forShare(body.particles.size(), comm_, [&](std::size_t k) {
+                const Vec3 arm = body.state.orientation * body.particles[k].place;
+                const std::int64_t member = body.firstMember + static_cast<std::int64_t>(k);
+                const std::size_t i = add(Kind::body, static_cast<std::size_t>(member), centre + arm,
+                                          body.state.motion.at(arm), scene_.model().density);
+                s_.member[i] = member;
+                if (s_.optional().side) s_.side[i] = body.cell;
+                if (s_.optional().viscosity) s_.viscosity[i] = body.viscosity;
+            });
+        }
+    }
+
+  private:
+    std::size_t add(Kind kind, std::size_t number, const Vec3& x, const Vec3& u, double density) {
+        const std::size_t i = s_.size();
+        s_.resize(i + 1);
+        s_.setPosition(i, x);
+        s_.setVelocity(i, u);
+        s_.density[i] = density;
+        s_.id[i] = static_cast<std::int64_t>(firstId_ + number);
+        s_.kind[i] = static_cast<std::int64_t>(kind);
+        if (s_.optional().mass) s_.mass[i] = scene_.model().mass;
+        if (s_.optional().viscosity) s_.viscosity[i] = input_.viscosityAt(x);
+        if (s_.optional().node) s_.node[i] = -1;
+        if (s_.optional().member) s_.member[i] = -1;
+        return i;
+    }
+
+    const Case& input_;
+    Scene& scene_;
+    ParticleStore& s_;
+    MPI_Comm comm_;
+    std::size_t firstId_ = 0;
+};
+
+}  // namespace
+
 Scene buildScene(const Case& input, MPI_Comm comm) {
     Scene scene = emptyScene(input, comm);
     requireClear(input, scene);
-    ParticleStore& s = scene.store();
-    const sph::FluidModel& model = scene.model();
-    std::int64_t firstId = 0;
-    const auto add = [&](Kind kind, std::int64_t id, const Vec3& x, const Vec3& u, double density) {
-        const std::size_t i = s.size();
-        s.resize(i + 1);
-        s.setPosition(i, x);
-        s.setVelocity(i, u);
-        s.density[i] = density;
-        s.id[i] = id;
-        s.kind[i] = static_cast<std::int64_t>(kind);
-        if (s.optional().mass) s.mass[i] = model.mass;
-        if (s.optional().viscosity) s.viscosity[i] = input.viscosityAt(x);
-        if (s.optional().node) s.node[i] = -1;
-        if (s.optional().member) s.member[i] = -1;
-        return i;
-    };
-
-    const io::PolyData fluid = readStart(input, "fluid");
-    const auto& side = fluid.point.integer("side");
-    forShare(fluid.points.size(), comm, [&](std::size_t k) {
-        const Vec3& x = fluid.points[k];
-        const double density = model.equationOfState->density(input.flow.pressure(x), model.density, model.soundSpeed);
-        const std::size_t i = add(Kind::fluid, static_cast<std::int64_t>(k), x, input.flow.velocity(x), density);
-        if (s.optional().side) s.side[i] = side[k];
-        if (s.optional().viscosity && side[k] > 0)
-            s.viscosity[i] *= scene.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
-    });
-    firstId += static_cast<std::int64_t>(fluid.points.size());
-
-    if (model.walls.exist()) {
-        const io::PolyData walls = readStart(input, "walls");
-        forShare(walls.points.size(), comm, [&](std::size_t k) {
-            const Vec3& x = walls.points[k];
-            const std::size_t i = add(Kind::wall, firstId + static_cast<std::int64_t>(k), x,
-                                      model.walls.velocity[model.walls.isUpper(x)], model.density);
-            if (s.optional().side) s.side[i] = 0;
-        });
-        firstId += static_cast<std::int64_t>(walls.points.size());
-    }
-
-    for (Cell& cell : scene.cells) {
-        for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
-            cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
-        forShare(cell.nodeMass.size(), comm, [&](std::size_t k) {
-            const std::size_t i = add(Kind::membrane, firstId + cell.firstNode + static_cast<std::int64_t>(k),
-                                      cell.membrane.position[k], cell.membrane.velocity[k], model.density);
-            s.mass[i] = cell.nodeMass[k];
-            s.side[i] = cell.membrane.cell;
-            s.node[i] = cell.firstNode + static_cast<std::int64_t>(k);
-            if (s.optional().viscosity) s.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
-        });
-    }
-    for (const Cell& cell : scene.cells) firstId += static_cast<std::int64_t>(cell.nodeMass.size());
-    if (scene.bodies)
-        for (bodies::Body& body : scene.bodies->all()) {
-            const Vec3 centre = body.state.centre;
-            body.state.motion = body.behaviour->start(motionOfFlow(input, centre));
-            forShare(body.particles.size(), comm, [&](std::size_t k) {
-                const Vec3 arm = body.state.orientation * body.particles[k].place;
-                const std::int64_t member = body.firstMember + static_cast<std::int64_t>(k);
-                const std::size_t i =
-                    add(Kind::body, firstId + member, centre + arm, body.state.motion.at(arm), model.density);
-                s.member[i] = member;
-                if (s.optional().side) s.side[i] = body.cell;
-                if (s.optional().viscosity) s.viscosity[i] = body.viscosity;
-            });
-        }
+    StartingParticles particles(input, scene);
+    particles.addFluid();
+    particles.addWalls();
+    particles.addMembranes();
+    particles.addBodies();
     scene.system->start();
     return scene;
 }
