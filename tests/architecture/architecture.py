@@ -3,20 +3,39 @@
 
     architecture.py [repository]
 
-1. Libraries depend one way, by layers: every #include "library/file.hpp" in libs/ and every DEPENDS of a library's CMakeLists.txt
+1. Libraries depend one way, by the layers that the page's table draws: every #include "library/file.hpp" in libs/ and every DEPENDS of a library's CMakeLists.txt
    names a library of a lower layer, its own, or one of SAME_LAYER. What is included is reached through DEPENDS.
 2. Every library has its CMakeLists.txt, its tests in tests/<library> and its page docs/<library>.md.
 3. No file names a place of the machine that it was written on.
 4. A file that begins with #! can be called by its name.
+5. Files and classes that the page names are there.
 """
 import os
 import re
 import sys
 from pathlib import Path
 
-LAYERS = [{"core"}, {"io"}, {"particles", "geometry"}, {"sph", "membrane"}, {"bodies"}, {"coupling"}, {"implicit", "observers"}, {"schemes"}, {"simulation"}]
+ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]).resolve()
 SAME_LAYER = {}  # library -> those of its own layer that it may use
 
+
+def drawn_layers(page):
+    """The layers as the table of the page draws them, the lowest first: | 3 | [particles](particles.md): ... | 1, 2 |"""
+    layers = []
+    for number, libraries, below in re.findall(r"^\| (\d+) \| (.*?) \| (.*?) ?\|$", page, re.M):
+        names = set(re.findall(r"\[(\w+)\]\(\1\.md\)", libraries))
+        if not names:
+            continue  # applications
+        layers.append(names)
+        last = len(layers) - 1
+        expected = {"", "1"} if last < 2 else {f"1 to {last}", "1, 2"}
+        if int(number) != len(layers) or below.strip() not in expected:
+            raise ValueError(f"layer {number} of docs/architecture.md: out of order, or may use '{below}'")
+    return layers
+
+
+PAGE = (ROOT / "docs/architecture.md").read_text()
+LAYERS = drawn_layers(PAGE)
 LIBRARIES = set().union(*LAYERS)
 SOURCES = {".hpp", ".cpp", ".h"}
 # Written in two halves, so that this file does not name them itself.
@@ -52,7 +71,7 @@ def check_dependencies(root, fail):
     libs = root / "libs"
     there = {p.name for p in libs.iterdir() if p.is_dir()}
     for name in sorted(there - LIBRARIES):
-        fail(f"libs/{name}: no layer is known for it; add it to LAYERS here and to docs/architecture.md")
+        fail(f"libs/{name}: no layer is known for it; add it to the table of docs/architecture.md")
     depends = {}
     for library in sorted(there & LIBRARIES):
         if not (libs / library / "CMakeLists.txt").is_file():
@@ -101,6 +120,17 @@ def check_companions(root, fail):
                 fail(f"{path} is missing: every library has a page and a folder of tests")
 
 
+def check_page(root, fail):
+    """What the page names is there: files as library/file, classes as library::Class."""
+    for library, name in sorted(set(re.findall(r"\b(%s)/(\w+)" % "|".join(sorted(LIBRARIES)), PAGE))):
+        if not any((root / "libs" / library).glob(f"{name}.*")):
+            fail(f"docs/architecture.md names {library}/{name}, and libs/{library} has no such file")
+    for library, name in sorted(set(re.findall(r"\b(%s)::(\w+)" % "|".join(sorted(LIBRARIES)), PAGE))):
+        sources = "".join(path.read_text() for path in (root / "libs" / library).glob("*.hpp"))
+        if not re.search(r"\b(class|struct|enum class) %s\b" % name, sources):
+            fail(f"docs/architecture.md names {library}::{name}, and no header of libs/{library} declares it")
+
+
 def texts(root):
     """(path, content) of every file that is not binary and not what a build or a case makes."""
     for folder, names, files in os.walk(root):
@@ -130,10 +160,9 @@ def check_scripts(root, fail):
 
 
 def main():
-    root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]).resolve()
     failures = []
-    for check in (check_dependencies, check_companions, check_places, check_scripts):
-        check(root, failures.append)
+    for check in (check_dependencies, check_companions, check_page, check_places, check_scripts):
+        check(ROOT, failures.append)
     for failure in failures:
         print(failure)
     print(f"architecture: {len(failures)} fault{'' if len(failures) == 1 else 's'}")
