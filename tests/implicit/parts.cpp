@@ -101,8 +101,8 @@ TEST(TimeDifference, density) {
             atEnd ? TimeDifference::backwardEuler(dt, {}) : TimeDifference::midpoint(dt, {}, false);
         return std::abs(d.density(2, 0.3) - 2 * std::exp(-0.3 * dt));
     };
-    EXPECT_NEAR(error(false, 0.2) / error(false, 0.1), 8, 0.1);
-    EXPECT_NEAR(error(true, 0.2) / error(true, 0.1), 4, 0.2);
+    EXPECT_NEAR(error(false, 0.02) / error(false, 0.01), 8, 0.05);
+    EXPECT_NEAR(error(true, 0.02) / error(true, 0.01), 4, 0.05);
     const TimeDifference d = TimeDifference::midpoint(0.2, {}, false);
     EXPECT_NEAR(d.density(d.density(2, 0.3), -0.3), 2, 1e-15);
 }
