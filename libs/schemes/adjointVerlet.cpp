@@ -65,11 +65,7 @@ class AdjointVerlet final : public Scheme {
     }
 
     sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double /*t*/) const override {
-        const ExplicitRates rates = predictedRates(facts, numerics);
-        sph::StepLimits limits;
-        addViscousLimit(rates, numerics.safety, limits);
-        addOtherLimits(rates, predictedMedium(facts, numerics, facts.adjointSoundSpeed), 1, limits);
-        return limits;
+        return verletLimits(facts, numerics, facts.adjointSoundSpeed);
     }
     double passes(const CaseFacts&, const NumericsSettings&, double /*dt*/) const override { return 4; }
 

@@ -21,6 +21,14 @@ ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& n
     return {0.5 * numerics.support(), soundSpeed + facts.flow.speed, facts.flow.bodyForce, numerics.safety};
 }
 
+sph::StepLimits verletLimits(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed) {
+    const ExplicitRates rates = predictedRates(facts, numerics);
+    sph::StepLimits limits;
+    addViscousLimit(rates, numerics.safety, limits);
+    addOtherLimits(rates, predictedMedium(facts, numerics, soundSpeed), 1, limits);
+    return limits;
+}
+
 coupling::DensityBalance densityBalance(const coupling::Scene& scene) {
     double volume = scene.fluidBox.volume();
     if (scene.bodies)

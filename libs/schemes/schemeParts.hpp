@@ -12,6 +12,9 @@ inline const Mark numericsFile{"system/numerics.yaml", 0, 0};
 ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& numerics);
 ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed);
 
+// Those of velocity Verlet, of these.
+sph::StepLimits verletLimits(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed);
+
 // The volume and density that density is balanced against (coupling/densityBalance.hpp).
 coupling::DensityBalance densityBalance(const coupling::Scene& scene);
 coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene);

@@ -83,11 +83,7 @@ struct VelocityVerlet final : Scheme {
     }
 
     sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double /*t*/) const override {
-        const ExplicitRates rates = predictedRates(facts, numerics);
-        sph::StepLimits limits;
-        addViscousLimit(rates, numerics.safety, limits);
-        addOtherLimits(rates, predictedMedium(facts, numerics, facts.soundSpeed), 1, limits);
-        return limits;
+        return verletLimits(facts, numerics, facts.soundSpeed);
     }
     double passes(const CaseFacts&, const NumericsSettings&, double /*dt*/) const override { return 1; }
 

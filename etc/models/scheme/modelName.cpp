@@ -63,11 +63,7 @@ struct ModelName final : Scheme {
     std::vector<UnusedKey> unused(const NumericsSettings&) const override { return {unusedGuard()}; }
 
     sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double /*t*/) const override {
-        const ExplicitRates rates = predictedRates(facts, numerics);
-        sph::StepLimits limits;
-        addViscousLimit(rates, numerics.safety, limits);
-        addOtherLimits(rates, predictedMedium(facts, numerics, facts.soundSpeed), 1, limits);
-        return limits;
+        return verletLimits(facts, numerics, facts.soundSpeed);
     }
     double passes(const CaseFacts&, const NumericsSettings&, double /*dt*/) const override { return 1; }
 
