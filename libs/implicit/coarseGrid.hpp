@@ -125,8 +125,8 @@ class CoarseGrid {
     double inertia_ = 0, viscosity_ = 0, lambda_ = 0;
     std::size_t own_ = 0;
     std::vector<Place> places_;
-    std::vector<Quad>
-        quads_;  // values of a node side by side, x y z and a number without meaning: one vector for what particles take or give
+    // Values of a node side by side, x y z and a number without meaning: one vector for what particles take or give.
+    std::vector<Quad> quads_;
     std::unique_ptr<Plans> plans_;
     std::vector<Block> inverse_;  // of the pivots of every mode, planes taken in from below; or of the mode
     std::vector<Block> upper_;    // of every mode between two planes

@@ -32,8 +32,8 @@ struct AllowedSteps {
 AllowedSteps firstStep(const ImplicitSettings& settings, double rate);
 
 struct LastStep {
-    double dt,
-        planned;  // [s]; its length, and that which it would have had but for an event (core/time.hpp): from this the next one grows
+    double dt;       // its length [s]
+    double planned;  // that which it would have had but for an event (core/time.hpp): from it the next one grows [s]
     bool backwardEuler;
 };
 // difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a bond [1/s].

@@ -1,10 +1,10 @@
 // Family of schemes: how a scene is advanced in time. A scheme is chosen by `integrator` of system/numerics.yaml, by its registered name; its
 // settings stand there in a table of that name.
 //
-// name           | scheme                                                                              | file
-// velocityVerlet | explicit (paper, Eqs 12 to 17); on adjoint operators where the case has them         | velocityVerlet.cpp, adjointVerlet.cpp
-// rkl2           | explicit, its viscosity by super-time-stepping; a fluid alone                        | rkl2.cpp
-// implicit       | one symmetric system for fluid and membranes in each step                            | implicit.cpp
+// name, and file | scheme
+// velocityVerlet | explicit (paper, Eqs 12 to 17); on adjoint operators where the case has them (adjointVerlet)
+// rkl2           | explicit, its viscosity by super-time-stepping; a fluid alone
+// implicit       | one symmetric system for fluid and membranes in each step
 //
 // A scheme says what it can do, what it costs and what it stands for where a key is absent; `stepper` makes what steps a scene (stepper.hpp).
 // Nothing outside this library asks for a scheme by its name.

@@ -54,7 +54,8 @@ class Writer {
                               array("Int32", "Name=\"connectivity\"", std::vector<std::int32_t>{0, 1, 2, 1, 2, 3}),
                           offsets = array("Int64", "Name=\"offsets\"", std::vector<std::int64_t>{3, 6});
         std::string text = fmt::format(
-            R"(<VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="{}"><PolyData><Piece NumberOfPoints="4" NumberOfPolys="2"><Points>{}</Points><Polys>{}{}</Polys></Piece></PolyData>)",
+            R"(<VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="{}"><PolyData>)"
+            R"(<Piece NumberOfPoints="4" NumberOfPolys="2"><Points>{}</Points><Polys>{}{}</Polys></Piece></PolyData>)",
             form_.little ? "LittleEndian" : "BigEndian", form_.wide ? "UInt64" : "UInt32", points, connectivity,
             offsets);
         if (form_.appended)
