@@ -30,6 +30,10 @@ class Lock : public testing::Test {
         if (world.isRoot()) std::ofstream(file) << text;
         world.barrier();
     }
+    void expectNoFile() {  // before any rank goes on and makes one
+        EXPECT_FALSE(std::filesystem::exists(file));
+        world.barrier();
+    }
     std::string boot() {
         std::string text;
         std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), text);
@@ -49,7 +53,7 @@ TEST_F(Lock, RefusesASecondProgramAndNamesTheFirst) {
         }
     }
     world.barrier();
-    EXPECT_FALSE(std::filesystem::exists(file));
+    expectNoFile();
     EXPECT_EQ(failure(), "");
 }
 
@@ -71,7 +75,7 @@ TEST_F(Lock, TakesOverWhatIsLeftOver) {
         }
         log.open(said);
         world.barrier();
-        EXPECT_FALSE(std::filesystem::exists(file));
+        expectNoFile();
     }
     for (const char* text : {"", "\n\n", "not a lock at all: really\n"}) {  // of nobody
         leave(text);
