@@ -29,7 +29,7 @@ def main():
         assert "is no name for a model" in run([script, "law", "My law"], copy, 1)
         assert "is there already" in run([script, "law", "harmonicBond"], copy, 1)
         assert "etc/newModel KIND NAME" in run([script], copy)
-        names = {kind: f"own{kind.capitalize()}" for kind in KINDS}
+        names = {kind: f"trial{kind.capitalize()}" for kind in KINDS}
         for kind, name in names.items():
             said = run([script, kind, name], copy)
             assert f"tests/{KINDS[kind]}/{name}.cpp" in said, said
