@@ -4,11 +4,13 @@
     newModel.py REPOSITORY
 """
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
+SKIPPED = re.compile(r"build(-.*)?|\.git|results|checkpoints|postProcessing|runs|__pycache__")  # folders
 KINDS = {"law": "membrane", "kernel": "sph", "flow": "sph", "observer": "observers", "scheme": "schemes"}
 
 
@@ -23,7 +25,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         # Under the name that a clone has: what the compiler's cache holds counts in any folder.
         copy = pathlib.Path(temporary) / "corpuscle"
-        shutil.copytree(root, copy, ignore=shutil.ignore_patterns("build*", ".git", "results", "checkpoints", "postProcessing", "__pycache__"))
+        shutil.copytree(root, copy, ignore=lambda folder, names: [n for n in names if SKIPPED.fullmatch(n)])
         script = copy / "etc/newModel"
         assert "there is no template of a 'turbulence'" in run([script, "turbulence", "k"], copy, 1)
         assert "is no name for a model" in run([script, "law", "My law"], copy, 1)
