@@ -36,8 +36,8 @@ TEST(ModelName, isInEveryPairLoop) {
     for (const bool atWall : {false, true}) {
         FluidVariant variant;
         variant.kernel = Kernels::kindOf<ModelName>();
-        EXPECT_NE(pairKernels().fluid(variant, atWall), nullptr);
-        EXPECT_NE(pairKernels().fluidFloat(variant, atWall), nullptr);
+        EXPECT_NE(pairKernels().fluid(variant, atWall).run, nullptr);
+        EXPECT_NE(pairKernels().fluidFloat(variant, atWall).run, nullptr);
     }
 }
 
