@@ -40,7 +40,7 @@ def main():
         run(["ninja", "-C", copy / "build", *tests, "listModels"], copy)
         said = run(["ctest", "--test-dir", copy / "build", "--output-on-failure", "--no-tests=error", "-R",
                     "|".join(name for name in names.values())], copy)
-        assert "100% tests passed" in said and said.count("Passed") == len(KINDS) + 1, said  # the observer's on 1 and 2 ranks
+        assert "100% tests passed" in said and said.count("Passed") == len(KINDS) + 2, said  # the observer and the scheme on 1 and 2 ranks
         listed = run([copy / "build/bin/listModels"], copy)
         for name in names.values():
             assert name in listed, (name, listed)

@@ -18,7 +18,7 @@ TEST(ModelName, isChosenAndRefusesWhatItCannotDo) {
 
 // A disordered fluid in a periodic box keeps its momentum, and one that moves as a whole goes on.
 TEST(ModelName, steps) {
-    const Index3 size(8, 8, 8);
+    const Index3 size{8, 8, 8};
     coupling::testing::FluidScene f(coupling::testing::still(size, 0.1), size, sph::testing::model("wendlandC2"), 1,
                                     0.3, MPI_COMM_SELF, particles::Precision::full);
     particles::ParticleStore& s = f.scene.store();
