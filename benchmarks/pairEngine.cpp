@@ -1,7 +1,7 @@
 // Speed of the pair engine: particle-steps per core-second and per second of wall clock of the whole explicit loop.
 //
-// A periodic cube of n^3 particles jittered by 0.1 dx; pressure, Morris viscosity and continuity with Tait's equation of state,
-// velocity Verlet, skin 0.3 dx; sorted and listed every 10 steps. Warm-up of 10 steps, then `steps`.
+// A periodic cube of n^3 particles jittered by 0.1 dx; pressure, Morris viscosity and continuity with Tait's equation
+// of state, velocity Verlet, skin 0.3 dx; sorted and listed every 10 steps. Warm-up of 10 steps, then `steps`.
 //     pairEngine [n] [support in dx] [steps] [kernel] [double|mixed]        default: 80 2.5 50 lucy double
 //     mpirun -np 2 pairEngine 80
 #include <mpi.h>
@@ -40,7 +40,8 @@ double sum(double value) {
     return value;
 }
 
-// A flow slow enough that nothing moves by half of the skin in ten steps. Every rank draws the same numbers and keeps its share.
+// A flow slow enough that nothing moves by half of the skin in ten steps. Every rank draws the same numbers and keeps
+// its share.
 void fill(ParticleStore& store, int n, int rank, int size) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> d(-1, 1);

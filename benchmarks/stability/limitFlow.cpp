@@ -1,5 +1,5 @@
-// limitFlow: dmpFlow and sphFlow with steps that are a multiple of one limit of the explicit step, for the map of docs/stability.md. The solvers
-// themselves take no more than `safety`, at most 1, of the least.
+// limitFlow: dmpFlow and sphFlow with steps that are a multiple of one limit of the explicit step, for the map of
+// docs/stability.md. The solvers themselves take no more than `safety`, at most 1, of the least.
 //
 // Sample runs:
 //     limitFlow -case myCase -limit viscous -times 1.1

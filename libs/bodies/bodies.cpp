@@ -15,7 +15,8 @@ using particles::ParticleSystem;
 
 namespace {
 
-// About what a body's particles within reach of a fluid particle weigh in sum_j l_ij depth_j, by their surface's distance.
+// About what a body's particles within reach of a fluid particle weigh in sum_j l_ij depth_j, by their surface's
+// distance.
 double share(double distance, double reach) { return std::pow(1 - distance / reach, 6); }
 
 // The image of `to` nearest to `from`; the bits of `to` where that is the one.

@@ -1,8 +1,8 @@
 // The rigid bodies of a scene and their particles: a Load of velocity Verlet.
 //
-// A body's particles are particles of the fluid that move with it: they push back as walls do (density by the continuity equation) and
-// stand for the velocity that continues the fluid's beyond the surface (sph/fluidPair.hpp). What acts on them is gathered on the body
-// (sph/rigidGroups.hpp), whose motion follows (rigidState.hpp).
+// A body's particles are particles of the fluid that move with it: they push back as walls do (density by the
+// continuity equation) and stand for the velocity that continues the fluid's beyond the surface (sph/fluidPair.hpp).
+// What acts on them is gathered on the body (sph/rigidGroups.hpp), whose motion follows (rigidState.hpp).
 //
 //     drifted            half a kick and the drift of each body; its particles to their new places
 //     moved              after a rebuild, who is here; at each step, arms and distances
@@ -22,8 +22,8 @@ class Bodies : public sph::Load {
         double density = 0;             // rho0 of the fluid [kg/m^3]
         Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
         double spacing = 0;             // [m]
-        // A fluid particle that has come closer to a surface than this counts as so far away [spacings]: what it would feel
-        // otherwise bounds an explicit step. What it feels less makes bodies look smaller, by 0.04 dx with 0.25.
+        // A fluid particle that has come closer to a surface than this counts as so far away [spacings]: what it would
+        // feel otherwise bounds an explicit step. What it feels less makes bodies look smaller, by 0.04 dx with 0.25.
         double leastDistance = 0.25;
         static constexpr double unlimited = 0.05;  // where the step has no such bound
     };
@@ -46,8 +46,8 @@ class Bodies : public sph::Load {
     void addRates(const particles::ParticleSystem& system, const Body& body, const RigidMotion& motion,
                   sph::Budget::Values& rates) const;
 
-    // For whoever steps bodies and particles in another way: who of the bodies' particles is here, after particles have changed their
-    // order; and these to their places, the images nearest to where they are.
+    // For whoever steps bodies and particles in another way: who of the bodies' particles is here, after particles have
+    // changed their order; and these to their places, the images nearest to where they are.
     void findMembers(const particles::ParticleSystem& system);
     void place(particles::ParticleSystem& system) const;
 

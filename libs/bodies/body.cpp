@@ -40,7 +40,8 @@ void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sp
     sumRotationalDrag(particleVolume, kernel, reach);
 }
 
-// D Omega = sum_j s_j x (Omega x q_j),  q_j = sum_k 2 mu V^2 F (r_j - r_k) over the body's own particles k: 0 far from the surface.
+// D Omega = sum_j s_j x (Omega x q_j),  q_j = sum_k 2 mu V^2 F (r_j - r_k) over the body's own particles k: 0 far from
+// the surface.
 void Body::sumRotationalDrag(double particleVolume, const sph::Kernel& kernel, double reach) {
     const double factor = 2 * viscosity * particleVolume * particleVolume * kernel.gradientNormalisation(reach);
     const auto column = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach)); };

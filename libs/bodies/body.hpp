@@ -1,7 +1,7 @@
 // A rigid body of the scene: a closed mesh filled with particles.
 //
-// Every rank knows every body whole and integrates its motion: the sums of forces are the same bits on all ranks. Its particles belong
-// to whoever owns their place; where they stand follows from the body's state alone.
+// Every rank knows every body whole and integrates its motion: the sums of forces are the same bits on all ranks. Its
+// particles belong to whoever owns their place; where they stand follows from the body's state alone.
 #pragma once
 #include <memory>
 #include <string>
@@ -30,8 +30,9 @@ struct Body {
     Wrench wrench;                 // of the fluid, about the centre of mass, at the last evaluation
     std::int64_t firstMember = 0;  // number of its first particle: field `member` of the store
     std::vector<BodyParticle> particles;
-    // Sum over pairs of the torque that fluid turning with the body as one piece would exert: T = D Omega, in the body frame (sph/rigidGroups.hpp).
-    // What the fluid's particles around contribute is the opposite of what the body's own do, since both together are even.
+    // Sum over pairs of the torque that fluid turning with the body as one piece would exert: T = D Omega, in the body
+    // frame (sph/rigidGroups.hpp). What the fluid's particles around contribute is the opposite of what the body's own
+    // do, since both together are even.
     Mat3 rotationalDrag = Mat3::Zero();
     geometry::DistanceField distance;  // from the surface, in the body frame
 

@@ -1,10 +1,12 @@
 // How far a particle counts from a curved surface when the velocity is continued beyond it.
 //
-// The flow relative to the surface goes as w ~ s near a plane; near a curved surface the same momentum flux spreads over more
-// or less area, and with kappa = k1 + k2, positive for a convex body,
-//     w ~ s (1 - kappa s/2)          s: distance from the surface, kappa at s, so that it is exact for a turning sphere, s a/(a + s)
-// and beyond it, at depth z with kappa there, w ~ -z (1 + kappa z/2). kappa is the Laplacian of the distance. Continued linearly, the
-// torque on a sphere is low by about 0.23 (H_s/a)^2. The factors are held between a half and two: at sharp edges they mean little.
+// The flow relative to the surface goes as w ~ s near a plane; near a curved surface the same momentum flux spreads
+// over more or less area, and with kappa = k1 + k2, positive for a convex body,
+//     w ~ s (1 - kappa s/2)          s: distance from the surface, kappa at s, so that it is exact for a turning
+//                                    sphere, s a/(a + s)
+// and beyond it, at depth z with kappa there, w ~ -z (1 + kappa z/2). kappa is the Laplacian of the distance. Continued
+// linearly, the torque on a sphere is low by about 0.23 (H_s/a)^2. The factors are held between a half and two: at
+// sharp edges they mean little.
 #pragma once
 #include <algorithm>
 

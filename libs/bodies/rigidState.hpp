@@ -2,10 +2,11 @@
 //
 //     m dU/dt = F,   dL/dt = T,   L = R I R^T Omega,   dR/dt = Omega x R
 //
-// Velocity Verlet: half a kick of U and L, a drift, half a kick with the new force and torque. In the drift L is constant in space;
-// the rotation is that of the free top, split into rotations about the principal axes (Dullweber, Leimkuhler and McLachlan,
-// J. Chem. Phys. 107:5840, 1997):
-//     R <- R exp(dt/2 w1) exp(dt/2 w2) exp(dt w3) exp(dt/2 w2) exp(dt/2 w1),   w_k = L_k/I_k about axis k, L_k in the body frame
+// Velocity Verlet: half a kick of U and L, a drift, half a kick with the new force and torque. In the drift L is
+// constant in space; the rotation is that of the free top, split into rotations about the principal axes (Dullweber,
+// Leimkuhler and McLachlan, J. Chem. Phys. 107:5840, 1997):
+//     R <- R exp(dt/2 w1) exp(dt/2 w2) exp(dt w3) exp(dt/2 w2) exp(dt/2 w1),
+//         w_k = L_k/I_k about axis k, L_k in the body frame
 // It is of second order, symplectic and reversible; |L| and the length of the quaternion are kept to rounding.
 #pragma once
 #include "bodies/solid.hpp"

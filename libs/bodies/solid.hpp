@@ -1,7 +1,8 @@
-// Mass and inertia of a homogeneous solid within a closed mesh: exact integrals over the polyhedron (geometry/triangleMesh.hpp),
-// not sums over particles.
+// Mass and inertia of a homogeneous solid within a closed mesh: exact integrals over the polyhedron
+// (geometry/triangleMesh.hpp), not sums over particles.
 //
-// The body frame has its origin in the centre of mass and its axes along the principal axes of inertia, by ascending moment.
+// The body frame has its origin in the centre of mass and its axes along the principal axes of inertia, by ascending
+// moment.
 #pragma once
 #include <Eigen/Geometry>
 

@@ -82,8 +82,9 @@ std::string ownText(const std::string& program, int descriptor) {
         program, getpid(), machineInfo().host, bootId(), timestamp(), inodeOf(descriptor));
 }
 
-// Signals that end the program before it has its own way to stop. The path stays where a handler may read it. While the file is
-// being made or removed such a signal waits, so that it can neither leave the file behind nor remove that of another program.
+// Signals that end the program before it has its own way to stop. The path stays where a handler may read it. While the
+// file is being made or removed such a signal waits, so that it can neither leave the file behind nor remove that of
+// another program.
 char pathToRemove[4096] = "";
 constexpr int endings[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t isWaiting = 0, waiting = 0;

@@ -49,7 +49,8 @@ class Communicator {
     // One text for each rank; empty on all ranks but the root.
     std::vector<std::string> gather(const std::string& text) const;
 
-    // What each rank has for each other and for itself: forRank[r] goes to rank r, and the result's r is what rank r had for this one.
+    // What each rank has for each other and for itself: forRank[r] goes to rank r, and the result's r is what rank r
+    // had for this one.
     std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& forRank) const;
     std::vector<std::vector<int>> exchange(const std::vector<std::vector<int>>& forRank) const;
 

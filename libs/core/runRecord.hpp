@@ -1,8 +1,10 @@
 // run.json: what was run, on what, from which settings, and how it ended. Rewritten as a whole at every change that
 // matters, so that a killed run leaves a record with the status "running".
 //
-//     {"application", "status": "running|done|failed|stopped|dryRun", "reason", "start", "end", "wallClock_s", "version", "versions" of the
-//      libraries, "build": {...}, "machine": {...}, "ranks", and the sections that the application adds: "parameters", "groups",
+//     {"application", "status": "running|done|failed|stopped|dryRun", "reason", "start", "end", "wallClock_s",
+//         "version", "versions" of the
+//      libraries, "build": {...}, "machine": {...}, "ranks", and the sections that the application adds: "parameters",
+//          "groups",
 //      "performance", ...}
 #pragma once
 #include <chrono>

@@ -1,7 +1,7 @@
-// JSON Schema (draft 7) of declared settings, for editors and for checks outside of Corpuscle. It accepts what the reader
-// accepts, with units and signs (quantityForms.hpp), the range of bare numbers, one branch for each model, exactlyOneOf
-// and atMostOneOf. It does not know the range of a number with a unit beyond its sign, nor of a number in quotes, nor
-// the rules that a check function holds or that lie between files.
+// JSON Schema (draft 7) of declared settings, for editors and for checks outside of Corpuscle. It accepts what the
+// reader accepts, with units and signs (quantityForms.hpp), the range of bare numbers, one branch for each model,
+// exactlyOneOf and atMostOneOf. It does not know the range of a number with a unit beyond its sign, nor of a number in
+// quotes, nor the rules that a check function holds or that lie between files.
 //
 // Beside standard words there is "patternErrorMessage", with which editors explain a pattern in plain words.
 #pragma once

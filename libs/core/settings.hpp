@@ -56,8 +56,8 @@ inline constexpr Range nonNegative{0};
 constexpr Range between(double low, double high) { return {low, high, false, false}; }
 constexpr Range atLeast(double low) { return {low}; }
 
-// What a changed value means to a run that continues from a checkpoint (settingsChange.hpp). A setting that declares nothing
-// takes what the table or model around it declares; where nothing does, it is fixed.
+// What a changed value means to a run that continues from a checkpoint (settingsChange.hpp). A setting that declares
+// nothing takes what the table or model around it declares; where nothing does, it is fixed.
 enum class AtRestart {
     undeclared,
     fixed,     // the state depends on it: the restart is refused

@@ -1,8 +1,10 @@
-// What has changed between two effective tables of the same declaration: the case that a checkpoint was written by and the case that is
-// to continue from it. Each setting declares what its change means (AtRestart, settings.hpp); one that declares nothing takes what the
-// table or model around it declares, and where nothing does it is fixed: a new setting cannot be forgotten in silence.
+// What has changed between two effective tables of the same declaration: the case that a checkpoint was written by and
+// the case that is to continue from it. Each setting declares what its change means (AtRestart, settings.hpp); one that
+// declares nothing takes what the table or model around it declares, and where nothing does it is fixed: a new setting
+// cannot be forgotten in silence.
 //
-// Values are compared, not their spelling: 11 um and 0.011 mm are the same to 1e-9, and so are 3 dx and 1.5 um where dx is 0.5 um.
+// Values are compared, not their spelling: 11 um and 0.011 mm are the same to 1e-9, and so are 3 dx and 1.5 um where dx
+// is 0.5 um.
 #pragma once
 #include <functional>
 #include <string>
@@ -27,15 +29,16 @@ struct Spacings {
 FieldInfo dictionaryField(std::function<SchemaInfo()> table);
 FieldInfo dictionaryField(const std::string& family);
 
-// In the order of declaration. Tables and models are descended into where both sides have them; models of different names are one change.
+// In the order of declaration. Tables and models are descended into where both sides have them; models of different
+// names are one change.
 std::vector<SettingChange> settingChanges(const FieldInfo& dictionary, const Node& before, const Node& now,
                                           Spacings spacings);
 
 // The settings whose change could matter: what a checkpoint keeps.
 Node withoutFree(const FieldInfo& dictionary, const Node& settings);
 
-// Every single setting of a dictionary, those of all models that it may name included: "kernel.lucy.support", "cells[].shape.sphere.radius".
-// The policy is undeclared where nothing around the setting declares one.
+// Every single setting of a dictionary, those of all models that it may name included: "kernel.lucy.support",
+// "cells[].shape.sphere.radius". The policy is undeclared where nothing around the setting declares one.
 struct DeclaredSetting {
     std::string key;
     AtRestart policy;

@@ -1,9 +1,10 @@
 // Physical time, strain, when to stop, and what is due.
 //
-// A step ends exactly at the next event: the end of the run, the time of results, that of an observer whose interval is not shorter than a step
-// (docs/simulation.md). So the step before an event may be shorter than the limits allow; where one and a bit remain, two equal ones are made. dt
-// between two steps is always what the limits allow, so that the step after an event has its full length again, and checkpoints and
-// requests to stop, which are no events, leave the steps as they are.
+// A step ends exactly at the next event: the end of the run, the time of results, that of an observer whose interval is
+// not shorter than a step (docs/simulation.md). So the step before an event may be shorter than the limits allow; where
+// one and a bit remain, two equal ones are made. dt between two steps is always what the limits allow, so that the step
+// after an event has its full length again, and checkpoints and requests to stop, which are no events, leave the steps
+// as they are.
 #pragma once
 #include <limits>
 #include <optional>
@@ -35,8 +36,8 @@ struct Time {
     bool running() const;  // false too when there is no end condition at all
     // Ends exactly at the event that shorten() has aimed at.
     void advance(double by);
-    // dt of the step to come, by these events: dt itself, or shorter. Events that are nearer than a thousandth of dt to each other count as one,
-    // and dt grows by that much at most.
+    // dt of the step to come, by these events: dt itself, or shorter. Events that are nearer than a thousandth of dt to
+    // each other count as one, and dt grows by that much at most.
     double shorten(const std::vector<Event>& events);
     Event atTime(double when) const;
     Event atStrain(double when) const;

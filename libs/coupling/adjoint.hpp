@@ -1,5 +1,5 @@
-// What every step on adjoint operators (sph/operators.hpp) does alike, the explicit one (adjointVerlet.hpp) and the implicit one
-// (implicit/implicitStep.hpp).
+// What every step on adjoint operators (sph/operators.hpp) does alike, the explicit one (adjointVerlet.hpp) and the
+// implicit one (implicit/implicitStep.hpp).
 #pragma once
 #include <optional>
 #include <vector>

@@ -115,7 +115,8 @@ class Verlet final : public AdjointVerlet {
         if (keeps) addMembraneRates(viscous);
     }
 
-    // Of the budget (sph/budget.hpp), for the velocities in field_: of the fluid's forces, before those of membranes are added; then of these.
+    // Of the budget (sph/budget.hpp), for the velocities in field_: of the fluid's forces, before those of membranes
+    // are added; then of these.
     double power() const {
         double sum = 0;
         for (std::size_t i = 0; i < store().size(); ++i) sum += velocityUsed(i).dot(force(i));
@@ -175,8 +176,8 @@ class Verlet final : public AdjointVerlet {
         if (keeps) scene_.budget.add(dt, rates_);
     }
 
-    // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at the end of the
-    // step.
+    // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at
+    // the end of the step.
     void findMoves(double dt) {
         transport_.shift(operators_, dt);
         if (!immersed_) return;
@@ -204,7 +205,8 @@ class Verlet final : public AdjointVerlet {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
         immersed_->spread(f, operators_.force());
     }
-    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be multiplied to be K P S field_.
+    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be
+    // multiplied to be K P S field_.
     double springForces(const Immersed::Vectors& rest) {
         Immersed::Vectors displacement = nodeVelocities();
         double longest = 0, bond = 0;
@@ -218,8 +220,8 @@ class Verlet final : public AdjointVerlet {
         return -1 / scale;
     }
 
-    // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the operators' force,
-    // but for the factor that it returns.
+    // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the
+    // operators' force, but for the factor that it returns.
     template <class Image>
     double largestEigenvalue(int iterations, Image&& image) {
         const ParticleStore& s = store();

@@ -1,9 +1,10 @@
-// Velocity Verlet on adjoint operators (sph/operators.hpp), membranes immersed in the fluid (immersed.hpp): the equations that the implicit
-// step solves, explicit in time.
+// Velocity Verlet on adjoint operators (sph/operators.hpp), membranes immersed in the fluid (immersed.hpp): the
+// equations that the implicit step solves, explicit in time.
 //
 //     M du/dt = -L u + D^T V p + M g + S^T P (f(x_m) - C P S u),   drho/dt = -rho D u,   dx/dt = u,   dx_m/dt = P S u
 //
-//     x* = x + dt/2 u,  x_m* = x_m + dt/2 u_m,  ubar = u + dt/2 a,  rhobar = rho + dt/2 rhodot     with a and rhodot of the last step
+//     x* = x + dt/2 u,  x_m* = x_m + dt/2 u_m,  ubar = u + dt/2 a,  rhobar = rho + dt/2 rhodot
+//         with a and rhodot of the last step
 //     a, rhodot from x*, x_m*, ubar, rhobar
 //     u <- u + dt a,  rho <- rho + dt rhodot,  u_m <- P S u
 //     x <- x* + dt/2 u,  x_m <- x_m* + dt/2 u_m
@@ -11,12 +12,14 @@
 // symbol          | meaning                                                                     | unit
 // M, V            | masses and volumes m/rhobar of the particles                                | kg, m^3
 // L, D            | viscosity and divergence at x*, plain or corrected                          | N s/m, 1/s
-// S, P, f, C      | interpolation of the nodes, projection that keeps volumes, elastic force, damping by the membrane's viscosity
+// S, P, f, C      | interpolation of the nodes, projection that keeps volumes, elastic force, damping by the membrane's
+//                 | viscosity
 // p, g            | pressure of the equation of state; body force per unit mass                 | Pa, m/s^2
 //
-// With x* and u in the places of x and u* this is the scheme of sph/velocityVerlet.hpp half a step on, so that one evaluation is made in each
-// step and the limits of sph/stepLimits.hpp hold. Whatever a step needs is made within it: the state between steps is places, velocities,
-// densities and their rates alone. Particles are shifted and kept on their side of each membrane as in the implicit step (noFlux.hpp).
+// With x* and u in the places of x and u* this is the scheme of sph/velocityVerlet.hpp half a step on, so that one
+// evaluation is made in each step and the limits of sph/stepLimits.hpp hold. Whatever a step needs is made within it:
+// the state between steps is places, velocities, densities and their rates alone. Particles are shifted and kept on
+// their side of each membrane as in the implicit step (noFlux.hpp).
 #pragma once
 #include <memory>
 

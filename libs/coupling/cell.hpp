@@ -1,7 +1,7 @@
 // A cell of the scene: its membrane, and what belongs to the pair of membrane and fluid.
 //
-// Every rank knows every cell's network; the ranks whose bricks a cell touches hold it: they have its node positions of now and
-// compute its forces. The others' copy of the state is old and must not be read.
+// Every rank knows every cell's network; the ranks whose bricks a cell touches hold it: they have its node positions of
+// now and compute its forces. The others' copy of the state is old and must not be read.
 #pragma once
 #include <string>
 #include <vector>

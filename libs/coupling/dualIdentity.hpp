@@ -1,9 +1,10 @@
-// Coupling by dual identity (paper, section 2.4): a membrane's node is a particle of the fluid and a node of its network.
+// Coupling by dual identity (paper, section 2.4): a membrane's node is a particle of the fluid and a node of its
+// network.
 //
-// As a particle it has the density of the fluid and takes part in pressure, viscosity and continuity; as a node it feels the
-// network, du/dt += f/m. No penetration, no slip and continuity of stress follow. Its volume is that of the piece of membrane
-// around it, one spacing thick:  V = A_vertex dx,  m = rho0 V. Interior overpressure can push fluid through the single layer of
-// nodes: LeakageGuard puts such particles back.
+// As a particle it has the density of the fluid and takes part in pressure, viscosity and continuity; as a node it
+// feels the network, du/dt += f/m. No penetration, no slip and continuity of stress follow. Its volume is that of the
+// piece of membrane around it, one spacing thick:  V = A_vertex dx,  m = rho0 V. Interior overpressure can push fluid
+// through the single layer of nodes: LeakageGuard puts such particles back.
 //
 // Rupture is tested at every step, only where a cell's case names a criterion.
 #pragma once
@@ -36,7 +37,8 @@ class DualIdentity : public sph::Load {
     void addRates(const particles::ParticleSystem& system, const sph::FluidForces& forces,
                   sph::Budget::Values& rates) const override;
 
-    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. budget: null, or what is to be kept. Collective.
+    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. budget: null, or what is to be
+    // kept. Collective.
     std::vector<RuptureEvent> endStep(particles::ParticleSystem& system, double dt, sph::Budget* budget = nullptr);
 
     LeakageGuard& guard() { return guard_; }
@@ -45,8 +47,8 @@ class DualIdentity : public sph::Load {
     long steps() const { return steps_; }
     void restore(long steps) { steps_ = steps; }
 
-    // Squared frequency of the stiffest mode of any cell's nodes on their springs: the largest eigenvalue of M^-1 K, by power
-    // iterations on differences of forces [1/s^2]. Collective.
+    // Squared frequency of the stiffest mode of any cell's nodes on their springs: the largest eigenvalue of M^-1 K, by
+    // power iterations on differences of forces [1/s^2]. Collective.
     double springRate2(const particles::ParticleSystem& system, int iterations) const;
     // Fastest decay by the viscosity of any membrane: the largest eigenvalue of M^-1 C, f = -C v [1/s]. Collective.
     double membraneRate(const particles::ParticleSystem& system, int iterations) const;

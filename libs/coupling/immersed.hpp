@@ -1,21 +1,24 @@
-// Immersed coupling: fluid fills space through the membrane; a node has no fluid of its own. It moves with the velocity that it finds
-// in the fluid around it, and its force goes to that fluid with the same weights:
+// Immersed coupling: fluid fills space through the membrane; a node has no fluid of its own. It moves with the velocity
+// that it finds in the fluid around it, and its force goes to that fluid with the same weights:
 //
 //     S : u_m = sum_j [w_mj (1 - n n^T) + w'_mj n n^T] u_j,   n the membrane's normal at the node
 //     w_mj = V_j W(r/R) (c0 + c.q + c2 q^2),   W Wendland C2,   q = d_j/R,  r = |d_j|,  d_j = x_j - x_m,  R = 2.5 dx
 //     sum_j w_mj = 1,   sum_j w_mj q = 0,   sum_j w_mj q^2 = s along the membrane (w), s' across it (w')
-// Constant and linear fields are found exactly. The second moments make up for the reach of the weights: those of W itself, 0.2, would leave a node
-// behind the membrane, since the velocity bends there where the membrane pulls along it, and what the weights spread is weaker by as much
-// (docs/coupling.md; tests/implicit/loadedSphere.cpp has the figures). Where sum_j |w_mj| > 4, as on one side of fluid alone, or
-// fewer than 10 particles are near: c = 0, c2 = 0 (Shepard).
+// Constant and linear fields are found exactly. The second moments make up for the reach of the weights: those of W
+// itself, 0.2, would leave a node behind the membrane, since the velocity bends there where the membrane pulls along
+// it, and what the weights spread is weaker by as much (docs/coupling.md; tests/implicit/loadedSphere.cpp has the
+// figures). Where sum_j |w_mj| > 4, as on one side of fluid alone, or fewer than 10 particles are near: c = 0, c2 = 0
+// (Shepard).
 //
-// A closed cell keeps its volume exactly: of velocities and forces the part along the gradient of its volume is taken away,
+// A closed cell keeps its volume exactly: of velocities and forces the part along the gradient of its volume is taken
+// away,
 //     P = I - g g^T/(g.g),  g = dV/dx;     u_m = P S u,   f_fluid = S^T P f_m
-// so that power is neither made nor lost, and what the finite step leaves is corrected along g (restoreVolume). P ends when a cell
-// opens. The stiffness that the fluid feels is S^T P K P S, symmetric and positive semi-definite as K is.
+// so that power is neither made nor lost, and what the finite step leaves is corrected along g (restoreVolume). P ends
+// when a cell opens. The stiffness that the fluid feels is S^T P K P S, symmetric and positive semi-definite as K is.
 //
-// All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are added up. Whoever needs forces
-// on particles of others that the rank knows (particles/sharedParticles.hpp) asks for their weights as well.
+// All ranks hold all cells and compute the same; each knows the weights of its own particles, and sums over nodes are
+// added up. Whoever needs forces on particles of others that the rank knows (particles/sharedParticles.hpp) asks for
+// their weights as well.
 #pragma once
 #include <array>
 
@@ -39,8 +42,8 @@ class Immersed {
     void setVelocities(const Vectors& velocities);
     void restoreVolume();
 
-    // Weights of the particles and forces of the membranes, where particles and nodes are now. volume: of each particle [m^3].
-    // Collective. Throws Failure(numerics), on all ranks, where a node has no fluid around it.
+    // Weights of the particles and forces of the membranes, where particles and nodes are now. volume: of each particle
+    // [m^3]. Collective. Throws Failure(numerics), on all ranks, where a node has no fluid around it.
     void place(const particles::ParticleSystem& system, const std::vector<double>& volume);
     // The same with the stiffness of the membranes.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);

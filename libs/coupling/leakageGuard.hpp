@@ -1,9 +1,10 @@
 // Nothing leaks silently: fluid particles that have crossed a closed membrane are counted, reported and put back.
 //
-// A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as candidates;
-// every few steps each of them is held against the nearest point p of the membrane. One on the wrong side goes back to
-// 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured cell is left alone; at the
-// step at which it is going to break it is looked at once more, so that what is outside later went through a hole.
+// A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as
+// candidates; every few steps each of them is held against the nearest point p of the membrane. One on the wrong side
+// goes back to 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured
+// cell is left alone; at the step at which it is going to break it is looked at once more, so that what is outside
+// later went through a hole.
 #pragma once
 #include <memory>
 #include <vector>

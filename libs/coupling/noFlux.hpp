@@ -1,10 +1,11 @@
-// Fluid does not cross a closed membrane: what the discrete velocity of a particle near one has too much along the normal is left out
-// when it is moved.
+// Fluid does not cross a closed membrane: what the discrete velocity of a particle near one has too much along the
+// normal is left out when it is moved.
 //
 //     x_i += dt [u_i - chi ((u_i - u_m).n) n],    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
-// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point (transport.hpp has it with shifting).
-// After the move a particle that is nearer than 0.05 dx to its own side of the membrane, or beyond it, goes to that distance; those that were beyond it
-// are counted. In the interior of the fluid nothing is done, and an opened cell is left alone.
+// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point (transport.hpp
+// has it with shifting). After the move a particle that is nearer than 0.05 dx to its own side of the membrane, or
+// beyond it, goes to that distance; those that were beyond it are counted. In the interior of the fluid nothing is
+// done, and an opened cell is left alone.
 #pragma once
 #include <memory>
 #include <vector>
@@ -23,7 +24,8 @@ class NoFlux {
 
     NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
 
-    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to them.
+    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to
+    // them.
     void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
     // Those that were found, with the velocity that nodes have now.
     template <class F>

@@ -153,7 +153,8 @@ void NodeExchange::plan(ParticleSystem& system, std::vector<Cell>& cells, double
 }
 
 void NodeExchange::place(const Box& box, Cell& cell, int node, const Vec3& position, const Vec3& velocity) {
-    // The image nearest to where the node was: whole box lengths are added, so that without them the bits are the particle's.
+    // The image nearest to where the node was: whole box lengths are added, so that without them the bits are the
+    // particle's.
     Vec3& x = cell.membrane.position[static_cast<std::size_t>(node)];
     Vec3 image = position;
     for (int k = 0; k < 3; ++k)

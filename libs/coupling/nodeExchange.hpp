@@ -1,5 +1,5 @@
-// Keeps the nodes of held cells up to date: owners of node particles send position and velocity to every rank that holds the
-// cell. Planned when lists are built, used at every step.
+// Keeps the nodes of held cells up to date: owners of node particles send position and velocity to every rank that
+// holds the cell. Planned when lists are built, used at every step.
 #pragma once
 #include <vector>
 
@@ -13,7 +13,8 @@ class NodeExchange {
     // Who holds which cell now, who owns which node. Hands the state of a cell to ranks that newly hold it. Collective.
     void plan(particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
 
-    // Positions (unwrapped) and velocities, `extrapolation` seconds on by the present acceleration, of all nodes of held cells. Collective.
+    // Positions (unwrapped) and velocities, `extrapolation` seconds on by the present acceleration, of all nodes of
+    // held cells. Collective.
     void gather(const particles::ParticleSystem& system, std::vector<Cell>& cells, double extrapolation);
 
     struct OwnedNode {

@@ -1,4 +1,5 @@
-// Everything that is simulated: particles, fluid, walls, rigid bodies, cells; what observers read and integrators advance.
+// Everything that is simulated: particles, fluid, walls, rigid bodies, cells; what observers read and integrators
+// advance.
 #pragma once
 #include <memory>
 #include <vector>

@@ -1,8 +1,9 @@
 // Where closed surfaces touch or cross each other, or their own images in a periodic box.
 //
-// Two stages, so that the cost grows with the number of surfaces and of their neighbours, and not with all pairs: bounds of whole surfaces against
-// each other (sweep of sorted boxes), then of each pair only the triangles in the intersection of the two bounds, by their boxes and by exact
-// predicates (CGAL). One surface wholly inside another does not cross it: that is a question for InsideTest.
+// Two stages, so that the cost grows with the number of surfaces and of their neighbours, and not with all pairs:
+// bounds of whole surfaces against each other (sweep of sorted boxes), then of each pair only the triangles in the
+// intersection of the two bounds, by their boxes and by exact predicates (CGAL). One surface wholly inside another does
+// not cross it: that is a question for InsideTest.
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
@@ -28,7 +29,8 @@ struct ImagePair {
     Vec3 shift;
 };
 
-// Every pair of whose bounds, grown by `margin` [m], some images meet; each pair of images once. Empty bounds meet nothing.
+// Every pair of whose bounds, grown by `margin` [m], some images meet; each pair of images once. Empty bounds meet
+// nothing.
 std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Period& period, double margin = 0);
 
 struct Crossing {

@@ -1,7 +1,8 @@
 // Signed distance from a closed surface on a grid, for many questions about one rigid mesh.
 //
-// Nodes within `reach` of the surface have their exact distance (triangleTree.hpp), the others +-reach; in between the eight nodes
-// around a point are interpolated linearly. Error: at most spacing^2/4 (k1 + k2), k the curvatures of the surface; negative inside.
+// Nodes within `reach` of the surface have their exact distance (triangleTree.hpp), the others +-reach; in between the
+// eight nodes around a point are interpolated linearly. Error: at most spacing^2/4 (k1 + k2), k the curvatures of the
+// surface; negative inside.
 #pragma once
 #include <vector>
 

@@ -28,7 +28,8 @@ struct Line {
     std::vector<double> place;
 };
 
-// Triangles between two open lines, `upper` on the left of `lower`: from both starts, the line whose next node comes first goes on.
+// Triangles between two open lines, `upper` on the left of `lower`: from both starts, the line whose next node comes
+// first goes on.
 void join(const Line& lower, const Line& upper, std::vector<Index3>& triangles) {
     std::size_t i = 0, j = 0;
     const auto node = [](const Line& line, std::size_t k) { return line.first + static_cast<int>(k); };

@@ -1,6 +1,7 @@
 // Flat sheets in the plane z = 0 about the origin, normals along z: open meshes with a border, for membraneRelax.
 //
-// rectangle: rows of nodes at a distance of about sqrt(3)/2 edges, every other row shifted by half an edge, so that all triangles but those
+// rectangle: rows of nodes at a distance of about sqrt(3)/2 edges, every other row shifted by half an edge, so that all
+// triangles but those
 //            at the two ends are equilateral to the rounding of sides to whole numbers of edges
 // disc:      a centre and n rings, ring k of 6 k nodes; edges between 1 and 1.05 of the radius over n
 // disorder:  the nodes inside move by up to this many edges along each axis, at random

@@ -45,8 +45,8 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
 std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
                           const Period& period = Period::Zero());
 
-// Moves points that are nearer than `least` [m] to a mesh out to that distance, each on its side (as of tagSides); returns
-// how many.
+// Moves points that are nearer than `least` [m] to a mesh out to that distance, each on its side (as of tagSides);
+// returns how many.
 std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, const std::vector<TriangleMesh>& meshes,
                     double least, const Period& period = Period::Zero());
 

@@ -1,8 +1,9 @@
 // A periodic box, and the images of points in it.
 //
-// A surface that crosses a periodic face is kept whole: its nodes are contiguous and may lie outside the box. Which image of a point belongs to it
-// is for the surface itself to say: every image that falls into its bounds is tested. An image chosen by its distance from one point of the surface,
-// its centroid or middle, is another one wherever the surface reaches further than half a period from there.
+// A surface that crosses a periodic face is kept whole: its nodes are contiguous and may lie outside the box. Which
+// image of a point belongs to it is for the surface itself to say: every image that falls into its bounds is tested. An
+// image chosen by its distance from one point of the surface, its centroid or middle, is another one wherever the
+// surface reaches further than half a period from there.
 #pragma once
 #include <cmath>
 

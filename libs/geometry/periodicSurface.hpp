@@ -16,8 +16,8 @@ class NearestImages {
         Vec3 image = Vec3::Zero();  // of the point
         explicit operator bool() const { return static_cast<bool>(at); }
     };
-    // Of all images of x that are within reach the one nearest to the surface. As long as the surface and its own images are apart, the sign is that
-    // of x among all of them.
+    // Of all images of x that are within reach the one nearest to the surface. As long as the surface and its own
+    // images are apart, the sign is that of x among all of them.
     Found nearest(const Vec3& x) const;
 
   private:

@@ -1,8 +1,9 @@
 // PLY: a header in text,
-//     ply  format ascii|binary_little_endian|binary_big_endian 1.0  { element NAME COUNT  { property ... } }  end_header
+//     ply  format ascii|binary_little_endian|binary_big_endian 1.0  { element NAME COUNT  { property ... } }
+//         end_header
 // and the elements in its order, each with its properties: numbers of eight types, or lists of them with their length
-// before them. Read are x, y, z of `vertex`, the list vertex_indices (or vertex_index) of `face` and, where there are no
-// faces, that of `tristrips`, in which -1 ends a strip. All else is passed over.
+// before them. Read are x, y, z of `vertex`, the list vertex_indices (or vertex_index) of `face` and, where there are
+// no faces, that of `tristrips`, in which -1 ends a strip. All else is passed over.
 #include <fmt/format.h>
 
 #include <algorithm>

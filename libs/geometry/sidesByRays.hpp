@@ -1,8 +1,11 @@
-// Which points lie inside closed surfaces in a periodic box, by another method than latticeFill's tagSides: to check it.
+// Which points lie inside closed surfaces in a periodic box, by another method than latticeFill's tagSides: to check
+// it.
 //
 //                | tagSides                                            | this
-// inside          | signed crossings of a ray along z, columns          | parity of crossings of a ray, exact predicates (CGAL Side_of_triangle_mesh)
-// periodic images | the point is moved into the bounds of the surface   | the surface is moved into the box, as often as it takes
+// inside          | signed crossings of a ray along z, columns          | parity of crossings of a ray, exact
+//                                                                       | predicates (CGAL Side_of_triangle_mesh)
+// periodic images | the point is moved into the bounds of the surface   | the surface is moved into the box, as often
+//                                                                       | as it takes
 // They have no code in common.
 #pragma once
 #include "geometry/period.hpp"

@@ -15,7 +15,8 @@ using Projection = std::function<Vec3(const Vec3&)>;
 TriangleMesh starSurface(const std::function<double(const Vec3&)>& F, const Vec3& half, int refinements);
 
 // Isotropic remeshing by splits, collapses, flips and tangential relaxation (CGAL Polygon_mesh_processing; Botsch and
-// Kobbelt 2004), each new or moved node taken through `project`. Empty where the length is too coarse to keep two sheets apart.
+// Kobbelt 2004), each new or moved node taken through `project`. Empty where the length is too coarse to keep two
+// sheets apart.
 TriangleMesh remeshIsotropic(const TriangleMesh& mesh, double edge, int iterations, const Projection& project);
 
 // Each triangle into four; the new nodes are projected edge midpoints.

@@ -37,8 +37,8 @@ Vec3 nearestWeights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) 
 
 namespace {
 
-// Boxes and planes this much further off than the nearest point are still looked at, so that of triangles that share it the one with the lowest
-// number is found, in whatever order the tree has them.
+// Boxes and planes this much further off than the nearest point are still looked at, so that of triangles that share it
+// the one with the lowest number is found, in whatever order the tree has them.
 constexpr double slack = 1 + 1e-12;
 
 Vec3 combine(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) { return w[0] * a + w[1] * b + w[2] * c; }

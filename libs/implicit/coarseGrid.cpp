@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t components = 3;
 }
 
-// Values on the grid and their transforms, component after component: between walls of every plane by itself, else of all planes at once.
+// Values on the grid and their transforms, component after component: between walls of every plane by itself, else of
+// all planes at once.
 struct CoarseGrid::Plans {
     std::size_t nodes, modes;           // of one component
     std::size_t realPart, complexPart;  // of these, transformed at once
@@ -135,7 +136,8 @@ void CoarseGrid::factorise() {
         }
 }
 
-// The planes above `plane`, with nothing on them, by elimination from the top: all that is needed of them is what they add to its pivots.
+// The planes above `plane`, with nothing on them, by elimination from the top: all that is needed of them is what they
+// add to its pivots.
 void CoarseGrid::close(int plane) {
     if (plane == closedAt_) return;
     const std::size_t perPlane = upper_.size();

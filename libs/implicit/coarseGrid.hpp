@@ -6,10 +6,11 @@
 // c1 rho  | inertia of the step [kg/(m^3 s)]
 // lambda  | bulk modulus x time over which pressure is implicit [Pa s]
 //
-// The coefficients are constants, so that A_c falls apart into Fourier modes along the periodic axes; between walls each mode is a block
-// tridiagonal system of 3 x 3 blocks, factorised once for as long as step and fluid stay the same. On the grid's nodes at the walls the
-// velocity is zero. What the grid does not resolve, and the membrane, is left to the rest of the preconditioner. The work is a few per
-// cent of one application of the operators, and every rank does all of it.
+// The coefficients are constants, so that A_c falls apart into Fourier modes along the periodic axes; between walls
+// each mode is a block tridiagonal system of 3 x 3 blocks, factorised once for as long as step and fluid stay the same.
+// On the grid's nodes at the walls the velocity is zero. What the grid does not resolve, and the membrane, is left to
+// the rest of the preconditioner. The work is a few per cent of one application of the operators, and every rank does
+// all of it.
 #pragma once
 #include <mpi.h>
 
@@ -37,7 +38,8 @@ class CoarseGrid {
     // inertia c1 rho, viscosity, lambda. Factorises when they have changed.
     void setCoefficients(double inertia, double viscosity, double lambda);
 
-    // Which nodes each particle has, for `add`: those of this rank, then copies of others' particles, which get of the grid and give nothing.
+    // Which nodes each particle has, for `add`: those of this rank, then copies of others' particles, which get of the
+    // grid and give nothing.
     void begin(std::size_t particles, std::size_t copies = 0) {
         own_ = particles;
         places_.assign(particles + copies, Place{});
@@ -48,15 +50,17 @@ class CoarseGrid {
     template <class Real>
     void add(MPI_Comm comm, const Real* r, Real* z);
 
-    // Planes of nodes between the walls, of which the first is one step from the lower wall; without walls always all of them.
+    // Planes of nodes between the walls, of which the first is one step from the lower wall; without walls always all
+    // of them.
     struct Planes {
         int first, last;
     };
     Planes all() const { return {0, count_[0] - 1}; }
     Planes planesOf(MPI_Comm comm, const std::vector<int>& particles) const;  // of particles of all ranks. Collective.
 
-    // The same in parts: values = P^T r of this rank; values <- A_c^-1 values, added up over the ranks; z += P values. With `particles` and their
-    // planes only these are looked at, and the values of other planes are taken to be zero and not found: a cell is far smaller than its box.
+    // The same in parts: values = P^T r of this rank; values <- A_c^-1 values, added up over the ranks; z += P values.
+    // With `particles` and their planes only these are looked at, and the values of other planes are taken to be zero
+    // and not found: a cell is far smaller than its box.
     template <class Real>
     void gather(const Real* r) {
         gather(r, nullptr, all());

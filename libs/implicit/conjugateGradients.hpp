@@ -1,14 +1,16 @@
-// Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl. Math. 25 (1989) 153):
-// all scalar products of an iteration are added up over the ranks at once. Flexible (Notay, SIAM J. Sci. Comput. 22 (2000) 1444, with one direction
-// kept): the direction p = z + beta p_before is conjugate to the one before by
+// Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl.
+// Math. 25 (1989) 153): all scalar products of an iteration are added up over the ranks at once. Flexible (Notay, SIAM
+// J. Sci. Comput. 22 (2000) 1444, with one direction kept): the direction p = z + beta p_before is conjugate to the one
+// before by
 //     beta = -z.s/sigma,   s = A p_before,   sigma = p_before.s;     p.A p = z.A z - (z.s)^2/sigma
-// whatever z is, so that the preconditioner need not be quite the same from one application to the next, as one that iterates is not.
+// whatever z is, so that the preconditioner need not be quite the same from one application to the next, as one that
+// iterates is not.
 //
-// It stops by the energy of the error: g_k = alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the
-// error is the sum of what later steps would take off. They are taken to fall as the last few did, by q a step, the slowest of the means
-// over one, two and three of them: g_k q/(1 - q). A sum over steps already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before
-// them, which is far above the present one where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the
-// finer the resolution.
+// It stops by the energy of the error: g_k = alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and
+// Stiefel 1952), so that the error is the sum of what later steps would take off. They are taken to fall as the last
+// few did, by q a step, the slowest of the means over one, two and three of them: g_k q/(1 - q). A sum over steps
+// already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before them, which is far above the present one
+// where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the finer the resolution.
 #pragma once
 #include <mpi.h>
 
@@ -21,8 +23,8 @@
 
 namespace corpuscle::implicit {
 
-// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same there, to
-// rounding.
+// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same
+// there, to rounding.
 struct Copies {
     std::size_t first = 0, last = 0;
     template <class F>
@@ -47,13 +49,15 @@ class ConjugateGradients {
     static constexpr int most = 2000;
     static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
-    // Of what else follows linearly from the velocity: `image` is that of the last z, left there by `apply`; what belongs to x is added to `value`.
+    // Of what else follows linearly from the velocity: `image` is that of the last z, left there by `apply`; what
+    // belongs to x is added to `value`.
     struct Carried {
         Field value, image;
     };
 
-    // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always zero, whatever was there
-    // less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x). Collective.
+    // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always
+    // zero, whatever was there less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A
+    // x). Collective.
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
                       Precondition&& precondition, Copies copies = {}, Carried* carried = nullptr) {

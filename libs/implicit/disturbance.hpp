@@ -1,4 +1,5 @@
-// The energy that the solver's tolerance refers to: that of the disturbance w of the affine flow by the system's own form,
+// The energy that the solver's tolerance refers to: that of the disturbance w of the affine flow by the system's own
+// form,
 //     w.A w = w.(b - A affine),     where A of an affine flow is c1 M and what resists it in the membranes.
 #pragma once
 #include "implicit/system.hpp"

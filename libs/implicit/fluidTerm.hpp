@@ -1,8 +1,8 @@
 // The fluid's term: viscosity, and pressure with the stiffness of the bulk.
 //
 //     load = D^T V (p^n + lead K D v0),   A = L + (middle + lead) D^T V K D,   K = rho c^2      (Reach of term.hpp)
-// By the operators of sph/operators.hpp, which see walls and bodies as well. It comes last, and adds up over the ranks what it and the terms before
-// it have given to particles that several ranks know.
+// By the operators of sph/operators.hpp, which see walls and bodies as well. It comes last, and adds up over the ranks
+// what it and the terms before it have given to particles that several ranks know.
 #pragma once
 #include "coupling/adjoint.hpp"
 #include "coupling/scene.hpp"

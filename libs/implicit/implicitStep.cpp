@@ -95,9 +95,9 @@ class Step final : public ImplicitStep {
         return true;
     }
 
-    // Whether the velocities of two middles are known. After the first step only where the flow starts fully developed: beside
-    // cells and bodies, where walls or a body force set in and where the viscosity jumps, its acceleration is the jump from
-    // a velocity that did not know of the forces, which does not go on.
+    // Whether the velocities of two middles are known. After the first step only where the flow starts fully developed:
+    // beside cells and bodies, where walls or a body force set in and where the viscosity jumps, its acceleration is
+    // the jump from a velocity that did not know of the forces, which does not go on.
     bool hasAcceleration() const { return state.steps > (startsDeveloped() ? 0 : 1); }
     bool startsDeveloped() const {
         return !immersed_ && !system_.rigid() && !scene_.flow.settles && !scene_.store().optional().viscosity;
@@ -151,14 +151,16 @@ class Step final : public ImplicitStep {
         return Communicator(scene_.system->comm()).sum(energy);
     }
 
-    // By which factor the second difference over steps of this length would be larger than that over the last three middles.
+    // By which factor the second difference over steps of this length would be larger than that over the last three
+    // middles.
     double unevenness() const {
         const TimeDifference& time = system_.time();
         return isBackward() || state.lastSpacing == 0 ? 1
                                                       : 2 * time.dt * time.dt / (time.h * (time.h + state.lastSpacing));
     }
 
-    // By which the velocity found differs from the extrapolated one, with backward Euler from the last, over the lengths of stepControl.hpp [1/s].
+    // By which the velocity found differs from the extrapolated one, with backward Euler from the last, over the
+    // lengths of stepControl.hpp [1/s].
     double difference() const {
         const double h = isBackward() ? 0 : system_.time().h;  // over which the other one is extrapolated
         const RigidUnknowns<Real>* const rigid = system_.rigid();

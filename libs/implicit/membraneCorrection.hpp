@@ -1,13 +1,15 @@
-// What a stiff membrane adds to a preconditioner of the fluid. With B the inverse of the fluid's part, K' = (middle + lead) k + C, times of Reach (term.hpp) and S the
-// interpolation to the nodes with the volume kept, the inverse of both together is (Woodbury)
+// What a stiff membrane adds to a preconditioner of the fluid. With B the inverse of the fluid's part, K' = (middle +
+// lead) k + C, times of Reach (term.hpp) and S the interpolation to the nodes with the volume kept, the inverse of both
+// together is (Woodbury)
 //
 //     (B^-1 + S^T K' S)^-1 = B - B S^T y,   y = K' x,   (1 + N K') x = S B r,   N = S B S^T
-// The system for x lives on the nodes alone. 1 + N K' is symmetric in the inner product of K', and conjugate gradients solve it there. So
-// the iterations of the whole become those of the fluid, however stiff the membrane is.
+// The system for x lives on the nodes alone. 1 + N K' is symmetric in the inner product of K', and conjugate gradients
+// solve it there. So the iterations of the whole become those of the fluid, however stiff the membrane is.
 //
-// How far: where x leaves the residual s, the energy of the error of z is s.(1 + K' N)^-1 K' N K' s, which is below s.K' s, and nearly that where
-// the membrane is stiff. It is made a small share of r.z, the energy of z. (A share of the first residual asks too much of a soft membrane and
-// too little of a stiff one, whose first residual is the larger the stiffer it is.)
+// How far: where x leaves the residual s, the energy of the error of z is s.(1 + K' N)^-1 K' N K' s, which is below
+// s.K' s, and nearly that where the membrane is stiff. It is made a small share of r.z, the energy of z. (A share of
+// the first residual asks too much of a soft membrane and too little of a stiff one, whose first residual is the larger
+// the stiffer it is.)
 //
 // While x is looked for, all that acts on the grid and all that is asked of it lies in the planes of the membranes.
 #pragma once
@@ -25,8 +27,8 @@ class MembraneCorrection {
     static constexpr double tolerance = 0.05;  // in the norm of energy, of z
     static constexpr int most = 1000;
 
-    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle: `own` of this rank, then those
-    // of others that it knows, in r as in z. Collective.
+    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle: `own` of this rank,
+    // then those of others that it knows, in r as in z. Collective.
     void apply(MPI_Comm comm, const coupling::Immersed& immersed, CoarseGrid& grid, double time, const Field& inverse,
                std::size_t own, const Field& r, Field& z);
 

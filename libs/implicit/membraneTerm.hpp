@@ -1,6 +1,7 @@
 // The membranes' term, through the immersed coupling (coupling/immersed.hpp):
 //
-//     load = S^T P (f(x*) + k (middle u_m + lead P S v0)),   A = S^T P ((middle + lead) k + C) P S      (Reach of term.hpp)
+//     load = S^T P (f(x*) + k (middle u_m + lead P S v0)),   A = S^T P ((middle + lead) k + C) P S
+//         (Reach of term.hpp)
 //
 // symbol | meaning
 // S, P   | interpolation to the nodes, with the volume of closed cells kept
@@ -8,8 +9,8 @@
 // C      | damping by the membrane's own viscosity
 // u_m    | velocity of the nodes with which they came to x*
 //
-// Its diagonal is left out: blocks of the membrane make the preconditioner worse, because near it they hold back all that is not smooth
-// along it (docs/implicit.md, Figures); membraneCorrection.hpp has it in full.
+// Its diagonal is left out: blocks of the membrane make the preconditioner worse, because near it they hold back all
+// that is not smooth along it (docs/implicit.md, Figures); membraneCorrection.hpp has it in full.
 #pragma once
 #include "coupling/immersed.hpp"
 #include "implicit/implicitSettings.hpp"
@@ -40,7 +41,8 @@ class MembraneTerm final : public Term<Real> {
     void takeDefect() override;
     double power(const Field& v, const Field& w) override;
 
-    // What the velocity last given does for the budget, the same on all ranks: power against elasticity and against viscosity.
+    // What the velocity last given does for the budget, the same on all ranks: power against elasticity and against
+    // viscosity.
     void addRates(sph::Budget::Values& rates) const;
 
     // Of all nodes, for the velocity last given to addFirstForces, addForces or refusal.

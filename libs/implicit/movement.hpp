@@ -1,8 +1,10 @@
-// How an implicit step moves what is in a scene: to where its forces are taken, back from there, and to its end with the velocity found.
+// How an implicit step moves what is in a scene: to where its forces are taken, back from there, and to its end with
+// the velocity found.
 //
 //     x* = x^n + share dt u                                       departs, or takes it back
 //     x^(n+1) = x^n + dt v + shift,   a = (v - u)/h               arrives (timeDifference.hpp)
-// The state between steps has the velocity at its end, u + (t - t_middle) a; the step takes it back to that of the middle first.
+// The state between steps has the velocity at its end, u + (t - t_middle) a; the step takes it back to that of the
+// middle first.
 #pragma once
 #include <optional>
 

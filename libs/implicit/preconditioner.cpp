@@ -9,7 +9,8 @@ namespace corpuscle::implicit {
 
 namespace {
 
-// Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one (docs/implicit.md).
+// Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one
+// (docs/implicit.md).
 constexpr double stiffMembrane = 50;
 
 template <class Real>

@@ -6,8 +6,8 @@
 // withMembrane | twoLevel, and the membranes in full (membraneCorrection.hpp); without cells twoLevel
 // automatic    | twoLevel, or withMembrane where the membranes are stiff: at each step by measure
 //
-// Rigid bodies stand around any of them: Pi M^-1 Pi^T (rigidUnknowns.hpp). All are symmetric and positive definite on what is not prescribed, but
-// for withMembrane, which iterates and is so to its tolerance.
+// Rigid bodies stand around any of them: Pi M^-1 Pi^T (rigidUnknowns.hpp). All are symmetric and positive definite on
+// what is not prescribed, but for withMembrane, which iterates and is so to its tolerance.
 #pragma once
 #include <memory>
 #include <string>

@@ -56,8 +56,8 @@ void RigidUnknowns<Real>::takeBack() {
     scene_.bodies->place(*scene_.system);
 }
 
-// L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1 within bodies has at
-// their particles the sum of l_ij over all others.
+// L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1
+// within bodies has at their particles the sum of l_ij over all others.
 template <class Real>
 void RigidUnknowns<Real>::prepare(const Reach&) {
     scene_.bodies->moved(*scene_.system, 0, true);

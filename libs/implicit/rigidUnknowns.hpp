@@ -1,4 +1,5 @@
-// Rigid bodies in the implicit step (implicitStep.hpp): U and Omega of a body are unknowns in place of its particles' velocities.
+// Rigid bodies in the implicit step (implicitStep.hpp): U and Omega of a body are unknowns in place of its particles'
+// velocities.
 //
 //     u_j = U + Omega x r_j                                    P, for the body's particles, r_j from its centre of mass
 //     F = sum_j f_j,   T = sum_j r_j x f_j                     P^T, of what the system has as forces on particles
@@ -6,27 +7,34 @@
 //     I (c1 (Omega - Omega') - c2 alpha') = T - Omega* x I Omega*
 //
 // symbol        | meaning                                                                                       | unit
-// U', Omega'    | of the middle of the last step; A', alpha': rates between the middles of the last two           | m/s, 1/s
-// m, I, V       | mass, inertia where the body stands at x*, and volume: of the solid, not of its particles       | kg, kg m^2, m^3
-// rho0 b        | uniform body force: a pressure gradient (bodies/bodies.hpp)                                     | N/m^3
+// U', Omega'    | of the middle of the last step; A', alpha': rates between the middles of the last two           |
+//               | m/s, 1/s
+// m, I, V       | mass, inertia where the body stands at x*, and volume: of the solid, not of its particles       | kg,
+//               | kg m^2, m^3
+// rho0 b        | uniform body force: a pressure gradient (bodies/bodies.hpp)                                     |
+//               | N/m^3
 // Omega*        | extrapolated                                                                                   | 1/s
 //
-// Particles of bodies are in D, D^T V and L as those of the fluid, pairs within a body included. L carries mu grad u where the true
-// stress is mu (grad u + grad u^T). Over fluid and body together both have the same energy as long as the velocity is continuous and
-// without divergence, since then int grad u : grad u^T = int (div u)^2 = 0. So the torque 2 mu V Omega, which the traction mu du/dn lacks
-// (sph/rigidGroups.hpp adds it as D Omega), is that of the pairs within the body, and arms are those of the particles.
+// Particles of bodies are in D, D^T V and L as those of the fluid, pairs within a body included. L carries mu grad u
+// where the true stress is mu (grad u + grad u^T). Over fluid and body together both have the same energy as long as
+// the velocity is continuous and without divergence, since then int grad u : grad u^T = int (div u)^2 = 0. So the
+// torque 2 mu V Omega, which the traction mu du/dn lacks (sph/rigidGroups.hpp adds it as D Omega), is that of the pairs
+// within the body, and arms are those of the particles.
 //
-// The surface lies somewhere between its particles and those of the fluid. What the fluid's velocity w_i = u_i - U - Omega x r_i in the
-// frame of the body stands for beyond it is continued as in fluidPair.hpp, symmetrically, by the energy
+// The surface lies somewhere between its particles and those of the fluid. What the fluid's velocity w_i = u_i - U -
+// Omega x r_i in the frame of the body stands for beyond it is continued as in fluidPair.hpp, symmetrically, by the
+// energy
 //
-//     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij depth_j/distance_i       l_ij: coefficient of the pair in L, j in bodies
-// of the fluid particles near it (bodies/bodies.hpp): with the pairs' own l_ij w_i it is Morris' factor 1 + depth/distance, and it
-// vanishes when everything turns as one piece.
+//     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij depth_j/distance_i
+//         l_ij: coefficient of the pair in L, j in bodies
+// of the fluid particles near it (bodies/bodies.hpp): with the pairs' own l_ij w_i it is Morris' factor 1 +
+// depth/distance, and it vanishes when everything turns as one piece.
 //
-// In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega, 0. Of a velocity every rank
-// has all of them, and the particles of bodies have theirs; of forces every rank has its part, and particles of bodies have none. So the
-// sum over all numbers that a rank counts (Copies of conjugateGradients.hpp) and over the ranks is the scalar product, and nothing but the
-// preconditioner needs a reduction. Held and driven bodies keep their velocity: their rows are taken out, as those of walls.
+// In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega,
+// 0. Of a velocity every rank has all of them, and the particles of bodies have theirs; of forces every rank has its
+// part, and particles of bodies have none. So the sum over all numbers that a rank counts (Copies of
+// conjugateGradients.hpp) and over the ranks is the scalar product, and nothing but the preconditioner needs a
+// reduction. Held and driven bodies keep their velocity: their rows are taken out, as those of walls.
 #pragma once
 #include <Eigen/Cholesky>
 
@@ -44,7 +52,8 @@ class RigidUnknowns final : public Term<Real> {
     using typename Term<Real>::Field;
     using typename Term<Real>::Forces;
 
-    // operators: built at x* before prepare. onGrid: the preconditioner has a part that acts on particles of bodies (coarseGrid.hpp).
+    // operators: built at x* before prepare. onGrid: the preconditioner has a part that acts on particles of bodies
+    // (coarseGrid.hpp).
     RigidUnknowns(coupling::Scene& scene, sph::Operators<Real>& operators, bool onGrid)
         : scene_(scene), operators_(operators), onGrid_(onGrid) {}
 
@@ -62,7 +71,8 @@ class RigidUnknowns final : public Term<Real> {
 
     // First guess: the velocity extrapolated over h.
     void extrapolate(double h, Field& u) const;
-    // By which the velocity u differs from it: the largest |dU| + a |dOmega| of free bodies, over a, the radius of the sphere of their volume [1/s].
+    // By which the velocity u differs from it: the largest |dU| + a |dOmega| of free bodies, over a, the radius of the
+    // sphere of their volume [1/s].
     double largestDifference(double h, const Field& u) const;
     bool areSomeFree() const;
     // Rows of bodies in A u, and in the residual of u.
@@ -71,9 +81,9 @@ class RigidUnknowns final : public Term<Real> {
     // P^T of forces alone.
     void putForces(const particles::RealArray& force, Field& rows) const;
 
-    // Preconditioner: z = Pi (D^-1 + G) Pi^T r, where Pi makes the velocities of a body's particles rigid by least squares, G is the part on
-    // the grid, and D of a body is inertia and what its particles have of the diagonal with others.
-    // diagonal(i): of particle i without its mass. Takes the particles of bodies out of `inverse`. Collective.
+    // Preconditioner: z = Pi (D^-1 + G) Pi^T r, where Pi makes the velocities of a body's particles rigid by least
+    // squares, G is the part on the grid, and D of a body is inertia and what its particles have of the diagonal with
+    // others. diagonal(i): of particle i without its mass. Takes the particles of bodies out of `inverse`. Collective.
     template <class Diagonal>
     void factorise(double c1, Diagonal&& diagonal, Field& inverse) {
         std::vector<Matrix6> blocks = continuationBlocks();
@@ -93,7 +103,8 @@ class RigidUnknowns final : public Term<Real> {
     // Force and torque of the fluid, from the forces at the velocity found. Collective.
     void findWrenches(const particles::RealArray& force);
 
-    // What bodies do for the budget at the velocity u found, after findWrenches; the power of the continuation on them is returned. This rank's part.
+    // What bodies do for the budget at the velocity u found, after findWrenches; the power of the continuation on them
+    // is returned. This rank's part.
     double addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const;
 
     bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }

@@ -1,21 +1,24 @@
 // How long a step may be, by what the last one did.
 //
-// Places. The velocity found, v, differs from v0, the one extrapolated from the steps before, by the second difference of velocity, and from that
-// of the step before, u, by the first, which is also what the local error of a step is made of: x is wrong by
+// Places. The velocity found, v, differs from v0, the one extrapolated from the steps before, by the second difference
+// of velocity, and from that of the step before, u, by the first, which is also what the local error of a step is made
+// of: x is wrong by
 //     dt |v - v0|/24 (midpoint),   dt |v - u|/2 (backward Euler)
-// after a step. With E, this error over a length a and the strain of the step, the next one may be (error/E)^(1/2) as long, or error/E. Halves by
-// backward Euler within a run by the midpoint rule are looked at as if they were of its kind, which the next step is.
+// after a step. With E, this error over a length a and the strain of the step, the next one may be (error/E)^(1/2) as
+// long, or error/E. Halves by backward Euler within a run by the midpoint rule are looked at as if they were of its
+// kind, which the next step is.
 //
 // in the scene | the difference                                      | a
 // cells        | the largest of the nodes                            | radius of the sphere of the cell's volume
 // free bodies  | the largest of |dU| + a |dOmega|                    | the same of the body
 // neither      | root mean square of the fluid                       | length of the flow (sph/flow.hpp)
 // Steps of different length: the second difference is scaled to what it would be over steps as long as the last.
-// With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is asked for.
+// With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is
+// asked for.
 //
-// Nothing is known of the error before the third step (the second, of a flow that starts fully developed), and the start from a velocity that does not
-// know of the forces is of first order: where `error` is below its default, the first step is (error/default)^(1/2) as long as `step`, and the
-// second twice that.
+// Nothing is known of the error before the third step (the second, of a flow that starts fully developed), and the
+// start from a velocity that does not know of the forces is of first order: where `error` is below its default, the
+// first step is (error/default)^(1/2) as long as `step`, and the second twice that.
 //
 // Bonds. No bond may change its length by more than bondStrain in one step: dt <= bondStrain/max |d/dt ln l|.
 #pragma once
@@ -36,7 +39,8 @@ struct LastStep {
     double planned;  // that which it would have had but for an event (core/time.hpp): from it the next one grows [s]
     bool backwardEuler;
 };
-// difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a bond [1/s].
+// difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a
+// bond [1/s].
 AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
                           double bondRate);
 

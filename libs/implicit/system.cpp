@@ -86,8 +86,8 @@ std::string System<Real>::refusal(const Field& v, double dt) {
     return {};
 }
 
-// What the system has as forces at the velocity found, so that they are what changes momentum. The solver does not carry them: rows of
-// particles of bodies are empty.
+// What the system has as forces at the velocity found, so that they are what changes momentum. The solver does not
+// carry them: rows of particles of bodies are empty.
 template <class Real>
 void System<Real>::findForcesOnBodies(const Field& v) {
     sumTerms([&](Term<Real>& term) { term.addForces(v, forces_); });

@@ -1,12 +1,14 @@
-// The system of one implicit step, A v = b (implicitStep.hpp), for the velocities of all particles that a rank knows and of rigid bodies:
+// The system of one implicit step, A v = b (implicitStep.hpp), for the velocities of all particles that a rank knows
+// and of rigid bodies:
 //
-//     A = c1 M + sum of the terms' A,   b = M (c1 u + c2 a + g) + sum of the terms' loads        (term.hpp, timeDifference.hpp)
+//     A = c1 M + sum of the terms' A,   b = M (c1 u + c2 a + g) + sum of the terms' loads
+//         (term.hpp, timeDifference.hpp)
 //
-// Rows of walls are prescribed: the preconditioner gives nothing there, and the residual has the whole force on them, linear in the velocity as
-// all else. Rows of rigid bodies stand behind the particles (rigidUnknowns.hpp).
+// Rows of walls are prescribed: the preconditioner gives nothing there, and the residual has the whole force on them,
+// linear in the velocity as all else. Rows of rigid bodies stand behind the particles (rigidUnknowns.hpp).
 //
-// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of others' particles hold what their ranks
-// have, to rounding.
+// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of others' particles
+// hold what their ranks have, to rounding.
 #pragma once
 #include <memory>
 #include <vector>
@@ -28,7 +30,8 @@ class System {
     using Field = particles::AlignedVector<Real>;
     using RealArray = particles::RealArray;
 
-    // immersed: null without cells. onGrid: the preconditioner has a part on the background grid. All must stay where they are.
+    // immersed: null without cells. onGrid: the preconditioner has a part on the background grid. All must stay where
+    // they are.
     System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
            coupling::Immersed* immersed, bool onGrid);
 
@@ -44,7 +47,8 @@ class System {
     // Divergence of the velocity last given to findResidual or product, of own particles [1/s].
     double divergence(std::size_t i) const { return operators().divergence(i); }
 
-    // What the terms' forces at the places that the velocity v leads to differ from the linear ones, as the residual of what moves. Collective.
+    // What the terms' forces at the places that the velocity v leads to differ from the linear ones, as the residual of
+    // what moves. Collective.
     void findDefect(Field& residual);
     // That then belongs to the load, and to the force on walls.
     void takeDefect(Field& residual);
@@ -59,8 +63,8 @@ class System {
     // w.(load - A v) of the terms outside the fluid's budget [W]. Collective.
     double power(const Field& v, const Field& w);
 
-    // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms), 0 where the velocity is
-    // prescribed or belongs to a body.
+    // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms),
+    // 0 where the velocity is prescribed or belongs to a body.
     struct Row {
         double inertia;  // c1 m, 0 where the velocity is prescribed [kg/s]
         double place[3];

@@ -2,8 +2,10 @@
 //
 //     dv/dt = c1 (v - u) - c2 a,     h: time from u to v,   a: acceleration between the middles of the last two steps
 // name           | v is that at          | c1, c2                                                  | exact for
-// midpoint       | the middle of the step | (1 + 2w)/(h (1 + w)), w/(1 + w),  w = h/h_before         | v of second degree in time
-// backward Euler | the end                | 1/h, 0                                                   | v of first degree
+// midpoint       | the middle of the step | (1 + 2w)/(h (1 + w)), w/(1 + w),  w = h/h_before         | v of second
+//                                                                                                    | degree in time
+// backward Euler | the end                | 1/h, 0                                                   | v of first
+//                                                                                                    | degree
 // In the first step, where h_before is 0, c2 is 0.
 #pragma once
 #include "implicit/term.hpp"

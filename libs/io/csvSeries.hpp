@@ -1,17 +1,21 @@
-// Tables of numbers in time: postProcessing/<observer>/<file>.csv, one for a whole history, however often it was continued
+// Tables of numbers in time: postProcessing/<observer>/<file>.csv, one for a whole history, however often it was
+// continued
 //
-//     # deformation/rbc.csv of Corpuscle, observer shape: deformation, orientation, tumbling and tank-treading of each cell
+//     # deformation/rbc.csv of Corpuscle, observer shape: deformation, orientation, tumbling and tank-treading of each
+//         cell
 //     # time_s: time since the start of the flow [s]
 //     # D12_extent: |L - H|/(L + H)
 //     time_s,D12_extent
 //     0,0.58100000000000002
 //
-// The head is comment lines, of which the first names the table and the others each column with meaning and unit, and one header row of
-// name_unit. Rows follow in full double precision (%.17g), flushed one by one, so that a running case can be watched.
+// The head is comment lines, of which the first names the table and the others each column with meaning and unit, and
+// one header row of name_unit. Rows follow in full double precision (%.17g), flushed one by one, so that a running case
+// can be watched.
 //
-// A run that starts afresh writes its tables anew and removes what runs before it left (clearTables). A restart takes out the rows after its
-// time, and a last row that was not written to its end, and goes on in the same file. Every such change is a whole new file that takes
-// the name by a rename, so that a program killed at any moment leaves a table that can be read, with all rows up to the last checkpoint.
+// A run that starts afresh writes its tables anew and removes what runs before it left (clearTables). A restart takes
+// out the rows after its time, and a last row that was not written to its end, and goes on in the same file. Every such
+// change is a whole new file that takes the name by a rename, so that a program killed at any moment leaves a table
+// that can be read, with all rows up to the last checkpoint.
 #pragma once
 #include <mpi.h>
 
@@ -43,8 +47,8 @@ struct CsvHead {
 
 class CsvSeries {
   public:
-    // Collective in `comm`. restart: the time, the first column, up to which earlier rows are kept; none: the table is written anew.
-    // Throws Failure(ExitCode::io).
+    // Collective in `comm`. restart: the time, the first column, up to which earlier rows are kept; none: the table is
+    // written anew. Throws Failure(ExitCode::io).
     CsvSeries(MPI_Comm comm, const std::filesystem::path& caseDir, const CsvHead& head,
               std::optional<double> restart = std::nullopt);
 
@@ -68,10 +72,11 @@ class CsvSeries {
     std::string note_;
 };
 
-// Collective. Tables of this kind ("observer") that earlier runs have left anywhere under postProcessing, by the first line of each, which
-// has its own place in it: a copy that somebody has made under another name stays. restart: of these tables too, also of observers that the
-// case no longer has, only rows up to this time stay; none: they are removed, with those of versions before 2026-11 in folders named by
-// the time of the start, and folders that are then empty.
+// Collective. Tables of this kind ("observer") that earlier runs have left anywhere under postProcessing, by the first
+// line of each, which has its own place in it: a copy that somebody has made under another name stays. restart: of
+// these tables too, also of observers that the case no longer has, only rows up to this time stay; none: they are
+// removed, with those of versions before 2026-11 in folders named by the time of the start, and folders that are then
+// empty.
 void clearTables(MPI_Comm comm, const std::filesystem::path& caseDir, const std::string& kind,
                  std::optional<double> restart = std::nullopt);
 
@@ -82,8 +87,8 @@ struct CsvTable {
     std::vector<double> column(const std::string& name) const;
 };
 
-// Lines that open with # are left out, and a last row without its line end (being written). Throws Failure(ExitCode::io) with the line
-// when a row has another length than the header or holds no number.
+// Lines that open with # are left out, and a last row without its line end (being written). Throws
+// Failure(ExitCode::io) with the line when a row has another length than the header or holds no number.
 CsvTable readCsv(const std::filesystem::path& path);
 
 // postProcessing/<observer>/<file>.csv. Throws Failure(ExitCode::io), naming the tables there are.

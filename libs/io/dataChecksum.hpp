@@ -1,7 +1,8 @@
 // Checksum of what a .vtp file says, not of its bytes: points, triangles or lines, arrays with their names, field data.
 //
 //     h := mix(h + S(name)),   h := mix(h + S(values)) + number of values      for each part, in this order:
-//     "points", "triangles", "lines", "<point|cell> <scalar|vector|integer> NAME" (each sorted by name), "field NAME", "text NAME"
+//     "points", "triangles", "lines", "<point|cell> <scalar|vector|integer> NAME" (each sorted by name), "field NAME",
+//         "text NAME"
 //
 // S is the checksum of io/checksum.hpp: of a name and a text over its bytes, of a line its length and then its points.
 // What VTK makes of a damaged file is therefore either exactly what was written or found out, however the file is

@@ -1,5 +1,5 @@
-// What an earlier run of the case has left after the time at which a new one starts: it belongs to another history, and a run that began
-// beside it would be continued from its checkpoints and shown with its results.
+// What an earlier run of the case has left after the time at which a new one starts: it belongs to another history, and
+// a run that began beside it would be continued from its checkpoints and shown with its results.
 #pragma once
 #include <mpi.h>
 
@@ -18,9 +18,9 @@ struct ClearedOutput {
     std::string text() const;  // "12 times of fluid, rbc in results/ and 2 checkpoints"
 };
 
-// Collective. Removes what lies after `start` [s] by more than 1e-8 of it, or everything where there is no start (a run from 0/): of
-// every stream of results/, those of cells that the case no longer has included, the entries and their files; and checkpoints.
-// Files that no run of Corpuscle wrote stay. Of tables see csvSeries.hpp.
+// Collective. Removes what lies after `start` [s] by more than 1e-8 of it, or everything where there is no start (a run
+// from 0/): of every stream of results/, those of cells that the case no longer has included, the entries and their
+// files; and checkpoints. Files that no run of Corpuscle wrote stay. Of tables see csvSeries.hpp.
 ClearedOutput clearAfter(MPI_Comm comm, const std::filesystem::path& caseDir, std::optional<double> start);
 
 }  // namespace corpuscle::io

@@ -1,5 +1,6 @@
-// What a CheckpointWriter puts into a file, kept in the memory of each rank, and read as from a CheckpointReader: a state to go back to
-// within a run. Nothing is collective, and the number of ranks is the same; what is replicated must be the same on all of them.
+// What a CheckpointWriter puts into a file, kept in the memory of each rank, and read as from a CheckpointReader: a
+// state to go back to within a run. Nothing is collective, and the number of ranks is the same; what is replicated must
+// be the same on all of them.
 #pragma once
 #include <cstdint>
 #include <map>

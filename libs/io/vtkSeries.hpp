@@ -25,8 +25,8 @@ struct SeriesEntry {
     std::filesystem::path file;  // the .pvtp (or .vtp), reachable from the current directory
 };
 
-// Whether results/ has a stream of this name that is no cell's and no body's: fluid, walls, bodies, holes, and what a failed run leaves, fault and
-// fault_<cell>.
+// Whether results/ has a stream of this name that is no cell's and no body's: fluid, walls, bodies, holes, and what a
+// failed run leaves, fault and fault_<cell>.
 bool isReservedStream(std::string_view name);
 
 // The entries of a .pvd in their order. Throws Failure(ExitCode::io) when it is missing or no .pvd.
@@ -40,10 +40,12 @@ class VtkSeries {
     // keep: the number of times that stay, 0 for all. startTime: the earliest that this run may write [s].
     VtkSeries(MPI_Comm comm, const std::filesystem::path& caseDir, std::string stream, int keep, double startTime);
 
-    // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws Failure(ExitCode::io) on all ranks.
+    // Collective: every rank gives its piece, with the same array names. No strain: none in the files. Throws
+    // Failure(ExitCode::io) on all ranks.
     void write(double time, std::optional<double> strain, const PolyData& piece);
 
-    // Collective. Removes what a run that went further left, as the first write does: for a stream that has nothing to write yet.
+    // Collective. Removes what a run that went further left, as the first write does: for a stream that has nothing to
+    // write yet.
     void start();
     // Collective. Removes what this run has written after `time`, to write it anew.
     void goBack(double time);

@@ -53,7 +53,8 @@ struct VtpFile {
 VtpFile parseVtp(std::string_view bytes, const std::string& name);
 VtpFile readVtpFile(const std::filesystem::path& path);
 
-// The bytes of a VTK XML file. Throws Failure(ExitCode::io) when it is missing, cannot be read or lacks its closing tag.
+// The bytes of a VTK XML file. Throws Failure(ExitCode::io) when it is missing, cannot be read or lacks its closing
+// tag.
 std::string readWholeVtkFile(const std::filesystem::path& path);
 
 }  // namespace corpuscle::io

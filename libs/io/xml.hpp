@@ -2,7 +2,8 @@
 //
 // Nothing is copied but names and attributes: `text` points into the bytes that were given. The element AppendedData
 // ends the reading, as what follows its underscore may be any bytes; its text is everything behind that underscore.
-// Throws XmlFault with the line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and for a document type.
+// Throws XmlFault with the line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and
+// for a document type.
 #pragma once
 #include <map>
 #include <stdexcept>

@@ -1,13 +1,13 @@
-// Area of the membrane held near a target, triangle by triangle and as a whole (spring-network convention: on any network they add
-// local + global to Ks and nothing to Gs)
+// Area of the membrane held near a target, triangle by triangle and as a whole (spring-network convention: on any
+// network they add local + global to Ks and nothing to Gs)
 //     E = local/2 sum_t (A_t - A_t0)^2/A_t0  +  global/2 (A - A_0)^2/A_0
 // symbol  | meaning                                                                                              | unit
 // local   | K_l, modulus of each triangle's area                                                                 | N/m
 // global  | K_g, modulus of the whole area                                                                       | N/m
 // A_0     | key rest: the area wanted; the stress-free mesh's own when absent                                    | m^2
 // A_t0    | the triangle's stress-free area times A_0 over the stress-free mesh's area                           | m^2
-// Open cells: a broken triangle leaves the local term; the global term is let go for good when the first triangle of the membrane breaks
-// (a torn sheet has no pressure of lipids to hold). A mesh made with a border has both.
+// Open cells: a broken triangle leaves the local term; the global term is let go for good when the first triangle of
+// the membrane breaks (a torn sheet has no pressure of lipids to hold). A mesh made with a border has both.
 #pragma once
 #include <memory>
 #include <optional>

@@ -8,8 +8,8 @@
 //               | (seen from outside)                        | -pi .. pi, positive where convex [rad]
 //
 // Angles come from atan2(|sin|, cos), so their gradients hold their accuracy near 0 and pi (no division by sin).
-// addTension adds of slope d2q/dx2 what is positive semi-definite in closed form: a bond under tension resists being turned.
-// Where an angle's plane is undefined (corner angle exactly 0 or pi, triangle of no area) the gradient is zero.
+// addTension adds of slope d2q/dx2 what is positive semi-definite in closed form: a bond under tension resists being
+// turned. Where an angle's plane is undefined (corner angle exactly 0 or pi, triangle of no area) the gradient is zero.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>

@@ -4,8 +4,9 @@
 //
 // with a weight w of each element, 1 unless a law asks for others.
 // Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
-// Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without its geometric part, the second, it has the one eigenvalue
-// E'' |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of a node.
+// Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without its geometric part, the second, it has the one
+// eigenvalue E'' |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of
+// a node.
 #pragma once
 #include <algorithm>
 #include <memory>

@@ -167,7 +167,8 @@ class Equilibrium {
         return step;
     }
 
-    // A step with the least shift from the given one on that makes the matrix positive definite and Pi fall; the next one starts lower.
+    // A step with the least shift from the given one on that makes the matrix positive definite and Pi fall; the next
+    // one starts lower.
     bool descend(Definiteness definiteness, double& shift, double greatest, const Eigen::VectorXd& residual,
                  double& potential) {
         assemble(definiteness);

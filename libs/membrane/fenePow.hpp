@@ -1,5 +1,5 @@
-// Finitely extensible spring with a repulsive power (Fedosov, Caswell and Karniadakis, Comput. Methods Appl. Mech. Engrg
-// 199:1937, 2010)
+// Finitely extensible spring with a repulsive power (Fedosov, Caswell and Karniadakis, Comput. Methods Appl. Mech.
+// Engrg 199:1937, 2010)
 //     E = -ks/2 lm^2 ln(1 - x^2) + kp/((m-1) l^(m-1)) + constant,      x = l/lm
 //     E' = ks l/(1 - x^2) - kp/l^m
 // symbol | meaning                                                      | unit
@@ -8,7 +8,8 @@
 // kp     | from zero force at each bond's own l0                        | N m^m
 // m      | exponent of the repulsion                                    | -
 // Gs     | sqrt(3)/4 E''(l0), on a hexagonal network; Ks = 2 Gs         | N/m
-// Exactly one of Gs and ks is given; either way all bonds have the same E''(l0). Beyond the contour length: contourBond.hpp.
+// Exactly one of Gs and ks is given; either way all bonds have the same E''(l0). Beyond the contour length:
+// contourBond.hpp.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/contourBond.hpp"

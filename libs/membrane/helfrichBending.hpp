@@ -1,4 +1,5 @@
-// Bending energy of Helfrich on a triangle mesh, node by node (Juelicher 1996), with the area difference of the layers (ADE)
+// Bending energy of Helfrich on a triangle mesh, node by node (Juelicher 1996), with the area difference of the layers
+// (ADE)
 //     E = kappa/2 sum_v (2 M_v/A_v - c0)^2 A_v  +  pi alpha kappa/(2 A0 D^2) (DeltaA - DeltaA0)^2
 //     M_v = 1/4 sum over the edges at v of l theta,    DeltaA = 2 D sum_v M_v
 // symbol  | meaning                                                                                    | unit
@@ -15,22 +16,22 @@
 // DeltaA0 | rest area difference, outer less inner layer. absolute: DeltaA0 itself.                    | m^2
 //         | reduced: DeltaA0/(8 pi D R0), relative to the sphere of the stress-free mesh's area        | -
 //         | A0 = 4 pi R0^2; the term is then 8 pi^2 alpha kappa (m - m0)^2, m = sum M_v/(4 pi R0)      |
-// There is no rest state of the mesh in it: without c0 a flat sheet is at rest, and every closed cell pulls towards round. The Gaussian
-// part is a constant of the topology and left out.
+// There is no rest state of the mesh in it: without c0 a flat sheet is at rest, and every closed cell pulls towards
+// round. The Gaussian part is a constant of the topology and left out.
 //
-// Sources: Juelicher, J. Phys. II France 6, 1797 (1996) (energy from edges); Meyer, Desbrun, Schroeder, Barr, VisMath 2002 (Voronoi areas);
-// Seifert, Adv. Phys. 46, 13 (1997) and Lim, Wortis, Mukhopadhyay, PNAS 99, 16766 (2002) (ADE).
+// Sources: Juelicher, J. Phys. II France 6, 1797 (1996) (energy from edges); Meyer, Desbrun, Schroeder, Barr, VisMath
+// 2002 (Voronoi areas); Seifert, Adv. Phys. 46, 13 (1997) and Lim, Wortis, Mukhopadhyay, PNAS 99, 16766 (2002) (ADE).
 //
-// Why Voronoi shares and not a third of each triangle: with the nodes on a sphere M_v = (Voronoi area of v)/R, up to the square of the
-// edge, on every Delaunay mesh, so that 2 M_v/A_v is right node by node; thirds leave an error that does not shrink where triangles are
-// unequal. In obtuse triangles the shares are limited, smoothly. Where c1 != c2, a ring of one edge's reach on a disordered mesh
-// also sees (c1 - c2) times its own lopsidedness; this does not shrink with the edge, and its square adds to the energy.
-// docs/theory/membrane.md has the errors: below 0.2 % on meshes of membraneMesh, 2 % in the limit on a mesh with two
-// triangles in five obtuse.
+// Why Voronoi shares and not a third of each triangle: with the nodes on a sphere M_v = (Voronoi area of v)/R, up to
+// the square of the edge, on every Delaunay mesh, so that 2 M_v/A_v is right node by node; thirds leave an error that
+// does not shrink where triangles are unequal. In obtuse triangles the shares are limited, smoothly. Where c1 != c2, a
+// ring of one edge's reach on a disordered mesh also sees (c1 - c2) times its own lopsidedness; this does not shrink
+// with the edge, and its square adds to the energy. docs/theory/membrane.md has the errors: below 0.2 % on meshes of
+// membraneMesh, 2 % in the limit on a mesh with two triangles in five obtuse.
 //
-// Open cells: a node counts when each of its edges has two whole triangles. Nodes of a rim (border of the mesh, hole) have no energy of
-// their own: a rim bears no moment. Lipids cross from layer to layer over a rim, so the area difference is refused on a mesh with a
-// border and let go for good when the cell ruptures.
+// Open cells: a node counts when each of its edges has two whole triangles. Nodes of a rim (border of the mesh, hole)
+// have no energy of their own: a rim bears no moment. Lipids cross from layer to layer over a rim, so the area
+// difference is refused on a mesh with a border and let go for good when the cell ruptures.
 #pragma once
 #include <optional>
 

@@ -1,10 +1,13 @@
-// The term of helfrichBending.hpp. With C_v = 2 M_v/A_v, M = sum_v M_v and the area difference as k/2 (M - M0)^2, k = 4 pi alpha kappa/A0:
+// The term of helfrichBending.hpp. With C_v = 2 M_v/A_v, M = sum_v M_v and the area difference as k/2 (M - M0)^2, k = 4
+// pi alpha kappa/A0:
 //     dE/dM_v = 2 kappa (C_v - c0) + k (M - M0),     dE/dA_v = kappa/2 (c0^2 - C_v^2)
 //     F = -sum_v (dE/dM_v grad M_v + dE/dA_v grad A_v)
 // The node's energy is convex in (M_v, A_v), of rank one:
-//     E'' = sum_v [4 kappa/A_v w_v w_v^T + dE/dM_v grad^2 M_v + dE/dA_v grad^2 A_v] + k grad M grad M^T,   w_v = grad M_v - C_v/2 grad A_v
+//     E'' = sum_v [4 kappa/A_v w_v w_v^T + dE/dM_v grad^2 M_v + dE/dA_v grad^2 A_v] + k grad M grad M^T,
+//         w_v = grad M_v - C_v/2 grad A_v
 // An element of the stiffness is a node with its ring. The bound of maxStiffness is that of the parts of rank one,
-//     |w_n| sum_m |w_m| summed over the elements of a node n, which is at least the eigenvalue since (w.u)^2 <= sum |w_m| sum |w_n||u_n|^2.
+//     |w_n| sum_m |w_m| summed over the elements of a node n, which is at least the eigenvalue since (w.u)^2 <= sum
+//         |w_m| sum |w_n||u_n|^2.
 #pragma once
 #include "membrane/areaConstraint.hpp"
 #include "membrane/coordinates.hpp"
@@ -37,13 +40,13 @@ struct EdgeCurvature {
     }
 };
 
-// Share of a triangle of area A that belongs to its first node [m^2]. With the squared lengths L_k of the edges opposite to nodes k and
-// S their sum,
+// Share of a triangle of area A that belongs to its first node [m^2]. With the squared lengths L_k of the edges
+// opposite to nodes k and S their sum,
 //     share = A/2 (1 - r_0/(r_0 + r_1 + r_2)),   r_k = (p_k + sqrt(p_k^2 + eps^2))/2,   p_k = L_k (S - 2 L_k)/S^2
-// r_k = p_k would be the Voronoi share, bounded by the middles of the edges and the circumcentre (p_k: its barycentric coordinates up to
-// a factor, 1/9 in an equilateral triangle), which is negative in obtuse triangles. r_k is a smooth max(p_k, 0): the circumcentre is kept
-// inside, shares are positive, and the force has derivatives of every order, which Newton's method needs. The three shares sum to A.
-// Here: of the first Count nodes.
+// r_k = p_k would be the Voronoi share, bounded by the middles of the edges and the circumcentre (p_k: its barycentric
+// coordinates up to a factor, 1/9 in an equilateral triangle), which is negative in obtuse triangles. r_k is a smooth
+// max(p_k, 0): the circumcentre is kept inside, shares are positive, and the force has derivatives of every order,
+// which Newton's method needs. The three shares sum to A. Here: of the first Count nodes.
 template <int Count, class Scalar>
 std::array<Coordinate<3, Scalar>, Count> nodeAreas(const std::array<Vec3Of<Scalar>, 3>& x) {
     using Vec = Vec3Of<Scalar>;

@@ -1,4 +1,5 @@
-// Second derivatives of internal coordinates (coordinates.hpp): their gradients, computed on numbers that carry first derivatives.
+// Second derivatives of internal coordinates (coordinates.hpp): their gradients, computed on numbers that carry first
+// derivatives.
 #pragma once
 #include <unsupported/Eigen/AutoDiff>
 

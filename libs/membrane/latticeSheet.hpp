@@ -4,9 +4,10 @@
 // symbol | meaning                                             | unit
 // Gs     | shear modulus                                       | N/m
 // k      | spring constant of the lattice, Gs = sqrt(3)/4 k    | N/m
-// Ks = 2 Gs; small strains agree with Skalak's law of C = 1/2. A lattice has three directions, W = 4/3 Gs sum of 3: twelve are that
-// lattice and those turned by 15, 30 and 45 degrees, a quarter each. W then differs from the mean over all directions by at most
-// 2e-9 of it at l1 = 1.2, l2 = 1/1.2, 1e-5 at 1.6, 1.6e-4 at 2 (six directions: 2e-4, 4e-3, 1e-2; three: 9 %, 16 %, 16 %), so that it does not depend on how triangles lie.
+// Ks = 2 Gs; small strains agree with Skalak's law of C = 1/2. A lattice has three directions, W = 4/3 Gs sum of 3:
+// twelve are that lattice and those turned by 15, 30 and 45 degrees, a quarter each. W then differs from the mean over
+// all directions by at most 2e-9 of it at l1 = 1.2, l2 = 1/1.2, 1e-5 at 1.6, 1.6e-4 at 2 (six directions: 2e-4, 4e-3,
+// 1e-2; three: 9 %, 16 %, 16 %), so that it does not depend on how triangles lie.
 #pragma once
 #include <array>
 #include <cmath>

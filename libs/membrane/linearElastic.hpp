@@ -1,4 +1,5 @@
-// Hooke's law of the plane for small strain, in Green's strain E = e/2 so that it knows no rotation (St Venant and Kirchhoff)
+// Hooke's law of the plane for small strain, in Green's strain E = e/2 so that it knows no rotation (St Venant and
+// Kirchhoff)
 //     W = (Ks - Gs)/2 (tr E)^2 + Gs tr(E^2),     tr E = I1/2,   tr(E^2) = (I1^2 + 2 I1 - 2 I2)/4
 // symbol | meaning       | unit
 // Gs     | shear modulus | N/m

@@ -16,8 +16,8 @@ namespace corpuscle::membrane {
 
 class Membrane {
   public:
-    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest; `stressFree` are their places in the shape without tension,
-    // the same ones when empty.
+    // `radius` is the length a in Eb = kappa/(Gs a^2). Nodes start at rest; `stressFree` are their places in the shape
+    // without tension, the same ones when empty.
     Membrane(std::string name, int cell, std::vector<Vec3> nodes, std::vector<Index3> triangles,
              const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree = {});
 
@@ -33,7 +33,8 @@ class Membrane {
     void computeForces();  // force = -d energy/d position, all terms, and those of viscosity
     void addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) const;
     bool isViscous() const { return laws_.viscosity.has_value(); }
-    // For velocities v at the present positions, by the viscosity that the membrane has at its own velocity: linear in v.
+    // For velocities v at the present positions, by the viscosity that the membrane has at its own velocity: linear in
+    // v.
     void addViscousForces(std::span<const Vec3> v, std::span<Vec3> f) const;
     double energy() const;  // J
     void addStiffness(Definiteness definiteness, Stiffness& stiffness) const;

@@ -6,13 +6,13 @@
 // With M_m = sum_b w_b exp(i m phi_b), phi_b the bond's direction in the plane:
 //     Ks = M_0/4      Gs(psi) = (M_0 + Re M_4 e^(-4 i psi))/8      (shear along psi; mean M_0/8)
 //     axial stiffness C_nnnn(psi) = 3/8 M_0 + 1/2 Re M_2 e^(-2 i psi) + 1/8 Re M_4 e^(-4 i psi)      (mean Ks + Gs)
-// Ks = 2 Gs for every network of bonds (Cauchy's relation). The neighbourhood of a triangle is itself and all that share
-// a node with it, laid flat in its plane.
+// Ks = 2 Gs for every network of bonds (Cauchy's relation). The neighbourhood of a triangle is itself and all that
+// share a node with it, laid flat in its plane.
 //
 // These are upper bounds: nodes of an irregular network move beside the affine motion and so make it softer, the more
 // so the more irregular; on a regular lattice the bound is exact. A relaxed modulus needs a periodic flat sheet,
-// which a closed mesh does not give. A triangle law adds its own Gs and Ks, isotropic, to those of the bonds, exactly. Angle,
-// area and bending laws are not in it.
+// which a closed mesh does not give. A triangle law adds its own Gs and Ks, isotropic, to those of the bonds, exactly.
+// Angle, area and bending laws are not in it.
 #pragma once
 #include <string>
 

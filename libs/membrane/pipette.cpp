@@ -77,7 +77,8 @@ class Contact final : public Term {
     }
 
   private:
-    // Depth in the glass, the way out of it (less its gradient) and second derivative of the distance to the wall's middle.
+    // Depth in the glass, the way out of it (less its gradient) and second derivative of the distance to the wall's
+    // middle.
     struct Depth {
         double value = 0;
         Vec3 outwards = Vec3::Zero();

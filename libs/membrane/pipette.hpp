@@ -1,16 +1,17 @@
-// A micropipette along z that presses on a membrane and sucks it in: two energies beside the membrane's own, loads of the protocol
-// aspiration.
+// A micropipette along z that presses on a membrane and sucks it in: two energies beside the membrane's own, loads of
+// the protocol aspiration.
 //
-// The glass is a tube of inner radius R and wall w with a round end, its mouth at z_m; it lies within rho - R = 0 .. w, above
-// z_m. With d the distance of a point to the middle of the wall (rho = R + w/2, z >= z_m + w/2), its depth in the glass is
-// g = w/2 - d, and it takes a pressure without friction
+// The glass is a tube of inner radius R and wall w with a round end, its mouth at z_m; it lies within rho - R = 0 .. w,
+// above z_m. With d the distance of a point to the middle of the wall (rho = R + w/2, z >= z_m + w/2), its depth in the
+// glass is g = w/2 - d, and it takes a pressure without friction
 //     p(g) = p0 (g/c)^2 for g > 0,     E = sum A_i p0 g_i^3/(3 c^2)
-// summed over 16 points of each triangle, A_i their shares of its stress-free area, so that glass does not slip between nodes: the wall
-// is to be no thinner than an edge.
-// Suction P acts on the side of the membrane that faces the pipette (normals with z > 0 at the start), within the bore and, with s falling
-// smoothly from 1 to 0, from rho = R to the middle of the wall, where the membrane seals it:
+// summed over 16 points of each triangle, A_i their shares of its stress-free area, so that glass does not slip between
+// nodes: the wall is to be no thinner than an edge.
+// Suction P acts on the side of the membrane that faces the pipette (normals with z > 0 at the start), within the bore
+// and, with s falling smoothly from 1 to 0, from rho = R to the middle of the wall, where the membrane seals it:
 //     E = -P sum_t A_t,z F(x_t),   F = s(rho) (z - z_m),   s = 1 - 3 h^2 + 2 h^3,   h = (rho - R)/(w/2) within 0 .. 1
-// x_t the triangle's middle, A_t its area vector: P times the volume that the membrane takes up in the tube (divergence theorem).
+// x_t the triangle's middle, A_t its area vector: P times the volume that the membrane takes up in the tube (divergence
+// theorem).
 // symbol | meaning                                      | unit
 // R, w   | inner radius, thickness of the wall          | m
 // z_m    | height of the mouth                          | m

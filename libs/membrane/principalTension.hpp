@@ -3,8 +3,9 @@
 // symbol | meaning                                                         | unit
 // limit  | greatest principal tension                                      | N/m
 // T1     | of bonds and sheet laws in the triangle (diagnostics.hpp)       | N/m
-// Red cells lyse at some 10 mN/m of isotropic tension (Rand, Biophys. J. 4:303, 1964), which stands for their area modulus too: a model
-// sheet whose area modulus is smaller than a cell's reaches the strain of lysis at a smaller tension.
+// Red cells lyse at some 10 mN/m of isotropic tension (Rand, Biophys. J. 4:303, 1964), which stands for their area
+// modulus too: a model sheet whose area modulus is smaller than a cell's reaches the strain of lysis at a smaller
+// tension.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/ruptureLaw.hpp"

@@ -1,7 +1,8 @@
-// Family of the protocols of membraneRelax: what is done to a membrane without fluid, stage by stage, and what is read off it.
+// Family of the protocols of membraneRelax: what is done to a membrane without fluid, stage by stage, and what is read
+// off it.
 //
-// Each stage gives the loads; the equilibrium under them (equilibrium.hpp) is found from that of the stage before. The cell stands as
-// its shape is defined: axis along z, centre at the origin.
+// Each stage gives the loads; the equilibrium under them (equilibrium.hpp) is found from that of the stage before. The
+// cell stands as its shape is defined: axis along z, centre at the origin.
 #pragma once
 #include <string>
 #include <vector>

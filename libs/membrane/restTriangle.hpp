@@ -6,8 +6,8 @@
 //                                                    | p q    p r   0   |
 //                                                    | q^2    2 q r r^2 |
 //     p = 1/|A|,  q = -(A.B)/(2 A0 |A|),  r = |A|/(2 A0),       A, B the stress-free edges, A0 its area
-// e is twice Green's strain; it is zero to the bit at rest. Symmetric tensors of the plane are triples (11, 12, 22); a derivative by
-// e12 counts both of its places.
+// e is twice Green's strain; it is zero to the bit at rest. Symmetric tensors of the plane are triples (11, 12, 22); a
+// derivative by e12 counts both of its places.
 #pragma once
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // Family of rupture criteria: which bonds break now. What a broken bond takes with it is network.hpp's business.
 //
-// A criterion of the sheet (strain, tension, damage) finds triangles; of each its bond with the greatest stretch breaks, and with it
-// the two triangles that it belongs to.
+// A criterion of the sheet (strain, tension, damage) finds triangles; of each its bond with the greatest stretch
+// breaks, and with it the two triangles that it belongs to.
 #pragma once
 #include <span>
 #include <vector>

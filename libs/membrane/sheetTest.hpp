@@ -6,8 +6,8 @@
 // shear       | the whole border, at x + g y                                      | amount of shear g
 // Read off: stretches of both lengths and the tension, the mean Cauchy tension of the sheet
 //     T = 1/A sum_n r_n x_n^T       (symmetric; r_n what holds node n, A the area now)                     N/m
-// of all laws together. A triangle law has W(l1, l2) per stress-free area, in pure stretch T_1 = dW/dl1/l2; uniaxial is T_2 = 0. Triangles
-// of constant strain meet it on any mesh; networks of bonds have a border that they meet it but for.
+// of all laws together. A triangle law has W(l1, l2) per stress-free area, in pure stretch T_1 = dW/dl1/l2; uniaxial is
+// T_2 = 0. Triangles of constant strain meet it on any mesh; networks of bonds have a border that they meet it but for.
 // The sheet is a rectangle with sides along x and y (system/relax.yaml: sheet), or any flat border.
 #pragma once
 #include "core/settings.hpp"

@@ -1,7 +1,8 @@
 // Where terms put their stiffness, the second derivative of the energy [N/m]: element by element.
 //
-// An element names its nodes; its matrix has three rows and columns a node, in that order. A term that couples all nodes through one
-// scalar (global area, volume) gives a multiple of the outer product of a gradient instead, which is never written out.
+// An element names its nodes; its matrix has three rows and columns a node, in that order. A term that couples all
+// nodes through one scalar (global area, volume) gives a multiple of the outer product of a gradient instead, which is
+// never written out.
 #pragma once
 #include <Eigen/Sparse>
 #include <span>
@@ -18,10 +19,11 @@ class Stiffness {
     virtual void addRankOne(double factor, std::span<const Vec3> gradient) = 0;  // factor gradient gradient^T
 };
 
-// exact: the second derivative, which compressed elements make indefinite. semiDefinite: negative eigenvalues of each element's
-// matrix put to zero, so that the sum is positive semi-definite, as conjugate gradients and Newton's descent need. partwise: semi-definite
-// too, in a tenth of the time: of each element what is so in closed form, the curvature of the law and the stiffness of positive
-// tension; the rest is left out. For the implicit step, which asks for it at every step and whose accuracy does not hang on it.
+// exact: the second derivative, which compressed elements make indefinite. semiDefinite: negative eigenvalues of each
+// element's matrix put to zero, so that the sum is positive semi-definite, as conjugate gradients and Newton's descent
+// need. partwise: semi-definite too, in a tenth of the time: of each element what is so in closed form, the curvature
+// of the law and the stiffness of positive tension; the rest is left out. For the implicit step, which asks for it at
+// every step and whose accuracy does not hang on it.
 enum class Definiteness { exact, semiDefinite, partwise };
 
 // The matrix nearest to it, in the Frobenius norm, without negative eigenvalues.

@@ -26,8 +26,8 @@ inline double enclosedVolume(std::span<const Vec3> x, std::span<const Index3> tr
     return sum;
 }
 
-// Its derivative by the nodes: a third of the area vectors of a node's triangles; each from edges, so that no digits go into the
-// distance to the origin.
+// Its derivative by the nodes: a third of the area vectors of a node's triangles; each from edges, so that no digits go
+// into the distance to the origin.
 inline std::vector<Vec3> volumeGradient(std::span<const Vec3> x, std::span<const Index3> triangles) {
     std::vector<Vec3> sum(x.size(), Vec3::Zero());
     for (const Index3& t : triangles) {

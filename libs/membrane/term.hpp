@@ -1,7 +1,8 @@
 // One contribution to a membrane's energy, chosen once at set-up; the virtual call is made once per membrane and step.
 //
 // A term sees node positions (unwrapped, contiguous) and a Network; it knows nothing of ranks, images or the fluid.
-// It may keep a reference to the Network, whose lists shrink at rupture, and grow again where a run goes back; it keeps no other state.
+// It may keep a reference to the Network, whose lists shrink at rupture, and grow again where a run goes back; it keeps
+// no other state.
 #pragma once
 #include <span>
 

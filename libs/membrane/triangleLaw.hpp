@@ -7,7 +7,8 @@
 // The rest (loop, moduli, tensions for output) follows; neoHookean.hpp is the pattern.
 //
 // Moduli at small strain eps, e = 2 eps, with M = W''(0):  Gs = M_1111 - 2 M_1122 + M_2222, mean with the other shear
-// M_1212;  Ks = M_1111 + 2 M_1122 + M_2222. Homogeneous strain is exact on any mesh: the moduli of the sheet are the law's.
+// M_1212;  Ks = M_1111 + 2 M_1122 + M_2222. Homogeneous strain is exact on any mesh: the moduli of the sheet are the
+// law's.
 #pragma once
 #include <memory>
 #include <string>

@@ -4,9 +4,10 @@
 //     F_1 = -A0 (2 t11 a + t12 b),   F_2 = -A0 (t12 a + 2 t22 b),   F_0 = -F_1 - F_2
 //
 // Law: double energy(e) [J/m^2], Vec3 slope(e) = dW/de [N/m], Mat3 curvature(e) = d2W/de2 [N/m].
-// Stiffness, in a and b: A0 (J^T L^T W'' L J + t11 2 aa + t12 ab + t22 2 bb), J = dg/d(a, b); the last three, the geometric part,
-// are multiples of the unit matrix. The largest eigenvalue of the sum is at most the largest sum of those of the elements of a node.
-// Rest shapes are kept for the triangles of the mesh as made; the loops go over the whole ones.
+// Stiffness, in a and b: A0 (J^T L^T W'' L J + t11 2 aa + t12 ab + t22 2 bb), J = dg/d(a, b); the last three, the
+// geometric part, are multiples of the unit matrix. The largest eigenvalue of the sum is at most the largest sum of
+// those of the elements of a node. Rest shapes are kept for the triangles of the mesh as made; the loops go over the
+// whole ones.
 #pragma once
 #include <Eigen/Eigenvalues>
 #include <algorithm>

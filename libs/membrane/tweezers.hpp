@@ -1,12 +1,14 @@
-// Stretching by optical tweezers: two beads stuck to opposite ends of the rim along x are pulled apart by a force F each.
+// Stretching by optical tweezers: two beads stuck to opposite ends of the rim along x are pulled apart by a force F
+// each.
 //
-//     nodes whose stress-free place lies within contact/2 of the outermost node at either end share F by their stress-free areas
+//     nodes whose stress-free place lies within contact/2 of the outermost node at either end share F by their
+//         stress-free areas
 // symbol  | meaning                              | unit
 // forces  | F of each stage                      | N
 // contact | diameter of a bead's contact area    | m
 // Dead loads: no coordinate is held, the contact areas may turn.
-// Read off: axial diameter, between the mean places of the contact areas' outermost nodes (extent along x), and transverse diameter, the
-// extent along y, in the plane of the disc.
+// Read off: axial diameter, between the mean places of the contact areas' outermost nodes (extent along x), and
+// transverse diameter, the extent along y, in the plane of the disc.
 // Experiment: Mills, Qie, Dao, Lim, Suresh, Mol. Cell. Biomech. 1 (2004) 169; contact about 2 um across.
 #pragma once
 #include "core/settings.hpp"

@@ -27,8 +27,8 @@ struct VolumeConstraint {
     static const Schema<VolumeConstraint>& schema();
 };
 
-// slope d2V/dx2 of a closed surface, by edge (a, b) with c left and d right of a->b: d2V/dx_a dx_b = [(d - c)/6]x, the matrix of the
-// cross product, so that an element does not depend on where the volume's tetrahedra meet.
+// slope d2V/dx2 of a closed surface, by edge (a, b) with c left and d right of a->b: d2V/dx_a dx_b = [(d - c)/6]x, the
+// matrix of the cross product, so that an element does not depend on where the volume's tetrahedra meet.
 void addVolumeCurvature(const Network& network, std::span<const Vec3> x, double slope, Definiteness definiteness,
                         Stiffness& stiffness);
 

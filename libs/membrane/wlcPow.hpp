@@ -9,8 +9,8 @@
 // kp     | from zero force at each bond's own l0                        | N m^m
 // m      | exponent of the repulsion                                    | -
 // Gs     | sqrt(3)/4 E''(l0), on a hexagonal network; Ks = 2 Gs         | N/m
-// Exactly one of Gs and p is given. With Gs all bonds have the same E''(l0), and p = kBT/a grows with 1/l0; with p the shorter
-// bonds are the stiffer. Beyond the contour length: contourBond.hpp.
+// Exactly one of Gs and p is given. With Gs all bonds have the same E''(l0), and p = kBT/a grows with 1/l0; with p the
+// shorter bonds are the stiffer. Beyond the contour length: contourBond.hpp.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/contourBond.hpp"

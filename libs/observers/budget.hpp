@@ -1,5 +1,5 @@
-// Budget of energy, momentum, mass and volume of a scene since somebody began to look (docs/theory/conservation.md); the columns of budget.csv
-// of the observer `conservation`, and its lines at the end of a run.
+// Budget of energy, momentum, mass and volume of a scene since somebody began to look (docs/theory/conservation.md);
+// the columns of budget.csv of the observer `conservation`, and its lines at the end of a run.
 #pragma once
 #include <array>
 

@@ -1,10 +1,13 @@
-// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the budget of energy and momentum, budget.csv.
+// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the budget of energy and
+// momentum, budget.csv.
 //
-// budget.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is by geometry (cells.hpp);
-// leak is changedSide and guardMoves together. A torn cell's volume is that with its holes closed by fans.
+// budget.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is
+// by geometry (cells.hpp); leak is changedSide and guardMoves together. A torn cell's volume is that with its holes
+// closed by fans.
 //
-// Expected: residualShare below 0.01, momentumDrift of rounding by explicit schemes and of the solver's tolerance by the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's membrane keeps its area
-// within 4 % before it fails (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976: 2-4 %).
+// Expected: residualShare below 0.01, momentumDrift of rounding by explicit schemes and of the solver's tolerance by
+// the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's
+// membrane keeps its area within 4 % before it fails (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976: 2-4 %).
 #include <algorithm>
 #include <limits>
 

@@ -1,10 +1,10 @@
 // What became of the fluid that filled each cell at the start: the fluid particles of its side n.
 //
 // inside   | of all of them, wherever they are: constant in time
-// released | of those outside the surface of a broken cell, its holes closed by fans over their rims: what went out through holes (and
-//          | came not back)
-// leaked   | those outside the surface of a whole cell: particles that squeezed between nodes, until the leakage guard puts them back.
-//          | An error of the numerics and no release; the guard puts them back before a cell opens, too
+// released | of those outside the surface of a broken cell, its holes closed by fans over their rims: what went out
+//          | through holes (and came not back)
+// leaked   | those outside the surface of a whole cell: particles that squeezed between nodes, until the leakage guard
+//          | puts them back. An error of the numerics and no release; the guard puts them back before a cell opens, too
 #pragma once
 #include <vector>
 

@@ -2,12 +2,13 @@
 //
 //     deformation: {type: shape, every: 0.02 strain}
 //
-// An Observer is what the case says: settings, const and shared, and the tables it writes, each column with unit and meaning. begin()
-// gives an Observation, the running part: rows, and whatever it has to remember between two looks. An Observation never changes the
-// scene, knows no file and no interval (observers.hpp has both), and its rows are the same on every rank.
+// An Observer is what the case says: settings, const and shared, and the tables it writes, each column with unit and
+// meaning. begin() gives an Observation, the running part: rows, and whatever it has to remember between two looks. An
+// Observation never changes the scene, knows no file and no interval (observers.hpp has both), and its rows are the
+// same on every rank.
 //
-// Adding an observer is adding one .cpp with a struct of the settings (schema() includes ObserverSettings), its Observation and
-// CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
+// Adding an observer is adding one .cpp with a struct of the settings (schema() includes ObserverSettings), its
+// Observation and CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
 #pragma once
 #include <memory>
 #include <optional>
@@ -67,14 +68,15 @@ class Observation {
     virtual bool watchesSteps() const { return false; }
     virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
 
-    // Whether its rows may have NaN where there is nothing to be seen: a bin without particles, the section of an open cell.
+    // Whether its rows may have NaN where there is nothing to be seen: a bin without particles, the section of an open
+    // cell.
     virtual bool leavesGaps() const { return false; }
 
     // At the end of a run; empty: nothing to say. Collective.
     virtual std::optional<Summary> summary(const Scene& scene, const Time& time);
 
-    // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a state
-    // of another length.
+    // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a
+    // state of another length.
     virtual std::vector<double> state() const { return {}; }
     void restore(std::span<const double> state);
 

@@ -1,18 +1,20 @@
 // Observer `rupture`: when, where and how far the membranes break, and what they let out.
 //
-// <cell>.csv and case.csv (of all cells) have a row at each look. holes.csv has one for each rim at each look; its number is not that of the
-// same hole at the next look when holes come or merge. events.csv has one for each bond, at the step at which it broke.
+// <cell>.csv and case.csv (of all cells) have a row at each look. holes.csv has one for each rim at each look; its
+// number is not that of the same hole at the next look when holes come or merge. events.csv has one for each bond, at
+// the step at which it broke.
 //
-// Areas of holes are those of fans over their rims now; released fluid is interior.hpp's, tension diagnostics.hpp's, damage damage.hpp's. The
-// first break is that of the most stretched bond of its step; places on the stress-free cell are in the case's box, where the cell stood at
-// the start.
+// Areas of holes are those of fans over their rims now; released fluid is interior.hpp's, tension diagnostics.hpp's,
+// damage damage.hpp's. The first break is that of the most stretched bond of its step; places on the stress-free cell
+// are in the case's box, where the cell stood at the start.
 //
-// The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, of cells that hold the same concentration and
-// let it out with their fluid. It counts what went out with the fluid through torn membranes; not what diffuses, nor what passes through
-// pores smaller than a triangle, and it is that of this flow at this strain, not of a device.
+// The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, of cells that hold the same
+// concentration and let it out with their fluid. It counts what went out with the fluid through torn membranes; not
+// what diffuses, nor what passes through pores smaller than a triangle, and it is that of this flow at this strain, not
+// of a device.
 //
-// Numbers to compare with: bonds break at l/l0 = 1.05 in the DMP literature on red cells; a red cell's membrane bears 2-4 % of area
-// strain (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976).
+// Numbers to compare with: bonds break at l/l0 = 1.05 in the DMP literature on red cells; a red cell's membrane bears
+// 2-4 % of area strain (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976).
 #include <fmt/format.h>
 
 #include <algorithm>

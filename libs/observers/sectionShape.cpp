@@ -9,7 +9,8 @@ namespace corpuscle::observers {
 
 namespace {
 
-// Extents of the cross-section with the plane through `centre`, along and across the direction `axis` of the shear plane.
+// Extents of the cross-section with the plane through `centre`, along and across the direction `axis` of the shear
+// plane.
 Eigen::Vector2d sectionExtents(const geometry::TriangleMesh& mesh, const ShearPlane& plane, const Vec3& centre,
                                const Eigen::Vector2d& axis) {
     const Eigen::Vector2d across(-axis[1], axis[0]);

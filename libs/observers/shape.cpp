@@ -1,15 +1,17 @@
-// Observer `shape`: deformation, orientation and rotation of each cell; one file per cell (sectionShape.hpp has the definitions).
+// Observer `shape`: deformation, orientation and rotation of each cell; one file per cell (sectionShape.hpp has the
+// definitions).
 //
-// angleTurned grows without jumps: 2 pi is a whole tumble of a rigid cell, or a whole turn of a tank-treading membrane. treadPhase is how far
-// the membrane is ahead of the shape: the angle of one node, which at rest is nearest to the main axis, about the centroid, less that of the
-// main axis; near 0 for a rigid cell, growing by 2 pi with each turn of a tank-treading one. It jumps where a nearly round section changes axis.
+// angleTurned grows without jumps: 2 pi is a whole tumble of a rigid cell, or a whole turn of a tank-treading membrane.
+// treadPhase is how far the membrane is ahead of the shape: the angle of one node, which at rest is nearest to the main
+// axis, about the centroid, less that of the main axis; near 0 for a rigid cell, growing by 2 pi with each turn of a
+// tank-treading one. It jumps where a nearly round section changes axis.
 //
-// Angles are followed from one look to the next and so must change by less than half a period between two; material turns by no
-// more than gammadot t, hence at most 1.5 strain between two looks.
+// Angles are followed from one look to the next and so must change by less than half a period between two; material
+// turns by no more than gammadot t, hence at most 1.5 strain between two looks.
 //
-// Numbers to compare with: a rigid cell d, h, b = 8, 2.12, 1 um tumbles with the period 20.45/gammadot in unbounded Stokes flow (boundary
-// elements, own computation of the project, three meshes, error below 0.05); spheroid of axis ratio r: 2 pi (r + 1/r)/gammadot (Jeffery
-// 1922); sphere and its membrane in the limit of small Ca: 4 pi/gammadot.
+// Numbers to compare with: a rigid cell d, h, b = 8, 2.12, 1 um tumbles with the period 20.45/gammadot in unbounded
+// Stokes flow (boundary elements, own computation of the project, three meshes, error below 0.05); spheroid of axis
+// ratio r: 2 pi (r + 1/r)/gammadot (Jeffery 1922); sphere and its membrane in the limit of small Ca: 4 pi/gammadot.
 #include <cmath>
 #include <numbers>
 

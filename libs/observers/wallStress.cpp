@@ -1,11 +1,11 @@
 // Observer `wallStress`: what the fluid does to the walls; one file, wallStress.csv.
 //
-// Shear stress: sigma_xg in the fluid at the wall, g across the walls, which is F_x/A of the lower wall and -F_x/A of the upper one, F the
-// force of the fluid on the wall.
+// Shear stress: sigma_xg in the fluid at the wall, g across the walls, which is F_x/A of the lower wall and -F_x/A of
+// the upper one, F the force of the fluid on the wall.
 //
-// Numbers to compare with: plane Couette flow has sigma_xg = mu gammadot at both walls, effectiveViscosity 1; plane Poiseuille
-// flow under the body force b over the gap h has +-rho b h/2 (momentum balance, exact). A dilute suspension of rigid spheres of volume
-// fraction phi adds 5/2 phi (Einstein 1906).
+// Numbers to compare with: plane Couette flow has sigma_xg = mu gammadot at both walls, effectiveViscosity 1; plane
+// Poiseuille flow under the body force b over the gap h has +-rho b h/2 (momentum balance, exact). A dilute suspension
+// of rigid spheres of volume fraction phi adds 5/2 phi (Einstein 1906).
 #include "core/communicator.hpp"
 #include "observers/observer.hpp"
 

@@ -1,6 +1,6 @@
 // Order of particles in space: columns of square cross-section along z, visited in a snake (neighbouring columns are
-// neighbours in memory), the particles of every second column sorted downwards, so that any few consecutive particles are
-// close together and none need be padded.
+// neighbours in memory), the particles of every second column sorted downwards, so that any few consecutive particles
+// are close together and none need be padded.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -32,8 +32,8 @@ class Columns {
     double gapX(int cx, double a, double b) const { return gap(cx, nx_, xLow_, widthX_, a, b); }
     double gapY(int cy, double a, double b) const { return gap(cy, ny_, yLow_, widthY_, a, b); }
 
-    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. Walks there from `near`,
-    // the answer to a similar question: any range is right, a close one is fast.
+    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. Walks there from
+    // `near`, the answer to a similar question: any range is right, a close one is fast.
     struct Span {
         int begin = 0, end = 0;
     };
@@ -55,7 +55,8 @@ class Columns {
         return {a, b};
     }
 
-    // f(i) for all particles in a square column of half width `radius` about x, and as far along z; z is the sorted array.
+    // f(i) for all particles in a square column of half width `radius` about x, and as far along z; z is the sorted
+    // array.
     template <class F>
     void forNear(const double* z, const Vec3& x, double radius, F&& f) const {
         const int x0 = cellX(x[0] - radius), x1 = cellX(x[0] + radius), y0 = cellY(x[1] - radius),

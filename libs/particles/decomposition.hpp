@@ -1,7 +1,7 @@
 // Which rank owns which brick of space.
 //
-// Zoltan's recursive coordinate bisection cuts the box into one cuboid per rank with nearly equal numbers of particles. Bricks
-// tile the box: [low, high) on every axis, so that every position has exactly one owner.
+// Zoltan's recursive coordinate bisection cuts the box into one cuboid per rank with nearly equal numbers of particles.
+// Bricks tile the box: [low, high) on every axis, so that every position has exactly one owner.
 #pragma once
 #include <mpi.h>
 
@@ -46,8 +46,8 @@ class Decomposition {
     std::vector<Brick> bricks_;
 };
 
-// Sends every particle to the rank that owns its position. Collective; the order of particles is kept within each sender, and
-// senders follow in the order of their ranks.
+// Sends every particle to the rank that owns its position. Collective; the order of particles is kept within each
+// sender, and senders follow in the order of their ranks.
 void migrate(ParticleStore& particles, const Decomposition& decomposition);
 
 }  // namespace corpuscle::particles

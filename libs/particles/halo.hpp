@@ -1,8 +1,10 @@
-// Ghosts: copies of other ranks' particles, and of own ones across periodic faces, that lie within reach of this rank's brick.
+// Ghosts: copies of other ranks' particles, and of own ones across periodic faces, that lie within reach of this rank's
+// brick.
 //
-// One mechanism serves both: for every rank and every periodic image, the particles whose shifted position lies within reach of
-// that rank's brick are sent to it. The plan is made when lists are built and used at every step; ghosts are kept sorted in
-// columns. A message carries records (pairLoop.hpp): fields 0..2 are the position, which gets the image's shift.
+// One mechanism serves both: for every rank and every periodic image, the particles whose shifted position lies within
+// reach of that rank's brick are sent to it. The plan is made when lists are built and used at every step; ghosts are
+// kept sorted in columns. A message carries records (pairLoop.hpp): fields 0..2 are the position, which gets the
+// image's shift.
 #pragma once
 #include <mpi.h>
 
@@ -22,8 +24,9 @@ class Halo {
 
     int ghostCount() const { return ghosts_; }
 
-    // Fills records[owned .. owned + ghostCount) from records[0 .. owned), `fields` numbers each (double or float), in two halves
-    // so that work on interior particles can go on between them. scale: what positions in records are, per metre.
+    // Fills records[owned .. owned + ghostCount) from records[0 .. owned), `fields` numbers each (double or float), in
+    // two halves so that work on interior particles can go on between them. scale: what positions in records are, per
+    // metre.
     template <class Real>
     void begin(Real* records, int owned, int fields, double scale);
     template <class Real>
@@ -55,9 +58,11 @@ class Halo {
     };
     // Of each ghost. Collective.
     std::vector<Origin> origins(int owned);
-    // Which other ranks have ghosts of own particles: these ranks and the own particles' numbers, in order and each once.
+    // Which other ranks have ghosts of own particles: these ranks and the own particles' numbers, in order and each
+    // once.
     std::vector<Origin> copies() const;
-    // Adds what images of own particles have gathered, `count` numbers a particle, to these particles; the images have 0 then.
+    // Adds what images of own particles have gathered, `count` numbers a particle, to these particles; the images have
+    // 0 then.
     void foldImages(double* sums, int owned, int count = 4) const;
 
     // Bytes sent to other ranks at each exchange of `fields` doubles.

@@ -17,8 +17,8 @@ struct Bounds {
 
 bool isSet(unsigned char flag) { return flag != 0; }
 
-// Every span of candidates of one set of columns, from particle `from` on, that may lie within reach of the bounds. `spans` holds the
-// last answer for each column: the next block is close by.
+// Every span of candidates of one set of columns, from particle `from` on, that may lie within reach of the bounds.
+// `spans` holds the last answer for each column: the next block is close by.
 template <class F>
 void forSpans(const Columns& columns, int from, const double* z, const Bounds& bounds, double reach,
               std::vector<Columns::Span>& spans, F&& f) {

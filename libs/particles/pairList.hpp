@@ -1,13 +1,14 @@
-// The neighbour list: one flat array of j for every block of consecutive particles i (as many as the pair loop has lanes).
+// The neighbour list: one flat array of j for every block of consecutive particles i (as many as the pair loop has
+// lanes).
 //
-// j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the build;
-// the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet once: the earlier
-// one lists the particles of the later, and their images across periodic faces. Ghosts of other ranks are listed by every block that
-// meets them. Last come images of the block's own particles, which get no reaction. The block's own particles are not listed: they meet
-// anyway. A block of nothing but wall particles lists no wall particles: walls do not act on walls.
-// What lies within the support at the time of the build comes first, what only the skin adds after it.
-// Blocks are grouped by what they need: those without ghosts can be worked on while the halo is under way, and those that meet
-// a wall need the wall's form of a law.
+// j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the
+// build; the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet
+// once: the earlier one lists the particles of the later, and their images across periodic faces. Ghosts of other ranks
+// are listed by every block that meets them. Last come images of the block's own particles, which get no reaction. The
+// block's own particles are not listed: they meet anyway. A block of nothing but wall particles lists no wall
+// particles: walls do not act on walls. What lies within the support at the time of the build comes first, what only
+// the skin adds after it. Blocks are grouped by what they need: those without ghosts can be worked on while the halo is
+// under way, and those that meet a wall need the wall's form of a law.
 #pragma once
 #include <vector>
 
@@ -28,8 +29,8 @@ class PairList {
     static constexpr bool isAtWall(Group group) { return group == interiorAtWall || group == boundaryAtWall; }
 
     // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
-    // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image of, or -1.
-    // No ghost lies in the brick.
+    // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image
+    // of, or -1. No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
                const double* const position[3], const std::vector<unsigned char>& wall, const std::vector<int>& imageOf,
                const Brick& brick, double support, double reach);

@@ -4,29 +4,32 @@
 //
 // A law is a struct of constants with
 //     static constexpr int fields;   // numbers per record
-//     template <class V, class J> void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const;
+//     template <class V, class J> void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4])
+//         const;
 //     template <class V> void finish(const V (&i)[fields], V (&sum)[4]) const;   // common factors, once per particle
-// with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. J is V or a number, the same for all lanes.
-// A law of more sums says `static constexpr int sums` (a multiple of four; the first three odd, the others even). One whose p3 differs
-// for i and j says `static constexpr bool distinct = true` and gives what i gets in p[sums].
+// with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. J is V
+// or a number, the same for all lanes. A law of more sums says `static constexpr int sums` (a multiple of four; the
+// first three odd, the others even). One whose p3 differs for i and j says `static constexpr bool distinct = true` and
+// gives what i gets in p[sums].
 // What a particle does to itself is left to finish. Fields 0..2 of a record are the position in
-// units of the support radius from the middle of the box (RecordFrame): small numbers near one, so that records, pair terms and the
-// sums over one block may be float (Real) while state and sums stay double. Records (array of structures: one cache line for eight
-// doubles) are packed by the integrator for owned particles and come over the halo for ghosts.
+// units of the support radius from the middle of the box (RecordFrame): small numbers near one, so that records, pair
+// terms and the sums over one block may be float (Real) while state and sums stay double. Records (array of structures:
+// one cache line for eight doubles) are packed by the integrator for owned particles and come over the halo for ghosts.
 //
-// A block of `lanes` particles i meets its list one j at a time: a row. The square root takes as long as half of the rest: that of
-// the next row is computed while this row's law is. Within the block every particle meets those r lanes on, r = 1 .. lanes/2. Lanes
-// beyond the support vanish by arithmetic (max(0, 1 - q)): there are no masks.
+// A block of `lanes` particles i meets its list one j at a time: a row. The square root takes as long as half of the
+// rest: that of the next row is computed while this row's law is. Within the block every particle meets those r lanes
+// on, r = 1 .. lanes/2. Lanes beyond the support vanish by arithmetic (max(0, 1 - q)): there are no masks.
 #pragma once
 #include "particles/simd.hpp"
 
 namespace corpuscle::particles {
 
-// What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until alone(b) the
-// particles j get the reaction; from there on the block alone gets the action: images of its own particles. Ghosts gather what acts
-// on them in sums of their own: those of images belong to the owned particles, those of other ranks' particles are what this rank does
-// to them (sharedParticles.hpp). A block's own particles are not listed. Either half has particles within the support at the time of
-// the build first, then those of the skin: four parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
+// What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until
+// alone(b) the particles j get the reaction; from there on the block alone gets the action: images of its own
+// particles. Ghosts gather what acts on them in sums of their own: those of images belong to the owned particles, those
+// of other ranks' particles are what this rank does to them (sharedParticles.hpp). A block's own particles are not
+// listed. Either half has particles within the support at the time of the build first, then those of the skin: four
+// parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
 struct PairView {
     static constexpr int parts = 4;
     int owned = 0;  // particles with results
@@ -38,7 +41,8 @@ struct PairView {
     int end(int block) const { return first[parts * block + parts]; }
 };
 
-// Sums stand particle by particle, ghosts behind the owned, four doubles each unless the law has more, until they are finished.
+// Sums stand particle by particle, ghosts behind the owned, four doubles each unless the law has more, until they are
+// finished.
 template <class Law>
 constexpr int sumsOf() {
     if constexpr (requires { Law::sums; })
@@ -124,7 +128,8 @@ class PairLoop {
         for (int s = 4; s < pairSums; ++s) sum[s] += p[s];
     }
 
-    // Records of a block, field by field. The last block is filled up with copies of its last particle, out of reach of everything.
+    // Records of a block, field by field. The last block is filled up with copies of its last particle, out of reach of
+    // everything.
     template <class To, int room>
     static CORPUSCLE_INLINE void load(const Real* records, int slot, int owned, To (&block)[fields][room]) {
         const int used = inBlock(slot, owned);
@@ -135,8 +140,8 @@ class PairLoop {
         }
     }
 
-    // Every pair within the block: lane l with lane l + r. The last r meets each pair from both ends; before it the other lane gets
-    // the reaction, in `other` at l + r.
+    // Every pair within the block: lane l with lane l + r. The last r meets each pair from both ends; before it the
+    // other lane gets the reaction, in `other` at l + r.
     static CORPUSCLE_INLINE void within(const Law& law, const V (&i)[fields], const Real (&block)[fields][2 * lanes],
                                         V (&sum)[pairSums], Real (&other)[pairSums][2 * lanes]) {
         for (V& s : sum) s = V(0.0);
@@ -151,8 +156,8 @@ class PairLoop {
         }
     }
 
-    // The first of two parts of the list as it is, the second after a look at the distance: few of them are within the support.
-    // mutual: the particles j get the reaction.
+    // The first of two parts of the list as it is, the second after a look at the distance: few of them are within the
+    // support. mutual: the particles j get the reaction.
     template <bool mutual>
     static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* list, const int* part,
                                       const Real* records, V (&sum)[pairSums], double* sums) {

@@ -1,8 +1,8 @@
 // The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (pairList.hpp).
 //
-// What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there are
-// cells, node only where there are membranes, member only where there are rigid bodies. Whoever reorders, sends or saves particles goes through forEachField, so a new
-// field needs one line here.
+// What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there
+// are cells, node only where there are membranes, member only where there are rigid bodies. Whoever reorders, sends or
+// saves particles goes through forEachField, so a new field needs one line here.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -15,8 +15,9 @@
 
 namespace corpuscle::particles {
 
-// 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would put them all at the same
-// place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the cache.
+// 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would put them all
+// at the same place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the
+// cache.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;

@@ -22,8 +22,8 @@ namespace corpuscle::particles {
 
 class ParticleSystem {
   public:
-    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns); precision of the
-    // laws between pairs that are to run on its list.
+    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns);
+    // precision of the laws between pairs that are to run on its list.
     ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin,
                    double spacing, Precision precision = Precision::full);
 
@@ -57,15 +57,16 @@ class ParticleSystem {
 
     // Whether some particle of any rank has moved more than skin/2 since the last build. Collective.
     bool mustRebuild() const;
-    // The same from a square of displacement that the caller has at hand; NaN or infinity where a position is not finite:
-    // the rebuild then reports the particle.
+    // The same from a square of displacement that the caller has at hand; NaN or infinity where a position is not
+    // finite: the rebuild then reports the particle.
     bool mustRebuild(double largestDisplacement2) const;
     double largestDisplacement2() const;
     // Wraps, migrates, sorts, plans the halo, builds the list; rebalances bricks when they are uneven. Collective.
     void rebuild();
 
     // Runs work(group) on the four groups of blocks: those without ghosts while the halo is under way. `records` holds
-    // `fields` numbers per particle, owned ones filled, room for ghosts behind them; scale: positions in them per metre. Collective.
+    // `fields` numbers per particle, owned ones filled, room for ghosts behind them; scale: positions in them per
+    // metre. Collective.
     template <class Real, class Work>
     void forEachPair(Real* records, int fields, double scale, Work&& work) {
         halo_.begin(records, owned(), fields, scale);
@@ -82,7 +83,8 @@ class ParticleSystem {
         work(PairList::boundary), work(PairList::boundaryAtWall);
     }
 
-    // f(i) for the owned particles that lay within `radius` of x, or more, when lists were built; x in the box. No image of x is taken.
+    // f(i) for the owned particles that lay within `radius` of x, or more, when lists were built; x in the box. No
+    // image of x is taken.
     template <class F>
     void forOwnedNear(const Vec3& x, double radius, F&& f) const {
         columns_.forNear(store_.zBuilt.data(), x, radius, f);

@@ -43,7 +43,8 @@ void SharedParticles::plan(ParticleSystem& system) {
 
 void SharedParticles::findMessages(const ParticleSystem& system, const std::vector<Origin>& others,
                                    const std::vector<Origin>& copies) {
-    // A particle on three ranks or more: each of them hears from its owner who else has it, in pairs of particle and rank.
+    // A particle on three ranks or more: each of them hears from its owner who else has it, in pairs of particle and
+    // rank.
     std::vector<Origin> byParticle = copies;
     std::stable_sort(byParticle.begin(), byParticle.end(),
                      [](const Origin& a, const Origin& b) { return a.particle < b.particle; });

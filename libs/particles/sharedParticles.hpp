@@ -1,11 +1,14 @@
-// Particles that several ranks know: those of other ranks among this rank's ghosts, and own ones that are ghosts elsewhere.
+// Particles that several ranks know: those of other ranks among this rank's ghosts, and own ones that are ghosts
+// elsewhere.
 //
-// An operator that is a sum over pairs falls apart into what each rank's pairs do to the particles that the rank knows, its own and those of
-// others. Where values at all of these are at hand, an application needs one message to each neighbour: what its pairs gave to the particles
-// that both know, both ways, added up in the order of ranks, so that all who know a particle have the same bits (the interface sums of
-// domain decomposition, as in spectral elements). Vectors that are made of such sums stay right at others' particles without further messages.
+// An operator that is a sum over pairs falls apart into what each rank's pairs do to the particles that the rank knows,
+// its own and those of others. Where values at all of these are at hand, an application needs one message to each
+// neighbour: what its pairs gave to the particles that both know, both ways, added up in the order of ranks, so that
+// all who know a particle have the same bits (the interface sums of domain decomposition, as in spectral elements).
+// Vectors that are made of such sums stay right at others' particles without further messages.
 //
-// Arrays have entries: 0 .. owned - 1 are the rank's own particles, then each particle of other ranks once, however many images of it are ghosts.
+// Arrays have entries: 0 .. owned - 1 are the rank's own particles, then each particle of other ranks once, however
+// many images of it are ghosts.
 #pragma once
 #include <mpi.h>
 
@@ -29,15 +32,16 @@ class SharedParticles {
 
     const std::vector<std::size_t>& shared() const { return shared_; }  // all entries that other ranks have too
 
-    // Blocks of the list whose pairs give to a particle that others know too, and the rest: those that meet no wall, those that do.
+    // Blocks of the list whose pairs give to a particle that others know too, and the rest: those that meet no wall,
+    // those that do.
     struct Blocks {
         std::vector<int> away, atWall;
     };
     const Blocks& reaching() const { return reaching_; }
     const Blocks& rest() const { return rest_; }
 
-    // Adds up what all ranks have of each shared entry: of the `width` numbers that stand in `values` for an entry, the first `count`. From
-    // `begin` to `finish` these must stay as they are; all others may change. Collective.
+    // Adds up what all ranks have of each shared entry: of the `width` numbers that stand in `values` for an entry, the
+    // first `count`. From `begin` to `finish` these must stay as they are; all others may change. Collective.
     struct Numbers {
         int width, count;
     };

@@ -1,7 +1,9 @@
-// Several numbers at once, double or float. A pair law is written as plain expressions on this type; no law needs an intrinsic.
+// Several numbers at once, double or float. A pair law is written as plain expressions on this type; no law needs an
+// intrinsic.
 //
-// The type carries the instruction set as a tag, so that the baseline, AVX2 and AVX-512 builds of one law are different types
-// with different symbols: the linker can never mix them. Its lanes are those of the block (lanes.hpp), in one register or more.
+// The type carries the instruction set as a tag, so that the baseline, AVX2 and AVX-512 builds of one law are different
+// types with different symbols: the linker can never mix them. Its lanes are those of the block (lanes.hpp), in one
+// register or more.
 #pragma once
 #include <cmath>
 #if defined(__SSE2__)

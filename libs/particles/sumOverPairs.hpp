@@ -29,8 +29,9 @@ void addPairs(const PairKernel<Constants, Real>& kernel, const Constants& consta
     kernel.run(constants, list.view(), blocks.data(), static_cast<int>(blocks.size()), records.data(), sums.data());
 }
 
-// results[0 .. count) of the owned particles, count the law's sums. `records` holds `fields` doubles per particle, those of owned ones filled, with room for
-// ghosts behind them; `sums` is memory to work in. atWall: the form of the law for blocks that meet a wall. Collective.
+// results[0 .. count) of the owned particles, count the law's sums. `records` holds `fields` doubles per particle,
+// those of owned ones filled, with room for ghosts behind them; `sums` is memory to work in. atWall: the form of the
+// law for blocks that meet a wall. Collective.
 template <class Constants, class Real>
 void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& kernel,
                   const PairKernel<Constants, Real>& atWall, const Constants& constants, AlignedVector<Real>& records,

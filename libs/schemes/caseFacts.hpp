@@ -12,7 +12,8 @@ struct CaseFacts {
     double leastViscosity = 0, largestViscosity = 0;  // of the fluid outside cells [Pa s]
     double mostViscous = 0;                           // the largest, with that inside cells [Pa s]
     double springRate2 = 0;  // of the stiffest membrane, M^-1 K of its nodes as particles [1/s^2]
-    // Speed of sound [m/s]: where the stiffness of membranes and the viscosity around bodies count, and where volumes are kept exactly.
+    // Speed of sound [m/s]: where the stiffness of membranes and the viscosity around bodies count, and where volumes
+    // are kept exactly.
     double soundSpeed = 0, adjointSoundSpeed = 0;
     double duration = 0;            // of the whole run [s]; 0 until the flow is known
     const Node* written = nullptr;  // system/numerics.yaml as it was read, if it was

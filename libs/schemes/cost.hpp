@@ -1,11 +1,11 @@
-// What each integrator would cost on a case, predicted from the case alone, and which one `integrator: automatic` takes: the cheapest
-// of those that can do the case.
+// What each integrator would cost on a case, predicted from the case alone, and which one `integrator: automatic`
+// takes: the cheapest of those that can do the case.
 //
 //     cost = passes of the whole run over its strain, or over its seconds where the flow has no shear rate
 //
-// A pass is one evaluation of the fluid's pair law for every particle. dt is the smallest limit of the step (sph/stepLimits.hpp), with the
-// viscous rate of a lattice in place of power iterations, the speed of the flow in place of that of its particles, and an estimate of
-// the membrane's spring rate.
+// A pass is one evaluation of the fluid's pair law for every particle. dt is the smallest limit of the step
+// (sph/stepLimits.hpp), with the viscous rate of a lattice in place of power iterations, the speed of the flow in place
+// of that of its particles, and an estimate of the membrane's spring rate.
 //
 //     integrator     | passes per step
 //     velocityVerlet | 1, and 4 on adjoint operators

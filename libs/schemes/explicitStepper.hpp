@@ -1,5 +1,5 @@
-// What the steppers of explicit schemes have in common: rates by power iterations, kept with the checkpoint, and the limits that follow
-// from them. Limits are found anew when lists are rebuilt, rates every `stepsPerEstimate` steps.
+// What the steppers of explicit schemes have in common: rates by power iterations, kept with the checkpoint, and the
+// limits that follow from them. Limits are found anew when lists are rebuilt, rates every `stepsPerEstimate` steps.
 #pragma once
 #include "coupling/scene.hpp"
 #include "schemes/explicitLimits.hpp"

@@ -24,7 +24,8 @@ struct NumericsSettings {
     std::shared_ptr<const Scheme> scheme;
 
     double support() const { return kernel->support->metres(spacing); }  // [m]
-    // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the pressure.
+    // Steps between two balances of density against volume; 0: none. With long steps a balance would be a jump of the
+    // pressure.
     long balanceInterval() const { return densityBalance.value_or(scheme->traits().stepsPerBalance); }
     bool isAutomatic() const { return integrator == "automatic"; }
     bool isImmersed() const { return coupling == "immersed"; }

@@ -1,13 +1,13 @@
-// Family of schemes: how a scene is advanced in time. A scheme is chosen by `integrator` of system/numerics.yaml, by its registered name; its
-// settings stand there in a table of that name.
+// Family of schemes: how a scene is advanced in time. A scheme is chosen by `integrator` of system/numerics.yaml, by
+// its registered name; its settings stand there in a table of that name.
 //
 // name, and file | scheme
 // velocityVerlet | explicit (paper, Eqs 12 to 17); on adjoint operators where the case has them (adjointVerlet)
 // rkl2           | explicit, its viscosity by super-time-stepping; a fluid alone
 // implicit       | one symmetric system for fluid and membranes in each step
 //
-// A scheme says what it can do, what it costs and what it stands for where a key is absent; `stepper` makes what steps a scene (stepper.hpp).
-// Nothing outside this library asks for a scheme by its name.
+// A scheme says what it can do, what it costs and what it stands for where a key is absent; `stepper` makes what steps
+// a scene (stepper.hpp). Nothing outside this library asks for a scheme by its name.
 #pragma once
 #include <memory>
 #include <string>
@@ -25,8 +25,8 @@ struct NumericsSettings;
 
 // What the rest of a program has to know of a scheme.
 struct Traits {
-    // Pair operators are adjoint to each other (sph/operators.hpp): volumes are kept exactly, nodes lie between particles, which are shifted and
-    // held to their side of each membrane within every step.
+    // Pair operators are adjoint to each other (sph/operators.hpp): volumes are kept exactly, nodes lie between
+    // particles, which are shifted and held to their side of each membrane within every step.
     bool isAdjoint = false;
     bool listsEveryStep = false;  // neighbour lists are built at every step, without a skin
     bool solvesForBodies =

@@ -1,5 +1,5 @@
-// Velocity Verlet of the paper (sph/velocityVerlet.hpp) with the dual identity of nodes and rigid bodies as its loads. Where operators are
-// corrected or membranes immersed it is that on adjoint operators (adjointVerlet.hpp).
+// Velocity Verlet of the paper (sph/velocityVerlet.hpp) with the dual identity of nodes and rigid bodies as its loads.
+// Where operators are corrected or membranes immersed it is that on adjoint operators (adjointVerlet.hpp).
 #include "sph/velocityVerlet.hpp"
 
 #include "schemes/adjointVerlet.hpp"

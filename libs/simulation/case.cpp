@@ -114,8 +114,8 @@ double plainSoundSpeed(const Case& c) {
     return 10 * std::sqrt(square);
 }
 
-// Of M^-1 K for a hexagonal network of nodes on the membrane [1/s^2]: 6 k/m, its bonds of stiffness k = (Gs + Ks) 4/(3 sqrt(3)), the mass
-// of a node that of its hexagon, one spacing thick. Bending is left out.
+// Of M^-1 K for a hexagonal network of nodes on the membrane [1/s^2]: 6 k/m, its bonds of stiffness k = (Gs + Ks) 4/(3
+// sqrt(3)), the mass of a node that of its hexagon, one spacing thick. Bending is left out.
 double springRate2(const Case& c) {
     double most = 0;
     for (const CellSettings& cell : c.mesh.cells) {
@@ -127,9 +127,9 @@ double springRate2(const Case& c) {
     return most;
 }
 
-// Absent: 0.1 with immersed membranes and in flows of three dimensions, 0 otherwise. Where the flow draws a perfect lattice out its planes part:
-// all neighbours of a particle come to lie in one plane, and shifting, which follows gradients, does not see it because every particle has its
-// mirror image.
+// Absent: 0.1 with immersed membranes and in flows of three dimensions, 0 otherwise. Where the flow draws a perfect
+// lattice out its planes part: all neighbours of a particle come to lie in one plane, and shifting, which follows
+// gradients, does not see it because every particle has its mirror image.
 double jitterOf(const Case& c) {
     constexpr double usual = 0.1;
     const bool disordered = c.flowModel->isThreeDimensional() || (c.numerics.isImmersed() && !c.mesh.cells.empty());

@@ -88,7 +88,8 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                          "; move it towards the middle or make the box larger");
 }
 
-// What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image everywhere.
+// What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image
+// everywhere.
 void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
     if (!wrongScale(c, cell).empty()) return;
     const Mark mesh{"system/mesh.yaml", 0, 0};

@@ -33,7 +33,8 @@ struct StopSettings {
 struct ControlSettings {
     std::string application;
     std::string startFrom = "latestTime";
-    // The time that `startFrom` (or -restart) means [s]; nothing for latestTime. Throws std::invalid_argument that says what is allowed.
+    // The time that `startFrom` (or -restart) means [s]; nothing for latestTime. Throws std::invalid_argument that says
+    // what is allowed.
     static std::optional<double> startingTime(const std::string& startFrom);
     std::optional<double> endTime, endStrain;
     WriteSettings write;

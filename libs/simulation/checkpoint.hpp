@@ -1,7 +1,7 @@
 // Complete states: what a run needs to go on as if it had never stopped (docs/simulation.md).
 //
-// Particles are saved rank by rank in their order, with the positions of the last list build, so that the same number of ranks
-// rebuilds the same lists and goes on bit for bit; another number of ranks spreads them anew.
+// Particles are saved rank by rank in their order, with the positions of the last list build, so that the same number
+// of ranks rebuilds the same lists and goes on bit for bit; another number of ranks spreads them anew.
 #pragma once
 #include <filesystem>
 
@@ -29,8 +29,8 @@ void remember(io::MemoryCheckpoint& memory, const Case& input, const coupling::S
               const RunState& state);
 RunState recall(const io::MemoryCheckpoint& memory, const Case& input, coupling::Scene& scene, Time& time);
 
-// The checkpoint that `startFrom` (latestTime, firstTime, or the one nearest before a time) means; empty for the start in 0/. Warnings name
-// what was passed over.
+// The checkpoint that `startFrom` (latestTime, firstTime, or the one nearest before a time) means; empty for the start
+// in 0/. Warnings name what was passed over.
 std::filesystem::path chooseCheckpoint(const Case& input, const std::string& startFrom, MPI_Comm comm, Log& log);
 
 }  // namespace corpuscle::simulation

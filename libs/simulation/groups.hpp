@@ -1,5 +1,5 @@
-// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json. Cells (or bodies) after the first have those that
-// differ, under their own name: "Ca (stiff)".
+// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json. Cells (or bodies) after
+// the first have those that differ, under their own name: "Ca (stiff)".
 #pragma once
 #include <string>
 #include <vector>

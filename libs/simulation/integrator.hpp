@@ -1,5 +1,5 @@
-// Advances a scene by the scheme of its case, in steps as large as every limit allows (sph/stepLimits.hpp). A step that an event shortens
-// (core/time.hpp) says nothing about the length of the next one.
+// Advances a scene by the scheme of its case, in steps as large as every limit allows (sph/stepLimits.hpp). A step that
+// an event shortens (core/time.hpp) says nothing about the length of the next one.
 #pragma once
 #include <limits>
 #include <memory>
@@ -27,11 +27,12 @@ class Integrator {
     void resume(const State& state, Time& time);  // after a restart
     // The same where the scene has been put back within a run.
     void goBack(const State& state, Time& time);
-    // From the next step that is chosen on: none longer than this [s], and by backward Euler where damped and the scheme knows it.
+    // From the next step that is chosen on: none longer than this [s], and by backward Euler where damped and the
+    // scheme knows it.
     void shorten(double longest, bool damped);
 
-    // One step of time.dt, shorter where one of the events comes before its end; then time is on and time.dt is what the limits allow next.
-    // Collective. Throws Failure(numerics), on all ranks, where a step cannot be made.
+    // One step of time.dt, shorter where one of the events comes before its end; then time is on and time.dt is what
+    // the limits allow next. Collective. Throws Failure(numerics), on all ranks, where a step cannot be made.
     void advance(Time& time, const std::vector<Event>& events = {});
     double tried() const { return tried_; }  // length of the last step, made or not, had no event shortened it [s]
     bool wasShortened() const { return shortened_; }  // the last step, by an event

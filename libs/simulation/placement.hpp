@@ -3,7 +3,8 @@
 // what                                            | how it is found
 // surfaces that touch or cross, images included   | triangles of neighbours (geometry/crossings.hpp)
 // one surface inside another                      | a node of it, by the inside test
-// surfaces closer than 0.1 spacings               | nodes against the triangles of neighbours: no particle between them could stay on its side
+// surfaces closer than 0.1 spacings               | nodes against the triangles of neighbours: no particle between them
+//                                                 | could stay on its side
 // a surface across a wall, or longer than a periodic box | its bounds
 // Particles are filled in and runs begin from what passes; during a run StateCheck looks at the same (stateCheck.hpp).
 #pragma once

@@ -30,7 +30,8 @@ struct RelaxSettings {
     const std::string& name() const { return cell ? cell->name : sheet->name; }
     const std::string& type() const { return cell ? cell->type() : sheet->membrane ? *sheet->membrane : sheet->name; }
     double edge() const { return cell ? cell->edgeLength.value : sheet->edge; }
-    // Meshed, its shape prepared before. Throws CaseError where the stress-free shape that its laws name is none of this mesh.
+    // Meshed, its shape prepared before. Throws CaseError where the stress-free shape that its laws name is none of
+    // this mesh.
     membrane::Membrane makeMembrane(const std::filesystem::path& caseDirectory,
                                     const MembranesSettings& membranes) const;
 };

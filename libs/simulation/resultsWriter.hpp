@@ -1,5 +1,5 @@
-// Results for ParaView and renderCase: one stream for the fluid, one for each cell and each rigid body, one for the rims
-// of all holes once there are some. Walls stand in 0/walls.vtp.
+// Results for ParaView and renderCase: one stream for the fluid, one for each cell and each rigid body, one for the
+// rims of all holes once there are some. Walls stand in 0/walls.vtp.
 #pragma once
 #include <memory>
 #include <optional>
@@ -38,8 +38,8 @@ io::PolyData membranePiece(const membrane::Membrane& membrane, double spacing);
 // The same of a cell; no points on ranks other than `writer`.
 io::PolyData cellPiece(const coupling::Scene& scene, const coupling::Cell& cell, bool writer);
 
-// Adds the rims of a membrane's holes, each a closed line, with the numbers of the cell and, from 1 in the order of Network::rims(), of
-// the hole: those of the observer rupture.
+// Adds the rims of a membrane's holes, each a closed line, with the numbers of the cell and, from 1 in the order of
+// Network::rims(), of the hole: those of the observer rupture.
 void addRims(const membrane::Membrane& membrane, io::PolyData& data);
 
 // A rigid body's surface with its velocity; empty on ranks other than `writer`.

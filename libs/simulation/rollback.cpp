@@ -100,7 +100,8 @@ Fault Rollback::step() {
     return check_.find(scene_, time_);
 }
 
-// A rank that failed alone leaves the others waiting within the step: then there is no way back, and the failure goes on to end the run.
+// A rank that failed alone leaves the others waiting within the step: then there is no way back, and the failure goes
+// on to end the run.
 bool Rollback::allFailed() {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibarrier(meeting_, &request);

@@ -1,5 +1,5 @@
-// Where the integrators are known to be safe, from the stability map (docs/stability.md, benchmarks/stability): the table safeRange.csv,
-// built into the library.
+// Where the integrators are known to be safe, from the stability map (docs/stability.md, benchmarks/stability): the
+// table safeRange.csv, built into the library.
 //
 // axis                  | value
 // a group of groups.hpp | Ca, Re, lambda, E_b, a/dx ..., of every cell
@@ -24,8 +24,8 @@ struct SafeRange {
     std::string outside;  // what happens there
 };
 
-// Of a table as safeRange.csv has it, a header and five columns, the last one in quotes or not, lines that open with # left out. Throws std::invalid_argument with the line
-// where it is not one.
+// Of a table as safeRange.csv has it, a header and five columns, the last one in quotes or not, lines that open with #
+// left out. Throws std::invalid_argument with the line where it is not one.
 std::vector<SafeRange> parseSafeRanges(const std::string& table);
 
 const std::vector<SafeRange>& safeRanges();

@@ -5,8 +5,8 @@
 
 namespace corpuscle::simulation {
 
-// Particles and cells where they stand in 0/, with the velocity and pressure of the flow, spread over the ranks. Throws as
-// readStart. Collective.
+// Particles and cells where they stand in 0/, with the velocity and pressure of the flow, spread over the ranks. Throws
+// as readStart. Collective.
 coupling::Scene buildScene(const Case& input, MPI_Comm comm);
 
 // The scene without particles: what a restart fills from its checkpoint.

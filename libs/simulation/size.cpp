@@ -11,8 +11,8 @@ namespace corpuscle::simulation {
 
 namespace {
 
-// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity Verlet on adjoint
-// operators); with membranes or bodies in the fluid there is more of them.
+// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity
+// Verlet on adjoint operators); with membranes or bodies in the fluid there is more of them.
 struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
     static constexpr double plain = 600, plainLoaded = 730;
@@ -20,8 +20,8 @@ struct MemoryCosts {
     static constexpr double node = 2500;  // of a membrane, with its bonds and triangles
 };
 
-// Copies of particles that a rank has besides its own, over its own: of an even brick, cut from the box across its longest side again and
-// again, what lies within `reach` around it. Nothing lies beyond a wall.
+// Copies of particles that a rank has besides its own, over its own: of an even brick, cut from the box across its
+// longest side again and again, what lies within `reach` around it. Nothing lies beyond a wall.
 double ghostShare(const Case& c, int ranks, double reach) {
     const Vec3 box = c.particleBox().size();
     Vec3 brick = box;

@@ -2,10 +2,10 @@
 //
 // Memory, all ranks together:
 //     ranks x program + sum over ranks (owned x list + (owned + ghosts) x each) + nodes x node x holders
-// program: libraries, buffers of MPI and files. each: the store and its copy while sorting, sums over pairs, the two states that rollbacks
-// keep, the arrays of the scheme. ghosts: copies from other ranks and periodic images, as deep as support and skin around the rank's
-// brick. list: of what lies around a block of particles half is listed. The constants are measured (docs/simulation.md); a prediction is good
-// to 20 %.
+// program: libraries, buffers of MPI and files. each: the store and its copy while sorting, sums over pairs, the two
+// states that rollbacks keep, the arrays of the scheme. ghosts: copies from other ranks and periodic images, as deep as
+// support and skin around the rank's brick. list: of what lies around a block of particles half is listed. The
+// constants are measured (docs/simulation.md); a prediction is good to 20 %.
 #pragma once
 #include "simulation/case.hpp"
 

@@ -4,7 +4,8 @@
 // nodes and triangles, particles and their sides. Each notes in its field data, as texts by name, the settings that its
 // places follow from; reading compares them with the case:
 //     of a cell       cell.shape.*, cell.edge, cell.centre, cell.axis; of a body likewise
-//     of particles    mesh.domain.*, mesh.cells[n].*, mesh.bodies[n].*, numerics.spacing; of mesh.fill.* and numerics.kernel.* what counts
+//     of particles    mesh.domain.*, mesh.cells[n].*, mesh.bodies[n].*, numerics.spacing; of mesh.fill.* and
+//                     numerics.kernel.* what counts
 // What only the run depends on (flow, Ca, Re, fluid, laws, time step) is not among them: a start holds for all such
 // values. Velocity, density and pressure in these files are those of the case as it was filled, for looking at; a run
 // takes its own from the flow.

@@ -143,7 +143,8 @@ bool StateCheck::isSuspicious(const Membrane& m) const {
     });
 }
 
-// The first bond that has changed too much since the last look, null: none; takes up the lengths of now. No lengths yet: nothing to compare.
+// The first bond that has changed too much since the last look, null: none; takes up the lengths of now. No lengths
+// yet: nothing to compare.
 const Bond* StateCheck::compareBonds(const Membrane& m, std::vector<double>& lengths) {
     const bool isFirst = lengths.empty();
     lengths.resize(m.network().allBonds().size());

@@ -1,12 +1,16 @@
-// Running budget of energy and momentum: what the forces of a scheme put in and take away, added up at every step in the scheme's own quadrature
-// (docs/theory/conservation.md). With every particle's velocity u, that of walls and bodies included, the forces of a scheme do work at the rates
+// Running budget of energy and momentum: what the forces of a scheme put in and take away, added up at every step in
+// the scheme's own quadrature (docs/theory/conservation.md). With every particle's velocity u, that of walls and bodies
+// included, the forces of a scheme do work at the rates
 //
-//     sum u.F = - dissipation - d(compression)/dt                     of pairs: viscosity and pressure are adjoint to the rates of density
+//     sum u.F = - dissipation - d(compression)/dt
+//         of pairs: viscosity and pressure are adjoint to the rates of density
 //     sum u.f = - d(elastic)/dt - dissipation in membranes            of membranes
-//     walls + bodies + body force = dissipation of both + d(kinetic + elastic + compression)/dt + what the solver leaves
+//     walls + bodies + body force = dissipation of both + d(kinetic + elastic + compression)/dt + what the solver
+//         leaves
 //
-// What is added up here are rates of the step; the energies themselves are functions of the state, and what both differ by is what the step makes or
-// loses (observers/conservation.cpp). Every rank has its part and nothing is reduced until somebody looks.
+// What is added up here are rates of the step; the energies themselves are functions of the state, and what both differ
+// by is what the step makes or loses (observers/conservation.cpp). Every rank has its part and nothing is reduced until
+// somebody looks.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // Family of equations of state: pressure of a weakly compressible fluid from its density.
 //
-// The sound speed is numerical: large enough that density varies by less than a per cent, not that of water. `soundSpeed: auto`
-// takes  c0^2 = 100 max(U^2, nu U/l, Gs/(rho a), F L)  with U the largest speed that walls or body force give, l the smallest of
-// gap and cell radius, F the body force, L its length (flow.hpp).
+// The sound speed is numerical: large enough that density varies by less than a per cent, not that of water.
+// `soundSpeed: auto` takes  c0^2 = 100 max(U^2, nu U/l, Gs/(rho a), F L)  with U the largest speed that walls or body
+// force give, l the smallest of gap and cell radius, F the body force, L its length (flow.hpp).
 #pragma once
 #include <optional>
 

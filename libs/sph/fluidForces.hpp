@@ -1,8 +1,8 @@
 // Accelerations and rates of density of all particles of one rank (fluidPair.hpp), with body force and wall reaction.
 //
-// Pressure and viscosity act between all particles; a membrane's node counts as fluid here (dual identity). The velocity that
-// enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a with e = dt/2 and a the last
-// acceleration; density is extrapolated likewise, rho* + e rhodot (velocityVerlet.hpp says why).
+// Pressure and viscosity act between all particles; a membrane's node counts as fluid here (dual identity). The
+// velocity that enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a with e = dt/2
+// and a the last acceleration; density is extrapolated likewise, rho* + e rhodot (velocityVerlet.hpp says why).
 #pragma once
 #include <memory>
 
@@ -34,12 +34,13 @@ class FluidForces {
 
     const FluidModel& model() const { return model_; }
 
-    // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles and of rigid groups are summed up and
-    // set to zero.
+    // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles and of rigid groups are
+    // summed up and set to zero.
     void evaluate(particles::ParticleSystem& system, double extrapolation);
 
-    // What the last evaluation does for the budget (budget.hpp), members of rigid groups and other loads left out; and the velocity of particle i
-    // that it was made with. Only where it is kept: it costs one loop over particles and the memory of their velocities.
+    // What the last evaluation does for the budget (budget.hpp), members of rigid groups and other loads left out; and
+    // the velocity of particle i that it was made with. Only where it is kept: it costs one loop over particles and the
+    // memory of their velocities.
     void keepBudget() { keepsBudget_ = true; }
     const Budget::Values& rates() const { return rates_; }
     Vec3 velocityUsed(std::size_t i) const { return {used_[0][i], used_[1][i], used_[2][i]}; }
@@ -52,12 +53,13 @@ class FluidForces {
     // For integrators that work forces out by other operators.
     void setWallForces(const Vec3& lower, const Vec3& upper) { wallForce_[0] = lower, wallForce_[1] = upper; }
 
-    // Accelerations of the owned particles by viscosity alone at a velocity; those of walls are 0. No rigid groups. Collective.
+    // Accelerations of the owned particles by viscosity alone at a velocity; those of walls are 0. No rigid groups.
+    // Collective.
     void findViscosity(particles::ParticleSystem& system, const particles::RealArray (&velocity)[3],
                        particles::RealArray (&acceleration)[3]);
 
-    // Largest eigenvalue of the viscous operator per mass, 1/m_i (L u)_i, by power iterations with a start that depends on
-    // particle numbers only [1/s]. Collective. Leaves the state as it was.
+    // Largest eigenvalue of the viscous operator per mass, 1/m_i (L u)_i, by power iterations with a start that depends
+    // on particle numbers only [1/s]. Collective. Leaves the state as it was.
     double viscousRate(particles::ParticleSystem& system, int iterations);
 
     std::size_t bytes() const;
@@ -69,8 +71,8 @@ class FluidForces {
         particles::AlignedVector<Real> records;
         PairKernels::Fluid<Real> away{}, atWall{};
     };
-    // Packs the records and computes the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of `motion`;
-    // pressure(i) is p/rho^2.
+    // Packs the records and computes the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of
+    // `motion`; pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
     void run(particles::ParticleSystem& system, const particles::RealArray& density,
              const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,

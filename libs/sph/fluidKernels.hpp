@@ -1,5 +1,5 @@
-// Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the longest to
-// compile.
+// Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the
+// longest to compile.
 #pragma once
 #include "sph/pairBuild.hpp"
 #include "sph/pairKernels.hpp"

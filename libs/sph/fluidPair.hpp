@@ -6,17 +6,21 @@
 // mu_ij is the uniform viscosity, or across a jump the harmonic mean 2 mu_i mu_j/(mu_i + mu_j) (Cleary and Monaghan,
 // J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls; wallPlanes.hpp has its form at them.
 //
-// At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion is taken away:
-// with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the velocity
+// At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion
+// is taken away: with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the
+// velocity
 //     u_j - depth_j g_i,   g_i = w/distance_i
-// where u_j is its rigid velocity. Fluid has depth 0 and body particles have g = 0, so that one antisymmetric expression does.
+// where u_j is its rigid velocity. Fluid has depth 0 and body particles have g = 0, so that one antisymmetric
+// expression does.
 //
-// record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies | viscosity, if it varies |
+// record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies |
+//                                                                            | viscosity, if it varies |
 //          where there are bodies: H_s g (3), depth/H_s
-//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do not act
+//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do
+//              not act
 //          on each other (the list leaves such pairs out only where a whole block is wall)
-// What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives forces, which
-// are equal and opposite.
+// What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives
+// forces, which are equal and opposite.
 #pragma once
 #include "sph/wallPlanes.hpp"
 

@@ -1,5 +1,5 @@
-// The kernels that there are. A new one is its header and its place in this list: a case can then choose it by its name, and it is built into
-// every pair loop.
+// The kernels that there are. A new one is its header and its place in this list: a case can then choose it by its
+// name, and it is built into every pair loop.
 #pragma once
 #include <stdexcept>
 #include <type_traits>

@@ -1,15 +1,17 @@
-// Coefficients of the Runge-Kutta-Legendre scheme of second order, RKL2 (Meyer, Balsara, Aslam, J. Comput. Phys. 257 (2014) 594), for
-// du/dt = M u with real negative eigenvalues, in increments d_j = Y_j - u:
+// Coefficients of the Runge-Kutta-Legendre scheme of second order, RKL2 (Meyer, Balsara, Aslam, J. Comput. Phys. 257
+// (2014) 594), for du/dt = M u with real negative eigenvalues, in increments d_j = Y_j - u:
 //
 //     d_0 = 0,   d_1 = mu~_1 dt M u
 //     d_j = mu_j d_(j-1) + nu_j d_(j-2) + dt [mu~_j M Y_(j-1) + gamma~_j M u],   j = 2 .. s,     u <- u + d_s
 //     b_0 = b_1 = b_2 = 1/3,   b_j = (j^2 + j - 2)/(2 j (j + 1)),   w = 4/(s^2 + s - 2),   mu~_1 = b_1 w
-//     mu_j = (2j - 1)/j b_j/b_(j-1),   nu_j = -(j - 1)/j b_j/b_(j-2),   mu~_j = w mu_j,   gamma~_j = -(1 - b_(j-1)) mu~_j
+//     mu_j = (2j - 1)/j b_j/b_(j-1),   nu_j = -(j - 1)/j b_j/b_(j-2),   mu~_j = w mu_j,
+//         gamma~_j = -(1 - b_(j-1)) mu~_j
 //
-// A step multiplies a mode of rate -lambda by 1 - b_s + b_s P_s(1 - w lambda dt), P_s Legendre's polynomial: between 0 and 1 up to
+// A step multiplies a mode of rate -lambda by 1 - b_s + b_s P_s(1 - w lambda dt), P_s Legendre's polynomial: between 0
+// and 1 up to
 //     lambda dt = (s^2 + s - 2)/2,
-// (s^2 + s - 2)/4 of forward Euler's largest steps 2/lambda for s evaluations of M. There the factor is 2/(s^2 + s) where s is odd and
-// 1 where it is even, which would leave the stiffest modes undamped: so s is odd.
+// (s^2 + s - 2)/4 of forward Euler's largest steps 2/lambda for s evaluations of M. There the factor is 2/(s^2 + s)
+// where s is odd and 1 where it is even, which would leave the stiffest modes undamped: so s is odd.
 #pragma once
 #include <vector>
 

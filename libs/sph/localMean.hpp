@@ -1,4 +1,5 @@
-// A field of the fluid less its noise, for pictures: the mean around each particle (meanPair.hpp) over fluid particles of its own side.
+// A field of the fluid less its noise, for pictures: the mean around each particle (meanPair.hpp) over fluid particles
+// of its own side.
 #pragma once
 #include <vector>
 
@@ -7,8 +8,9 @@
 
 namespace corpuscle::sph {
 
-// values: of the particles of this rank, whatever the unit; those of other kinds are neither read nor changed. mass: of a particle where
-// the store has none of its own [kg]. Membranes part sides (0 outside, n inside cell n). Leaves the system as it is. Collective.
+// values: of the particles of this rank, whatever the unit; those of other kinds are neither read nor changed. mass: of
+// a particle where the store has none of its own [kg]. Membranes part sides (0 outside, n inside cell n). Leaves the
+// system as it is. Collective.
 std::vector<double> localMean(particles::ParticleSystem& system, const Kernel& kernel, double mass,
                               std::vector<double> values);
 

@@ -1,6 +1,7 @@
 // Mean of a quantity a around a particle, over those of its own side (Shepard):
 //     <a>_i = a_i + sum_j V_j W_ij (a_j - a_i)/(V_i W(0) + sum_j V_j W_ij),   j on i's side
-// What particles have as noise goes away with the number of neighbours; what a smooth field loses is of second order in H_s.
+// What particles have as noise goes away with the number of neighbours; what a smooth field loses is of second order in
+// H_s.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V = m/rho, in any unit | a | side, any whole number
 // sums   | sum V_i V_j W (a_j - a_i), two that are not used, sum V_i V_j W

@@ -1,9 +1,11 @@
 // Moments of the neighbours of a particle, from which corrected operators are made (operators.hpp):
-//     R = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij,  x_ij = x_i - x_j: vanishes where particles lie evenly; shifting follows it
+//     R = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij,  x_ij = x_i - x_j: vanishes where particles lie evenly; shifting
+//         follows it
 //     M = sum_j V_j F x_ij x_ij^T            the unit matrix on an ideal set
 //     sum_j V_j F,  sum_j V_j V_i F^2 r^2    of the diagonal of viscosity and of bulk stiffness
 //     sigma = sum_j V_j W
-// with F = -W'(r)/r, dx the spacing. The second term of R holds off what is nearer than that (coupling/transport.hpp). All in one pass; what walls see of each other is meaningless.
+// with F = -W'(r)/r, dx the spacing. The second term of R holds off what is nearer than that (coupling/transport.hpp).
+// All in one pass; what walls see of each other is meaningless.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V in units of `volume`
 // sums   | R (3), M (xx yy zz xy xz yz), sum V F, sum V V F^2 r^2, sigma; each times V_i until finished

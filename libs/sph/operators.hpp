@@ -3,24 +3,31 @@
 //     B_i = (sum_j V_j F d d^T)^-1,   S2_i = tr(B_i^-1)/3,   F = -W'(r)/r,   d = x_j - x_i
 //     (D u)_i     = sum_j V_j F (B_i d).(u_j - u_i)                               divergence, exact for linear fields
 //     (D^T V p)_i = -V_i sum_j V_j F (p_i B_i + p_j B_j) d                        force of the pressure p
-//     (L u)_i     = sum_j V_i V_j mu F (1/S2_i + 1/S2_j) beta (u_i - u_j)         Morris' viscosity, with unit second moment
-// Morris' form is the divergence of mu grad u, which is that of 2 mu e, e the symmetric part of the gradient, only where mu is uniform: at a jump it would put a
-// torque on what turns rigidly. Where viscosity varies, L has the fluid's mu, and the rest is a stress by the corrected gradient and its transpose,
-//     tau_i = 2 (mu_i - mu) e_i,   (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,   force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
+//     (L u)_i     = sum_j V_i V_j mu F (1/S2_i + 1/S2_j) beta (u_i - u_j)
+//         Morris' viscosity, with unit second moment
+// Morris' form is the divergence of mu grad u, which is that of 2 mu e, e the symmetric part of the gradient, only
+// where mu is uniform: at a jump it would put a torque on what turns rigidly. Where viscosity varies, L has the fluid's
+// mu, and the rest is a stress by the corrected gradient and its transpose,
+//     tau_i = 2 (mu_i - mu) e_i,   (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,
+//         force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
 // so that mu_i belongs to the particle's side and no mean is taken across a jump.
-// In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so that the layer beside a wall meets it
-// by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i - mu_low) (grad u)_i^T, force by first index: nothing in a plane shear
-// flow along the layers. mu_low, their lowest viscosity, may be any constant, as the divergence vanishes; with it no mode gains
-// power where they are no more than 20 apart (tests/sph/operators.cpp: all eigenvalues; at 50 some are negative), and no case may have more.
-// D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above), and no force is left over in the
-// sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1 everywhere.
+// In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so
+// that the layer beside a wall meets it by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i -
+// mu_low) (grad u)_i^T, force by first index: nothing in a plane shear flow along the layers. mu_low, their lowest
+// viscosity, may be any constant, as the divergence vanishes; with it no mode gains power where they are no more than
+// 20 apart (tests/sph/operators.cpp: all eigenvalues; at 50 some are negative), and no case may have more. D and D^T V
+// are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above), and no force
+// is left over in the sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1
+// everywhere.
 //
-// The weights are computed anew at each application: that needs a hundred bytes a particle and is as fast as reading them.
-// Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the last one 0.
+// The weights are computed anew at each application: that needs a hundred bytes a particle and is as fast as reading
+// them. Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the
+// last one 0.
 //
-// Over ranks: the divergence of an own particle needs the velocities of its neighbours, of which this rank may know those of others already; then
-// each rank gives the force of its own particles' stresses to all neighbours, others' particles included, and one message to each
-// neighbouring rank adds up the forces (particles/sharedParticles.hpp), behind the pairs of particles that no other rank knows.
+// Over ranks: the divergence of an own particle needs the velocities of its neighbours, of which this rank may know
+// those of others already; then each rank gives the force of its own particles' stresses to all neighbours, others'
+// particles included, and one message to each neighbouring rank adds up the forces (particles/sharedParticles.hpp),
+// behind the pairs of particles that no other rank knows.
 #pragma once
 #include <array>
 #include <utility>
@@ -45,15 +52,15 @@ class Operators {
     // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
     void build(particles::ParticleSystem& system);
 
-    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i) [Pa] of owned
-    // particles. u: of the owned particles. Collective.
+    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i)
+    // [Pa] of owned particles. u: of the owned particles. Collective.
     template <class Pressure>
     void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
         force_.assign(width * shared_.entries(), 0.0);
         addForces(system, u, Known::ownVelocities, pressure, force_);
     }
-    // The same added to `force`, with u and force of all entries of shared(): velocities of others' particles need no message. What
-    // own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
+    // The same added to `force`, with u and force of all entries of shared(): velocities of others' particles need no
+    // message. What own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
     template <class Pressure>
     void addForces(particles::ParticleSystem& system, const Field& u, Pressure&& pressure,
                    particles::RealArray& force) {

@@ -1,4 +1,5 @@
-// A law's pair loop as built for the instruction set of the file that includes this: entries of the table in pairKernels.hpp.
+// A law's pair loop as built for the instruction set of the file that includes this: entries of the table in
+// pairKernels.hpp.
 #pragma once
 #include "particles/pairLoop.hpp"
 

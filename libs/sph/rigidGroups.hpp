@@ -1,20 +1,22 @@
-// Groups of particles that move as rigid bodies: what the fluid needs of them. A group has 6 unknowns; P spreads them over its
-// particles, and the transpose of P gathers what acts on the particles:
+// Groups of particles that move as rigid bodies: what the fluid needs of them. A group has 6 unknowns; P spreads them
+// over its particles, and the transpose of P gathers what acts on the particles:
 //
 //     P   : (U, Omega) -> u_j = U + Omega x r_j                          r_j from the group's centre
 //     P^T : f_j        -> F = sum_j f_j,  T = sum_j s_j x f_j - D Omega
 //
-// s_j is the point of the surface nearest to particle j: momentum that viscosity hands from the fluid to a particle below the
-// surface arrives at the surface. D belongs to the form of the viscous operator: the pairs of fluidPair.hpp carry the traction
-// mu du/dn, which has the divergence but not the moment of mu (grad u + grad u^T).n. On a surface in rigid motion the missing part
-// has no resultant, and its moment is exactly
+// s_j is the point of the surface nearest to particle j: momentum that viscosity hands from the fluid to a particle
+// below the surface arrives at the surface. D belongs to the form of the viscous operator: the pairs of fluidPair.hpp
+// carry the traction mu du/dn, which has the divergence but not the moment of mu (grad u + grad u^T).n. On a surface in
+// rigid motion the missing part has no resultant, and its moment is exactly
 //     mu int_S r x (grad u . n) dS = -mu int_V curl u dV = -2 mu V Omega,   V the volume of the body.
-// A sphere that turns in fluid at rest shows it: mu du/dn gives 16/3 pi mu a^3 Omega, the whole 8 pi mu a^3 Omega. Seen otherwise, fluid
-// that turns with the body as one piece exerts no torque, but its pairs with the body's particles add up to D Omega, which is
-// taken away. D is that sum itself, over the particles (bodies/body.hpp), and tends to 2 mu V as the kernel's reach becomes small
-// beside the body; at H_s = 0.4 a it is 9 % smaller, and with 2 mu V in its place a free sphere turns 3 % too slowly.
+// A sphere that turns in fluid at rest shows it: mu du/dn gives 16/3 pi mu a^3 Omega, the whole 8 pi mu a^3 Omega. Seen
+// otherwise, fluid that turns with the body as one piece exerts no torque, but its pairs with the body's particles add
+// up to D Omega, which is taken away. D is that sum itself, over the particles (bodies/body.hpp), and tends to 2 mu V
+// as the kernel's reach becomes small beside the body; at H_s = 0.4 a it is 9 % smaller, and with 2 mu V in its place a
+// free sphere turns 3 % too slowly.
 //
-// Whoever solves for velocities implicitly needs no more: unknowns of the fluid and 6 for each group, P, P^T, and `response`.
+// Whoever solves for velocities implicitly needs no more: unknowns of the fluid and 6 for each group, P, P^T, and
+// `response`.
 #pragma once
 #include <mpi.h>
 
@@ -42,7 +44,8 @@ struct RigidGroups {
         double depth;          // below the surface, at least 0 [m]
         Vec3 arm, surfaceArm;  // of itself and of the nearest point of the surface, from the centre [m]
     };
-    // A fluid particle of this rank within the kernel's reach of a surface; one entry for each body where there are several.
+    // A fluid particle of this rank within the kernel's reach of a surface; one entry for each body where there are
+    // several.
     struct Near {
         int particle, group;
         double inverseDistance;  // from the surface [1/m], times the body's share among those within reach: 1 together

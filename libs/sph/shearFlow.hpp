@@ -1,5 +1,6 @@
 // Simple shear between two walls that move against each other:
-//     u = gammadot s e_x,   s the coordinate along the walls' normal from the middle,   walls at s = +-L/2 move with +-gammadot L/2
+//     u = gammadot s e_x,   s the coordinate along the walls' normal from the middle,
+//         walls at s = +-L/2 move with +-gammadot L/2
 // start: linear sets this profile at t = 0, rest starts the walls impulsively:
 //     u/U = 2 eta + sum_n 2/(n pi) (-1)^n sin(2 n pi eta) exp(-4 n^2 pi^2 nu t/L^2),  eta = s/L
 #pragma once

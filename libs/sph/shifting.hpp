@@ -1,7 +1,8 @@
-// Particle shifting: moves fluid particles from where they are dense to where they are sparse, so that disorder does not grow.
+// Particle shifting: moves fluid particles from where they are dense to where they are sparse, so that disorder does
+// not grow.
 //     x_i <- x_i + C H_s^2 (rate tau) sum_j V_j F x_ij        at most 0.05 dx
-// C: coefficient; rate: shear rate of the flow, or speed/length where it has none [1/s]; tau: time since the last shift.
-// Every `steps` time steps. Only fluid particles move; velocity and density stay with the particle.
+// C: coefficient; rate: shear rate of the flow, or speed/length where it has none [1/s]; tau: time since the last
+// shift. Every `steps` time steps. Only fluid particles move; velocity and density stay with the particle.
 #pragma once
 #include <memory>
 #include <optional>

@@ -2,19 +2,22 @@
 //
 //     viscous      1/lambda, lambda the largest eigenvalue of the viscous operator per mass (power iterations): half of
 //                  forward Euler's limit, because the scheme uses the extrapolated velocity
-//     membrane     1/(lambda + lambda_m), lambda_m the largest eigenvalue of the membranes' own viscosity per mass of their nodes
+//     membrane     1/(lambda + lambda_m), lambda_m the largest eigenvalue of the membranes' own viscosity per mass of
+//                  their nodes
 //     viscosity    (power iterations); in the spring limit too lambda is this sum
 //     acoustic     0.25 h/(c0 + |u|),  h = H_s/2
 //     body force   0.25 sqrt(h/|f|)
-//     spring       (omega dt/2)^2 + lambda dt = 1, omega^2 the largest eigenvalue of M^-1 K of the nodes on their network (power
-//                  iterations)
+//     spring       (omega dt/2)^2 + lambda dt = 1, omega^2 the largest eigenvalue of M^-1 K of the nodes on their
+//                  network (power iterations)
 //
-// The last one is exact for a node with spring and viscous drag: with u* and x as above the scheme's characteristic equation is
+// The last one is exact for a node with spring and viscous drag: with u* and x as above the scheme's characteristic
+// equation is
 //     (z - 1)^2 + omega^2 dt^2 z + lambda dt (z - 1)(1 + (z - 1)/(2z)) = 0,
-// which leaves the unit circle at z = -1. Without springs it gives the viscous limit, without drag the well-known 2/omega.
-// rkl2.hpp has three times the acoustic limit, the body-force limit and, in place of the viscous one, those of its stages and of an
-// unsteady flow.
-// Viscous and spring limits are multiplied by `safety`; taking both largest eigenvalues for one mode errs on the safe side.
+// which leaves the unit circle at z = -1. Without springs it gives the viscous limit, without drag the well-known
+// 2/omega. rkl2.hpp has three times the acoustic limit, the body-force limit and, in place of the viscous one, those of
+// its stages and of an unsteady flow.
+// Viscous and spring limits are multiplied by `safety`; taking both largest eigenvalues for one mode errs on the safe
+// side.
 #pragma once
 #include <cmath>
 #include <limits>

@@ -1,7 +1,8 @@
 // Two parallel plane walls as a pair law sees them: n.x = middle +- half, lengths as in the records.
 //
-// The particles behind a wall's surface take the velocity that continues the profile linearly, so that it vanishes (relative to the
-// wall) on the surface (Morris, Fox, Zhu, J. Comput. Phys. 136 (1997) 214): their pairs with the fluid are multiplied by
+// The particles behind a wall's surface take the velocity that continues the profile linearly, so that it vanishes
+// (relative to the wall) on the surface (Morris, Fox, Zhu, J. Comput. Phys. 136 (1997) 214): their pairs with the fluid
+// are multiplied by
 //     beta = min(betaMax, 1 + depth_wall/distance_fluid)
 #pragma once
 #include "particles/simd.hpp"

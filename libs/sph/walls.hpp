@@ -1,6 +1,6 @@
-// Two parallel plane walls made of particles: layers beyond the surfaces, moving with prescribed velocity. Their density follows
-// the continuity equation, so that they push back where fluid comes close; their velocity enters viscosity through beta
-// (fluidPair.hpp), so that the fluid meets the wall's velocity on the surface itself.
+// Two parallel plane walls made of particles: layers beyond the surfaces, moving with prescribed velocity. Their
+// density follows the continuity equation, so that they push back where fluid comes close; their velocity enters
+// viscosity through beta (fluidPair.hpp), so that the fluid meets the wall's velocity on the surface itself.
 #pragma once
 #include <array>
 
@@ -18,8 +18,8 @@ struct Walls {
     bool isUpper(const Vec3& p) const { return p[axis] > 0.5 * (low + high); }
 };
 
-// As the records of pair laws see them (pairLoop.hpp): lengths in supports H, from the middle of the box. A fluid particle that has come
-// very close to a wall counts as a quarter of a spacing away, and beta is at most ten.
+// As the records of pair laws see them (pairLoop.hpp): lengths in supports H, from the middle of the box. A fluid
+// particle that has come very close to a wall counts as a quarter of a spacing away, and beta is at most ten.
 inline WallPlanes planes(const Walls& walls, const particles::Box& box, double spacing, double H) {
     WallPlanes p;
     p.normal[walls.axis] = 1;

@@ -22,8 +22,8 @@ double superficialVelocity(const SphereInFluid& f) { return f.momentum()[0] / st
 
 double hasimoto(double c) { return 1 / (1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c); }
 
-// Fluid driven through a cubic array of held spheres: drag factor K = F/(6 pi mu a U), after 3.5 times of relaxation, when force and velocity
-// approach their ends together.
+// Fluid driven through a cubic array of held spheres: drag factor K = F/(6 pi mu a U), after 3.5 times of relaxation,
+// when force and velocity approach their ends together.
 double dragFactor(double radius, int length) {
     SphereInFluid f({length, length, length}, Vec3::Constant(0.5 * length), "held", 1, 0, radius, Vec3(2e-4, 0, 0));
     sph::VelocityVerlet scheme(*f.system, *f.forces, nullptr, {f.bodies.get()});

@@ -10,8 +10,8 @@ using namespace sph::testing;
 
 inline constexpr double support = 2.4, skin = 0.3;
 
-// A sphere of particles in a periodic lattice of fluid; particles are numbered by their place relative to the sphere's centre, so
-// that what they start with does not depend on where it is.
+// A sphere of particles in a periodic lattice of fluid; particles are numbered by their place relative to the sphere's
+// centre, so that what they start with does not depend on where it is.
 struct SphereInFluid {
     Index3 size;
     Vec3 centre;

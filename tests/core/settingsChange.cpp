@@ -1,4 +1,5 @@
-// What a changed setting means to a run that continues: by value, not by spelling, and never silently where nothing is declared.
+// What a changed setting means to a run that continues: by value, not by spelling, and never silently where nothing is
+// declared.
 #include "core/settingsChange.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The explicit step on adjoint operators: a shear wave, its limits against dense matrices, momentum, ranks, a sphere's membrane.
-// Lengths in spacings, density 1.
+// The explicit step on adjoint operators: a shear wave, its limits against dense matrices, momentum, ranks, a sphere's
+// membrane. Lengths in spacings, density 1.
 #include "coupling/adjointVerlet.hpp"
 
 #include <gtest/gtest.h>
@@ -111,7 +111,8 @@ struct Cells : SphereScene {
         step = AdjointVerlet::make(scene, {.shifting = 1.0});
         step->start();
     }
-    // The largest eigenvalue of P S M^-1 S^T P A, whose eigenvalues are those of M^-1 S^T P A P S: A on the nodes, masses 1.
+    // The largest eigenvalue of P S M^-1 S^T P A, whose eigenvalues are those of M^-1 S^T P A P S: A on the nodes,
+    // masses 1.
     template <class F>
     double largest(F&& product) const {
         Immersed immersed(const_cast<std::vector<Cell>&>(scene.cells), 1);
@@ -250,7 +251,8 @@ TEST(AdjointVerlet, isTheSameOnOneRankAndOnAll) {
         EXPECT_LT((a.velocity(place.at(b.id[i])) - b.velocity(i)).norm(), 1e-10 * largest);
 }
 
-// Two spheres out of shape go back towards it through the fluid, their volume as it was; nothing passes their membranes.
+// Two spheres out of shape go back towards it through the fluid, their volume as it was; nothing passes their
+// membranes.
 TEST(AdjointVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
     Cells cells(true);
     const auto energy = [&] {

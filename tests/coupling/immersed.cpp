@@ -227,7 +227,8 @@ TEST(Immersed, spreadIsTheTransposeOfInterpolate) {
     EXPECT_LT((total - std::accumulate(f.begin(), f.end(), Vec3(Vec3::Zero()))).norm(), 1e-12 * std::sqrt(dot(f, f)));
 }
 
-// Forces by differences of the energy; stiffness by differences of forces, of membranes at rest, where no part of it is left out.
+// Forces by differences of the energy; stiffness by differences of forces, of membranes at rest, where no part of it is
+// left out.
 TEST(Immersed, forcesAndStiffnessAreThoseOfTheMembranes) {
     InFluid scene;
     const std::vector<Vec3> u = scene.random(scene.nodes(), 6);

@@ -21,7 +21,8 @@ struct Guarded : SphereScene {
         exchange.gather(*system, cells, 0);
         guard.findCandidates(*system, cells);
     }
-    // The fluid particle of this side that is nearest to the membrane from there, on the rank that owns it: its number, or -1.
+    // The fluid particle of this side that is nearest to the membrane from there, on the rank that owns it: its number,
+    // or -1.
     int nearest(int side) const {
         const ParticleStore& s = system->store();
         double best = INFINITY;

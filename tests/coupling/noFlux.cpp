@@ -43,7 +43,8 @@ struct Watched : SphereScene {
     }
     Vec3 fromCentre(std::size_t i) const { return system->box().minimumImage(system->store().position(i) - centre); }
 
-    // Nearest point of the mesh, triangle by triangle: its place from the centre, and the distance from it, positive outside.
+    // Nearest point of the mesh, triangle by triangle: its place from the centre, and the distance from it, positive
+    // outside.
     std::pair<Vec3, double> nearest(std::size_t i) const {
         const Vec3 x = fromCentre(i) + centre;
         double best = std::numeric_limits<double>::infinity();

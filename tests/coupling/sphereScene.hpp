@@ -1,4 +1,5 @@
-// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1. Nodes are particles, or lie in the fluid (immersed).
+// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1. Nodes are particles, or lie in the
+// fluid (immersed).
 #pragma once
 #include "coupling/scene.hpp"
 #include "membrane/meshes.hpp"
@@ -77,8 +78,8 @@ struct SphereScene {
         system->start();
     }
 
-    // A scene of these membranes immersed, their nodes moved to f(place from the middle of the cell), whose volumes they keep.
-    // Nothing is left here.
+    // A scene of these membranes immersed, their nodes moved to f(place from the middle of the cell), whose volumes
+    // they keep. Nothing is left here.
     template <class F>
     Scene immersedScene(double rate, F&& f) && {
         for (Cell& cell : cells) {

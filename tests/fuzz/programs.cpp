@@ -3,8 +3,8 @@
 // Every line on standard input is one run,
 //     PROGRAM SECONDS ARGUMENT...          membraneMesh 20 -case dir
 // separated by tabs, and is answered by one line of JSON: the exit code or the signal, the seconds, whether it ran over
-// them, and the end of what it said. PROGRAM is one of those below, with its own main(); `digest FILE` says a number for
-// the content of a .vtp file. A run may take 4 GiB of address space.
+// them, and the end of what it said. PROGRAM is one of those below, with its own main(); `digest FILE` says a number
+// for the content of a .vtp file. A run may take 4 GiB of address space.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <mpi.h>

@@ -1,5 +1,6 @@
-// What the forces of each scheme do to angular momentum, and what is left of it after a turn. In a compact flow or pressure in a periodic box, at rest
-// near its faces, neither viscosity nor pressure has a torque as a whole; that of the pairs shows how far the scheme is from it. Lengths in spacings.
+// What the forces of each scheme do to angular momentum, and what is left of it after a turn. In a compact flow or
+// pressure in a periodic box, at rest near its faces, neither viscosity nor pressure has a torque as a whole; that of
+// the pairs shows how far the scheme is from it. Lengths in spacings.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,6 +1,6 @@
-// The budget of energy (sph/budget.hpp) by each scheme: on a swirl in a periodic box what it dissipates is v.L v computed by itself, and the
-// energies of the state change by what forces did, to the order of the scheme; walls work as much as Couette flow dissipates.
-// Lengths in spacings, density 1.
+// The budget of energy (sph/budget.hpp) by each scheme: on a swirl in a periodic box what it dissipates is v.L v
+// computed by itself, and the energies of the state change by what forces did, to the order of the scheme; walls work
+// as much as Couette flow dissipates. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -138,8 +138,9 @@ TEST(Budget, dissipationIsThatOfTheOperator) {
     }
 }
 
-// From rest, with membranes pulled out of shape and a solver that stops early: in the first step everything is taken where it stands, so v.L v can be
-// computed by itself. Whatever the solver leaves, over refinements too, must be in the budget.
+// From rest, with membranes pulled out of shape and a solver that stops early: in the first step everything is taken
+// where it stands, so v.L v can be computed by itself. Whatever the solver leaves, over refinements too, must be in the
+// budget.
 TEST(Budget, dissipationBesideMembranesWhateverTheSolverLeaves) {
     using coupling::testing::SphereScene;
     const auto build = [] {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double inertia = 0.7, viscosity = 1.3, lambda = 9;
 
-// The same operator by another way: elements with trilinear shape functions, integrated by 2 x 2 x 2 Gauss points, in one dense matrix
-// over all nodes; nodes at walls are taken out by the caller.
+// The same operator by another way: elements with trilinear shape functions, integrated by 2 x 2 x 2 Gauss points, in
+// one dense matrix over all nodes; nodes at walls are taken out by the caller.
 Eigen::MatrixXd assemble(const std::array<int, 3>& cells, const std::array<int, 3>& nodes, const Vec3& step) {
     const auto number = [&](int i, int j, int k) {
         return ((i % nodes[0]) * nodes[1] + j % nodes[1]) * nodes[2] + k % nodes[2];
@@ -125,7 +125,8 @@ TEST(CoarseGrid, isSymmetricAndPositiveForParticlesAnywhere) {
     }
 }
 
-// What acts in some planes gives there what it gives without this being known, wherever they are, for coefficients that change.
+// What acts in some planes gives there what it gives without this being known, wherever they are, for coefficients that
+// change.
 void someOfTheParticles(int wall) {
     particles::Box box{{0, 0, 0}, {9, 10, 11}, {true, true, true}};
     if (wall >= 0) box.periodic[static_cast<std::size_t>(wall)] = false;

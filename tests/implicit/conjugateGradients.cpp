@@ -13,7 +13,8 @@ namespace {
 
 constexpr Eigen::Index size = 60;
 
-// A chain of springs held to the ground by `hold`: the weaker, the larger the condition number, and smooth modes are what is left last.
+// A chain of springs held to the ground by `hold`: the weaker, the larger the condition number, and smooth modes are
+// what is left last.
 struct Problem {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd b{size}, exact{size};
@@ -49,7 +50,8 @@ struct Problem {
                        MPI_DOUBLE, MPI_COMM_WORLD);
         return all;
     }
-    // unsteady: by which the preconditioner, in turns stronger and weaker from row to row, differs from one application to the next.
+    // unsteady: by which the preconditioner, in turns stronger and weaker from row to row, differs from one application
+    // to the next.
     template <class Real>
     Convergence solve(double reference, double tolerance, Eigen::VectorXd& x, double unsteady = 0) const {
         using Field = typename ConjugateGradients<Real>::Field;
@@ -109,8 +111,8 @@ TEST(ConjugateGradients, stopByTheEnergyOfTheError) {
     }
 }
 
-// An error that is the same everywhere leaves a residual of a thousandth of its energy, and the first steps find little of it: the
-// estimate is a bound from below. What is overlooked stays below three times the tolerance.
+// An error that is the same everywhere leaves a residual of a thousandth of its energy, and the first steps find little
+// of it: the estimate is a bound from below. What is overlooked stays below three times the tolerance.
 TEST(ConjugateGradients, aSmoothErrorIsHardlyOverlooked) {
     Problem problem(0.003);
     problem.exact.setOnes();
@@ -121,8 +123,8 @@ TEST(ConjugateGradients, aSmoothErrorIsHardlyOverlooked) {
     EXPECT_LT(problem.energy(problem.exact - x), 9 * tolerance * tolerance * reference);
 }
 
-// A preconditioner that iterates is never quite the same: what it is off costs iterations, not the end. Conjugate gradients whose coefficients take it to
-// be the same reach the most that are allowed, or a product of the wrong sign.
+// A preconditioner that iterates is never quite the same: what it is off costs iterations, not the end. Conjugate
+// gradients whose coefficients take it to be the same reach the most that are allowed, or a product of the wrong sign.
 TEST(ConjugateGradients, bearAPreconditionerThatChanges) {
     const Problem problem;
     Eigen::VectorXd x;

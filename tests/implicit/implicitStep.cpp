@@ -78,7 +78,8 @@ TEST(ImplicitStep, shearWaveDecaysAtTheRateOfTheFluid) {
     EXPECT_GT(wave.rate, 0.1);
 }
 
-// The formulas of the header for du/dt = -rate u: from rest of the history, half a step first; on from the last middle to the end.
+// The formulas of the header for du/dt = -rate u: from rest of the history, half a step first; on from the last middle
+// to the end.
 TEST(ImplicitStep, midpointStepsAsItsFormulasSay) {
     const ShearWave wave;
     const double time = 1 / wave.rate, dt = time / 8;
@@ -101,15 +102,16 @@ TEST(ImplicitStep, midpointIsOfSecondOrder) {
     EXPECT_NEAR(std::log2(fine / finest), 2, 0.1);
 }
 
-// A wave starts fully developed: already after the first step the store has the velocity of its end, not that of its middle.
+// A wave starts fully developed: already after the first step the store has the velocity of its end, not that of its
+// middle.
 TEST(ImplicitStep, firstStepOfADecayingFlowEndsAtItsEnd) {
     const ShearWave wave;
     const double step = 0.1;  // of 1/rate
     EXPECT_NEAR(wave.error("midpoint", step / wave.rate, 1), 0, step * step);
 }
 
-// The wave decays alike everywhere: v - v0 is (rate dt)^2 of its root mean square, and the next step is what makes a 24th of that, over the length and the
-// rate of the flow, the error that is allowed.
+// The wave decays alike everywhere: v - v0 is (rate dt)^2 of its root mean square, and the next step is what makes a
+// 24th of that, over the length and the rate of the flow, the error that is allowed.
 TEST(ImplicitStep, stepOfAFluidIsAsLongAsItsErrorAllows) {
     const ShearWave wave;
     const double dt = 0.05 / wave.rate, flowRate = 0.3, length = 2;

@@ -1,12 +1,12 @@
-// What a load on a membrane does to its nodes through the fluid: a sphere in fluid at rest, loaded by one spherical harmonic of degree l, against
-// Stokes flow, where a traction f moves the sphere itself with
+// What a load on a membrane does to its nodes through the fluid: a sphere in fluid at rest, loaded by one spherical
+// harmonic of degree l, against Stokes flow, where a traction f moves the sphere itself with
 //
 //     u = a/mu f/(2l + 1)                                        for f = r x grad Y                (a twist)
 //     u = a/mu l/((2l + 1)(2l + 3)) f                            for f = grad_s Y - (l + 1) Y n
 //     u = a/mu (l + 1)/((2l + 1)(2l - 1)) f                      for f = grad_s Y + l Y n
-// (equal viscosities; single-layer operator on vector spherical harmonics, for example Veerapaneni et al., J. Comput. Phys. 230 (2011) 5610), so that of
-// loads along grad_s Y and along n what is along either is known. It is these responses that the moments of the weights are chosen by
-// (coupling/immersed.hpp). Lengths in spacings, viscosity 1.
+// (equal viscosities; single-layer operator on vector spherical harmonics, for example Veerapaneni et al., J. Comput.
+// Phys. 230 (2011) 5610), so that of loads along grad_s Y and along n what is along either is known. It is these
+// responses that the moments of the weights are chosen by (coupling/immersed.hpp). Lengths in spacings, viscosity 1.
 #include <gtest/gtest.h>
 
 #include <numbers>

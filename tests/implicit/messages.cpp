@@ -1,5 +1,5 @@
-// Messages between ranks: one to each neighbour for each iteration of the solver, whatever its preconditioner and whatever is in the scene. They are
-// counted by standing in for MPI's own function (its profiling interface).
+// Messages between ranks: one to each neighbour for each iteration of the solver, whatever its preconditioner and
+// whatever is in the scene. They are counted by standing in for MPI's own function (its profiling interface).
 #include <gtest/gtest.h>
 #include <mpi.h>
 

@@ -1,5 +1,5 @@
-// The parts of the implicit step, each alone: time difference, preconditioners, movement, what the solver carries along.
-// Lengths in spacings, density 1.
+// The parts of the implicit step, each alone: time difference, preconditioners, movement, what the solver carries
+// along. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -123,7 +123,8 @@ TEST(Preconditioners, areSymmetricAndPositive) {
     EXPECT_THROW(makePreconditioner("multigrid", f.system), std::invalid_argument);
 }
 
-// In a viscous fluid the grid has what is smooth, which the diagonal lacks; without cells the others are the same as it.
+// In a viscous fluid the grid has what is smooth, which the diagonal lacks; without cells the others are the same as
+// it.
 TEST(Preconditioners, theGridSavesIterations) {
     Fluid f(100);
     f.prepare();
@@ -174,7 +175,8 @@ TEST(Movement, goesThereAndBackAndArrives) {
         EXPECT_LT((scene.store().velocity(i) - (v + 0.1 * (v - u) / time.h)).norm(), 1e-14);
 }
 
-// w.A w with A by another application, for a fluid at rest that is disturbed: then b - A affine is M (c1 u + c2 a), which v = A^-1 b makes A v.
+// w.A w with A by another application, for a fluid at rest that is disturbed: then b - A affine is M (c1 u + c2 a),
+// which v = A^-1 b makes A v.
 TEST(Disturbance, isTheEnergyOfTheSystem) {
     Fluid f;
     coupling::Scene& scene = f.scene;

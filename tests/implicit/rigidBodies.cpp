@@ -213,7 +213,8 @@ double allowedStep(const char* behaviour, double sphereVelocity, double fluidVel
 }
 }  // namespace
 
-// A sphere that the fluid slows down. The step found must not depend on the one that it was found with: the error is of second order.
+// A sphere that the fluid slows down. The step found must not depend on the one that it was found with: the error is of
+// second order.
 TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
     const double fine = allowedStep("free", 0.02, 0, 1e-4, 0.2);
     EXPECT_NEAR(allowedStep("free", 0.02, 0, 1e-4, 0.4), fine, 0.3 * fine);

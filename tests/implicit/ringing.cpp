@@ -1,5 +1,6 @@
-// A stiff membrane pulled out of shape, in fluid at rest, by steps far longer than the time in which it comes back: what the midpoint rule leaves of its
-// deformation turns over from step to step and must be gone within a few steps. Lengths in spacings, density 1.
+// A stiff membrane pulled out of shape, in fluid at rest, by steps far longer than the time in which it comes back:
+// what the midpoint rule leaves of its deformation turns over from step to step and must be gone within a few steps.
+// Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include "coupling/sphereScene.hpp"

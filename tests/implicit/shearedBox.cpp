@@ -1,5 +1,5 @@
-// A sheared box of disordered fluid between walls: plane Couette flow that particles must not disturb as they pass each other.
-// Lengths in spacings, density and viscosity 1.
+// A sheared box of disordered fluid between walls: plane Couette flow that particles must not disturb as they pass each
+// other. Lengths in spacings, density and viscosity 1.
 #include "implicit/implicitStep.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Terms of the implicit system: symmetric and semi-definite, linear about their load; the defect of the membranes, and the step they refuse.
-// Lengths in spacings, density 1.
+// Terms of the implicit system: symmetric and semi-definite, linear about their load; the defect of the membranes, and
+// the step they refuse. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include "coupling/fluidScene.hpp"
@@ -64,8 +64,8 @@ void expectSymmetricAndLinear(Term<double>& term, const Particles& p) {
     EXPECT_LE(worst, 1e-11 * largest);
 }
 
-// With a lead A is that of a reach as long as both together; the force at the extrapolated velocity is what it is without, and further on as
-// stiff as A says.
+// With a lead A is that of a reach as long as both together; the force at the extrapolated velocity is what it is
+// without, and further on as stiff as A says.
 void expectLeadFromTheExtrapolated(Term<double>& term, const Particles& p) {
     const Field v0 = field(p, 1, 1e-3), v = field(p, 2, 1e-3);
     RealArray without(v.size(), 0.0), first(v.size(), 0.0), forces(v.size(), 0.0), again(v.size(), 0.0);
@@ -146,7 +146,8 @@ TEST(Terms, fluidIsSymmetricAndLinear) {
     expectLeadFromTheExtrapolated(f.term, f.particles);
 }
 
-// What an earlier term gave to own particles is in the sum, and those of others have what their own ranks have of it, to the last bit.
+// What an earlier term gave to own particles is in the sum, and those of others have what their own ranks have of it,
+// to the last bit.
 TEST(Terms, forcesOnOthersParticlesAreThoseOfTheirRanks) {
     Fluid f;
     const Field v = field(f.particles, 1, 1e-3);
@@ -180,8 +181,9 @@ TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
     expectLeadFromTheExtrapolated(m.term, particles);
 }
 
-// What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise stiffness leaves out
-// parts that are not definite, so the defect has a part of first order too (membrane/stiffness.hpp), small beside the force.
+// What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise
+// stiffness leaves out parts that are not definite, so the defect has a part of first order too
+// (membrane/stiffness.hpp), small beside the force.
 TEST(Terms, defectOfMembranesGoesWithTheDisplacement) {
     Membranes m;
     const double small = m.defect(0.001), large = m.defect(0.1);

@@ -1,8 +1,9 @@
 // A ball of another viscosity, without membrane or tension, in shear flow: inside, the strain rate is uniform,
 //
 //     E_in = 5/(2 lambda + 3) E,    lambda = mu_in/mu_out
-// and the rotation that of the flow: Eshelby's inclusion (Proc. R. Soc. A 241 (1957) 376) for incompressible viscous media, also the inside of
-// Taylor's drop (Proc. R. Soc. A 138 (1932) 41) with the tension left out. Lengths in spacings, density and viscosity outside 1.
+// and the rotation that of the flow: Eshelby's inclusion (Proc. R. Soc. A 241 (1957) 376) for incompressible viscous
+// media, also the inside of Taylor's drop (Proc. R. Soc. A 138 (1932) 41) with the tension left out. Lengths in
+// spacings, density and viscosity outside 1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -65,8 +66,9 @@ Inclusion measure(int radius, double lambda) {
     return {(slope(2, 0) + slope(0, 2)) / rate, (slope(2, 0) - slope(0, 2)) / rate};
 }
 
-// Errors are fractions of the flow's strain rate, or of the inside's where that is larger. What is left at eight spacings is the box: its walls and images change the
-// rotation by the same 1 %, which does not depend on the resolution.
+// Errors are fractions of the flow's strain rate, or of the inside's where that is larger. What is left at eight
+// spacings is the box: its walls and images change the rotation by the same 1 %, which does not depend on the
+// resolution.
 void compare(double lambda) {
     const double exact = 5 / (2 * lambda + 3), allowed = 0.03 * std::max(1.0, exact);
     for (const int radius : {4, 8}) {

@@ -1,4 +1,5 @@
-// A held area above its target is a tension, and the stiffness that the implicit step asks for resists displacements across it.
+// A held area above its target is a tension, and the stiffness that the implicit step asks for resists displacements
+// across it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -25,7 +26,8 @@ double areaOf(const Mesh& mesh) {
     return sum;
 }
 
-// Along the normals of a sphere the exact second derivative less what the curvature of the sphere takes from it: 2/R^2 of the tension each area.
+// Along the normals of a sphere the exact second derivative less what the curvature of the sphere takes from it: 2/R^2
+// of the tension each area.
 TEST(AreaTension, ResistsDisplacementsAcross) {
     for (const Mesh& mesh : {testing::icosphere(2), testing::irregular(2)}) {
         const double rest = 0.5 * areaOf(mesh);

@@ -1,5 +1,5 @@
-// Micropipette aspiration: the pipette's energies against differences, a flat sheet against Evans' relation, a surface of constant
-// tension against Laplace's law.
+// Micropipette aspiration: the pipette's energies against differences, a flat sheet against Evans' relation, a surface
+// of constant tension against Laplace's law.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,8 +69,8 @@ double capCurvature(const std::vector<Vec3>& x, double side, double reach) {
     return 1 / std::sqrt(fit[1] + fit[0] * fit[0]);
 }
 
-// A drop of tension T, T = K (A/A0 - 1), drawn into a pipette up to half a bore: P = T (sum of curvatures of the cap less that of the
-// body), Laplace's law on both sides of the inner pressure.
+// A drop of tension T, T = K (A/A0 - 1), drawn into a pipette up to half a bore: P = T (sum of curvatures of the cap
+// less that of the body), Laplace's law on both sides of the inner pressure.
 TEST(Aspiration, OfADropFollowsLaplace) {
     const auto aspiration =
         testing::chosen<Protocol>("{type: aspiration, radius: 0.6 m, wall: 0.4 m, pressures: [0.8 Pa, 1.6 Pa]}");
@@ -93,8 +93,9 @@ TEST(Aspiration, OfADropFollowsLaplace) {
     }
 }
 
-// A second method for the flat sheet: the equations of an axisymmetric membrane without bending, of a neo-Hookean law with a modulus K of
-// area, from a hemispherical cap of uniform tension P R/2 down the bore, round the lip and out to the border, where the tension ends:
+// A second method for the flat sheet: the equations of an axisymmetric membrane without bending, of a neo-Hookean law
+// with a modulus K of area, from a hemispherical cap of uniform tension P R/2 down the bore, round the lip and out to
+// the border, where the tension ends:
 //     dT1/ds = -(T1 - T2) cos(psi)/rho,   dr0/ds = 1/l1,   l2 = rho/r0,   T1(l1, l2) known
 // with the arc length s, the distance rho from the axis, r0 at rest.
 struct AxisymmetricSheet {

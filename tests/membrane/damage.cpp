@@ -33,7 +33,8 @@ TEST(Damage, TimeToFailureAtConstantStrain) {
     }
 }
 
-// Strain that grows as r t: D = r^n (t - t0)^(n+1)/((n+1) ec^n tau), t0 = e0/r; the sum over steps meets it with an error of the first order.
+// Strain that grows as r t: D = r^n (t - t0)^(n+1)/((n+1) ec^n tau), t0 = e0/r; the sum over steps meets it with an
+// error of the first order.
 TEST(Damage, GathersWithAGrowingStrain) {
     const double rate = 100, onset = 0.02, scale = 0.05, tau = 2e-4, n = 2;
     const double expected =
@@ -59,7 +60,8 @@ TEST(Damage, GathersWithAGrowingStrain) {
     EXPECT_LT(error, 2e-3);
 }
 
-// Both limits of the law are the threshold: the same bonds at the same step, with the same stretch, all the way through a tear.
+// Both limits of the law are the threshold: the same bonds at the same step, with the same stretch, all the way through
+// a tear.
 TEST(Damage, ReducesToTheThreshold) {
     const std::string bonds = "{bonds: {type: harmonic, k: 1 N/m}, rupture: ";
     const auto settings = [&](const std::string& rupture) {

@@ -29,7 +29,8 @@ double largest(const std::vector<Vec3>& vectors) {
     return most;
 }
 
-// A sphere of springs under pressure: p dV = dE for the change of size, whatever the mesh; the same for any other change.
+// A sphere of springs under pressure: p dV = dE for the change of size, whatever the mesh; the same for any other
+// change.
 TEST(Equilibrium, PressureDoesTheWorkThatSizeTakes) {
     for (const testing::Mesh& mesh : {testing::icosphere(2), testing::irregular(2)}) {
         Membrane cell = membraneOf(mesh, springs());
@@ -52,8 +53,8 @@ TEST(Equilibrium, PressureDoesTheWorkThatSizeTakes) {
     }
 }
 
-// Pulled apart at two nodes, with springs and bending, no coordinate held: forces balance the loads, and every small change
-// of shape takes work.
+// Pulled apart at two nodes, with springs and bending, no coordinate held: forces balance the loads, and every small
+// change of shape takes work.
 TEST(Equilibrium, OppositeLoadsDrawACellOutToAMinimum) {
     const testing::Mesh mesh = testing::irregular(2);
     Membrane cell = membraneOf(mesh, springs(", bending: {type: dihedral, kappa: 0.05 J}"));

@@ -286,8 +286,9 @@ TEST(Stiffness, PartwiseIsExactAtRest) {
     }
 }
 
-// A bond under tension, and a triangle in biaxial tension whose law is convex in the strain, have nothing that is not positive: partwise
-// is exact there too, to half the digits of the closed form of eigenvalues. (Skalak's law is not convex.)
+// A bond under tension, and a triangle in biaxial tension whose law is convex in the strain, have nothing that is not
+// positive: partwise is exact there too, to half the digits of the closed form of eigenvalues. (Skalak's law is not
+// convex.)
 TEST(Stiffness, PartwiseIsExactUnderTension) {
     for (const LawCase& law : laws()) {
         const std::string name = law.name;

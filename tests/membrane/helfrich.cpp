@@ -1,4 +1,5 @@
-// Helfrich bending against the energies of sphere, cylinder and red cell; its errors and their orders on regular and irregular meshes.
+// Helfrich bending against the energies of sphere, cylinder and red cell; its errors and their orders on regular and
+// irregular meshes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -94,7 +95,8 @@ TEST(Helfrich, IrregularSphere) {
     EXPECT_GT(energyByThirds(worse) / sphereEnergy - 1, 0.003);
 }
 
-// The dihedral law would have 8 pi kappa/3 on a regular lattice, and stays 3.4 % above it on an icosphere; Helfrich's has 8 pi kappa.
+// The dihedral law would have 8 pi kappa/3 on a regular lattice, and stays 3.4 % above it on an icosphere; Helfrich's
+// has 8 pi kappa.
 TEST(Helfrich, TheDihedralLawHasAThirdOfTheSpheresEnergy) {
     for (const int level : {3, 4, 5}) {
         const Mesh mesh = testing::icosphere(level);
@@ -199,7 +201,8 @@ TEST(Helfrich, RedCellOfTheMesher) {
     }
 }
 
-// Icospheres moved along rays onto the red cell: a third of the triangles obtuse. Disordered on top of that, the energy keeps an error.
+// Icospheres moved along rays onto the red cell: a third of the triangles obtuse. Disordered on top of that, the energy
+// keeps an error.
 TEST(Helfrich, RedCellOnDistortedMeshes) {
     const geometry::KuchelFackerell shape = redCellShape();
     const auto onto = [&](Mesh mesh) {

@@ -98,7 +98,8 @@ struct ModuliCase {
     bool anyMesh;  // triangle laws and scaled bonds
 };
 
-// Bonds with their own constants: the formulas of the reference data (spring_network, analytic, checked numerically there).
+// Bonds with their own constants: the formulas of the reference data (spring_network, analytic, checked numerically
+// there).
 inline double wlcShear(double kBT, double p, double x0, double m, double l0) {
     const double lm = l0 / x0, force = kBT / p * (0.25 / ((1 - x0) * (1 - x0)) - 0.25 + x0);
     const double kp = force * std::pow(l0, m);

@@ -70,8 +70,8 @@ TEST(InPlaneLaws, MeasuredModuliOfScaledBonds) {
     }
 }
 
-// Nodes off the border brought to balance under a small pure shear: triangle laws do not move, a network of bonds on an irregular
-// mesh gives way and is softer than its affine modulus.
+// Nodes off the border brought to balance under a small pure shear: triangle laws do not move, a network of bonds on an
+// irregular mesh gives way and is softer than its affine modulus.
 double relaxedShear(const Mesh& mesh, int n, const MembraneSettings& laws) {
     constexpr double e = 1e-4;
     const auto membrane = membraneOf(mesh, laws);

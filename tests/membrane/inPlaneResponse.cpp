@@ -1,5 +1,5 @@
-// Bond and triangle laws: response at finite strain against their own formulas, on a regular and an irregular mesh, and inflation
-// of a sphere.
+// Bond and triangle laws: response at finite strain against their own formulas, on a regular and an irregular mesh, and
+// inflation of a sphere.
 #include <gtest/gtest.h>
 
 #include "geometry/mesher.hpp"
@@ -76,8 +76,9 @@ double freeWidth(const Response& law, double l1) {
     return low;
 }
 
-// On the regular patch the twelve directions of the lattice law are the same in all triangles; on the irregular one each
-// triangle has its own, and the mean over all directions is met within what its header says: 1e-5 of the energy at a stretch of 1.6.
+// On the regular patch the twelve directions of the lattice law are the same in all triangles; on the irregular one
+// each triangle has its own, and the mean over all directions is met within what its header says: 1e-5 of the energy at
+// a stretch of 1.6.
 TEST(InPlaneLaws, TriangleLawsAtFiniteStrain) {
     for (const bool regular : {true, false}) {
         const Mesh mesh = regular ? hexagonalPatch(5) : jitteredPatch(5);
@@ -159,8 +160,8 @@ TEST(InPlaneLaws, BondLawsAtFiniteStrain) {
     }
 }
 
-// Pressure of a sphere of radius a blown up l times, dE/dV of a uniform radial scaling. Its nodes are off the mesher's places along
-// the surface by up to a quarter of an edge; its mean edge is a/15.2.
+// Pressure of a sphere of radius a blown up l times, dE/dV of a uniform radial scaling. Its nodes are off the mesher's
+// places along the surface by up to a quarter of an edge; its mean edge is a/15.2.
 TEST(InPlaneLaws, InflationOfASphere) {
     const geometry::TriangleMesh made = geometry::meshSurface(geometry::Sphere(1), 1 / 15.5);
     Mesh mesh{made.nodes, made.triangles};

@@ -1,5 +1,5 @@
-// Flat sheets under the protocols uniaxial, equibiaxial and shear: tension against the laws' own closed formulas, on a regular and an
-// irregular mesh.
+// Flat sheets under the protocols uniaxial, equibiaxial and shear: tension against the laws' own closed formulas, on a
+// regular and an irregular mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,8 +80,8 @@ TEST_P(Sheets, AnswerAsTheirLawsSay) {
 
 INSTANTIATE_TEST_SUITE_P(RegularAndIrregular, Sheets, ::testing::Values(0.0, 0.2));
 
-// The lattice of harmonic bonds: the stretched lattice's own tension, 2/sqrt(3) k sum over its bonds, but for bonds on the border, which
-// belong to one triangle in place of two.
+// The lattice of harmonic bonds: the stretched lattice's own tension, 2/sqrt(3) k sum over its bonds, but for bonds on
+// the border, which belong to one triangle in place of two.
 TEST(Sheet, OfBondsComesToItsLatticeWithTheSizeOfTheSheet) {
     const auto equibiaxial = testing::chosen<Protocol>("{type: equibiaxial, stretches: [1.2]}");
     double error = 1;

@@ -1,4 +1,5 @@
-// operator new and delete with the size kept in front of each block. Blocks of greater alignment go the library's own way and are not counted.
+// operator new and delete with the size kept in front of each block. Blocks of greater alignment go the library's own
+// way and are not counted.
 #include "storage.hpp"
 
 #include <cstdlib>

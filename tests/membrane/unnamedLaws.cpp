@@ -1,4 +1,5 @@
-// A law that the case does not name costs nothing: counted, not timed. Element matrices say what a membrane passes over, bytes what it stores.
+// A law that the case does not name costs nothing: counted, not timed. Element matrices say what a membrane passes
+// over, bytes what it stores.
 #include <gtest/gtest.h>
 
 #include "membrane/membrane.hpp"

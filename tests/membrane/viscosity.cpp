@@ -1,4 +1,5 @@
-// Viscosity of the membrane: tension of homogeneous rates, power, rigid motions, broken triangles, the pressure of a growing sphere.
+// Viscosity of the membrane: tension of homogeneous rates, power, rigid motions, broken triangles, the pressure of a
+// growing sphere.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -134,7 +135,8 @@ TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
     }
 }
 
-// The matrix is made from squares of rates, the forces from the metric: two ways to the same law. Holes are left out of both.
+// The matrix is made from squares of rates, the forces from the metric: two ways to the same law. Holes are left out of
+// both.
 TEST(SurfaceViscosity, DampingMatrixGivesTheForcesAndIsSymmetricAndSemiDefinite) {
     for (const auto& [name, mesh, x] : deformedMeshes()) {
         for (const SurfaceViscosity& viscosity :
@@ -178,7 +180,8 @@ TEST(SurfaceViscosity, DampsNothingWhereItIsNotNamed) {
     EXPECT_EQ(damping.sparse().nonZeros(), 0);
 }
 
-// Tension 2 dilatation dR/dt / R, and Laplace's law: 2/R of it as pressure. The sum of radial forces is 4 pi R^2 times that.
+// Tension 2 dilatation dR/dt / R, and Laplace's law: 2/R of it as pressure. The sum of radial forces is 4 pi R^2 times
+// that.
 TEST(SurfaceViscosity, GrowingSphereHasThePressureOfLaplacesLaw) {
     double error[2];
     for (const int level : {2, 3}) {

@@ -127,8 +127,8 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.side[i] == 1) s.side[i] = 0, ++inside, left += s.x[i] > 0;
     inside = Communicator().sum(inside), left = Communicator().sum(left);
-    // Lattice points about the centre: 88 with r^2 <= 6.75, 48 more with 8.75, which are so near the surface at r = 3 that chords may
-    // cut some off.
+    // Lattice points about the centre: 88 with r^2 <= 6.75, 48 more with 8.75, which are so near the surface at r = 3
+    // that chords may cut some off.
     EXPECT_GE(inside, 88);
     EXPECT_LE(inside, 136);
     EXPECT_NEAR(static_cast<double>(left), 0.5 * static_cast<double>(inside), 8);
@@ -148,7 +148,8 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), energy, 1e-9 * energy);
 }
 
-// Energies and momentum of the state against what forces are said to have done, from a start at which both were not zero.
+// Energies and momentum of the state against what forces are said to have done, from a start at which both were not
+// zero.
 TEST(Conservation, BudgetOfWorkAndState) {
     using sph::Budget;
     Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
@@ -336,8 +337,8 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_EQ(value(*after, after->observe(scene, time), "firstBreak_z0_m", 1), first[10]);
 }
 
-// The linear profile between walls that move with it: sigma = mu gammadot at both, no pressure. A lattice at Hs = 3 dx gives the
-// viscosity to about 1 %.
+// The linear profile between walls that move with it: sigma = mu gammadot at both, no pressure. A lattice at Hs = 3 dx
+// gives the viscosity to about 1 %.
 TEST(WallStress, CouetteFlow) {
     Scene scene = sampleScene({.walls = true});
     scene.forces->evaluate(*scene.system, 0);

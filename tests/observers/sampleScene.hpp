@@ -1,5 +1,5 @@
-// Small scenes for the tests of observers: a lattice of fluid, walls across z if wanted, red cells or spheres made of node
-// particles, spread over the ranks in the way of a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
+// Small scenes for the tests of observers: a lattice of fluid, walls across z if wanted, red cells or spheres made of
+// node particles, spread over the ranks in the way of a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
 #pragma once
 #include "core/communicator.hpp"
 #include "coupling/scene.hpp"

@@ -1,4 +1,5 @@
-// Every column of every observer says what it is and in which unit, and a scene's tables are among those that are documented.
+// Every column of every observer says what it is and in which unit, and a scene's tables are among those that are
+// documented.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,4 +1,5 @@
-// Velocity and pressure of the periodic flows at t = 0 against the equations that they solve, by differences of fourth order.
+// Velocity and pressure of the periodic flows at t = 0 against the equations that they solve, by differences of fourth
+// order.
 #include <gtest/gtest.h>
 
 #include "sph/abcFlow.hpp"
@@ -84,7 +85,8 @@ TEST_P(PeriodicFlows, solveTheMomentumEquation) {
     }
 }
 
-// lap p = -rho sum_ij (du_i/dx_j)(du_j/dx_i): the pressure that keeps the divergence zero, whether the shape is kept or not.
+// lap p = -rho sum_ij (du_i/dx_j)(du_j/dx_i): the pressure that keeps the divergence zero, whether the shape is kept or
+// not.
 TEST_P(PeriodicFlows, startWithTheirPressure) {
     const FlowState flow = resolved(GetParam().text);
     double largest = 0;

@@ -61,8 +61,8 @@ TEST(Kernels, slopeIsTheDerivativeOverTheDistance) {
     }
 }
 
-// S2 - 1 in per cent and neighbours on the cubic lattice. Source: computed by direct summation for this project, independently
-// of this code; rounded to one decimal (two below 0.1).
+// S2 - 1 in per cent and neighbours on the cubic lattice. Source: computed by direct summation for this project,
+// independently of this code; rounded to one decimal (two below 0.1).
 TEST(Kernels, secondMomentsOnTheLattice) {
     struct Row {
         double support, lucy, wendland, quintic;

@@ -39,8 +39,8 @@ double factor(double lambdaDt, int count) {
     return step({1.0}, 1, count, [&](const Vector& u) { return Vector{-lambdaDt * u[0]}; })[0];
 }
 
-// Diffusion between walls at 0: (M u)_i = n^2 (u_(i-1) - 2 u_i + u_(i+1)) at i/n, whose modes sin(k pi x) have the rates
-// 4 n^2 sin^2(k pi/2n).
+// Diffusion between walls at 0: (M u)_i = n^2 (u_(i-1) - 2 u_i + u_(i+1)) at i/n, whose modes sin(k pi x) have the
+// rates 4 n^2 sin^2(k pi/2n).
 struct Diffusion {
     int n = 40;
     double rate(int k) const { return 4.0 * n * n * std::pow(std::sin(k * pi / (2 * n)), 2); }

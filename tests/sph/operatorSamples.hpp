@@ -1,4 +1,5 @@
-// The operators of the implicit step by a plain double loop over all pairs and images, written from the equations of sph/operators.hpp.
+// The operators of the implicit step by a plain double loop over all pairs and images, written from the equations of
+// sph/operators.hpp.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// The operators of the implicit step against a plain double loop over all pairs and images, written from the equations of
-// sph/operators.hpp, and against what they must keep.
+// The operators of the implicit step against a plain double loop over all pairs and images, written from the equations
+// of sph/operators.hpp, and against what they must keep.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -183,8 +183,9 @@ TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
     }
 }
 
-// Two layers on a lattice: the force on a column of particles across the jump, over its area. What turns rigidly feels none, though Morris' sum alone
-// would hold it back with that of a velocity of the same gradient along the jump only; nor does a shear flow of one stress.
+// Two layers on a lattice: the force on a column of particles across the jump, over its area. What turns rigidly feels
+// none, though Morris' sum alone would hold it back with that of a velocity of the same gradient along the jump only;
+// nor does a shear flow of one stress.
 TEST(TwoLayers, keepRigidRotationAndShearStress) {
     const Index3 size{12, 12, 20};
     const double low = 0.7, high = 3.5, jump = 10;
@@ -220,8 +221,9 @@ TEST(TwoLayers, keepRigidRotationAndShearStress) {
     EXPECT_LT((force(along) - Vec3(high - low, 0, 0)).norm(), 1e-12);
 }
 
-// Parts of what varying viscosity adds have either sign; the whole must take power from every velocity, but for uniform ones: all eigenvalues, of
-// disordered particles. An inside less viscous does so together with a bulk modulus only, which the implicit step always has.
+// Parts of what varying viscosity adds have either sign; the whole must take power from every velocity, but for uniform
+// ones: all eigenvalues, of disordered particles. An inside less viscous does so together with a bulk modulus only,
+// which the implicit step always has.
 TEST(TwoViscosities, takePowerFromEveryVelocity) {
     struct Fluid {
         double ratio, bulk;

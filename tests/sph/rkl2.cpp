@@ -118,7 +118,8 @@ TEST(Rkl2, aStepFollowsTheEquations) {
     }
 }
 
-// Noise in the velocity, which holds the stiffest modes of the viscous operator: it dies out at the limit and grows beyond it.
+// Noise in the velocity, which holds the stiffest modes of the viscous operator: it dies out at the limit and grows
+// beyond it.
 TEST(Rkl2, isStableToTheLimitAndNotBeyond) {
     for (const double beyond : {1.0, 1.3}) {
         std::vector<Particle> all = lattice({8, 8, 8}, 0.1, 5);

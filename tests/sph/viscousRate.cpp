@@ -51,7 +51,8 @@ TEST(ViscousRate, equalsTheDenseEigenvalue) {
     EXPECT_GT(rate(all, n, "wendlandC2", 2.4, 20), 0.9 * exact);
 }
 
-// 1/rate in dx^2/nu on the lattice. Source: computed for this project with a prototype, independently of this code; two digits.
+// 1/rate in dx^2/nu on the lattice. Source: computed for this project with a prototype, independently of this code; two
+// digits.
 TEST(ViscousRate, limitsOnTheLattice) {
     struct Row {
         const char* kernel;

@@ -1,5 +1,5 @@
-// membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers, inflated, at
-// rest; or of a flat sheet, stretched and sheared.
+// membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers,
+// inflated, at rest; or of a flat sheet, stretched and sheared.
 //
 // Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/<name>.csv and
 // results/<name>.pvd, whose times are the numbers of the stages.

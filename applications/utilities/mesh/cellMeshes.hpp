@@ -1,4 +1,5 @@
-// The meshes of cells and rigid bodies as they stand in 0/: what membraneMesh, particleFill and checkMesh have in common.
+// The meshes of cells and rigid bodies as they stand in 0/: what membraneMesh, particleFill and checkMesh have in
+// common.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,8 +1,9 @@
 // checkCase: everything about a case that can be known before it runs.
 //
-// Reads all dictionaries (every problem at once, exit code 2), then prints on one screen the case, the dimensionless groups, the resolution,
-// the memory and disk it will take, what the integrators that can do it would cost, and, if 0/ has been filled, every limit of the time
-// step and the run time predicted from a short burst; at the end what looks wrong. -json has all of it, and more. Nothing is written.
+// Reads all dictionaries (every problem at once, exit code 2), then prints on one screen the case, the dimensionless
+// groups, the resolution, the memory and disk it will take, what the integrators that can do it would cost, and, if 0/
+// has been filled, every limit of the time step and the run time predicted from a short burst; at the end what looks
+// wrong. -json has all of it, and more. Nothing is written.
 //
 // Sample runs:
 //     checkCase -case tutorials/rbcShear/Ca0.02
@@ -258,7 +259,8 @@ void reportBodies(Report& report, const simulation::Case& input, const coupling:
     }
 }
 
-// Steps and seconds of the whole run after a burst of steps as long as at the start; those of rkl2 grow, with their stages.
+// Steps and seconds of the whole run after a burst of steps as long as at the start; those of rkl2 grow, with their
+// stages.
 std::pair<double, double> predictRun(const simulation::Case& input, double dt, int stages, double perStep) {
     if (stages == 0) {
         const double steps = input.duration() / dt;

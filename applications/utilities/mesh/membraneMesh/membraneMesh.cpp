@@ -1,7 +1,7 @@
 // membraneMesh: meshes every cell and every rigid body of system/mesh.yaml and writes them to 0/<name>.vtp.
 //
-// Nodes lie on the exact surface; the mesh of a cell is the stress-free state of its membrane, that of a body gives its volume and
-// inertia. Prints quality, and the moduli of the network
+// Nodes lie on the exact surface; the mesh of a cell is the stress-free state of its membrane, that of a body gives its
+// volume and inertia. Prints quality, and the moduli of the network
 // beside the closed form that Ca is computed with. Surfaces of the same shape and edge length are meshed once.
 //
 // Sample runs:

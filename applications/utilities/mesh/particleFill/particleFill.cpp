@@ -1,12 +1,13 @@
-// particleFill: fills the box of a case with particles around the cells and in the rigid bodies of 0/ and writes 0/fluid.vtp,
-// 0/walls.vtp and 0/bodies.vtp.
+// particleFill: fills the box of a case with particles around the cells and in the rigid bodies of 0/ and writes
+// 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp.
 //
-// A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing thick, so as
-// many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each cell stays filled to its
-// volume; where the coupling is immersed, nodes lie between the fluid's particles, the lattice stays whole, and what is nearer
-// than 0.05 dx to a membrane is moved out to that (noFlux.hpp). A rigid body takes as many lattice points as make up its
-// volume, those deepest in it. What is left has its side (0 outside, n inside cell n), is evened out around membranes of
-// particles (relaxation.hpp), and starts with the velocity and pressure of the flow.
+// A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing
+// thick, so as many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each
+// cell stays filled to its volume; where the coupling is immersed, nodes lie between the fluid's particles, the lattice
+// stays whole, and what is nearer than 0.05 dx to a membrane is moved out to that (noFlux.hpp). A rigid body takes as
+// many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell
+// n), is evened out around membranes of particles (relaxation.hpp), and starts with the velocity and pressure of the
+// flow.
 //
 // Sample runs:
 //     particleFill -case tutorials/rbcShear/Ca0.02
@@ -45,8 +46,8 @@ struct Filling {
     utilities::Evenness before, after;
 };
 
-// Takes out `carved` particles: on the inner side of each cell as many as leave its volume less the inner half of its nodes, the
-// rest outside, each time those nearest to the nodes.
+// Takes out `carved` particles: on the inner side of each cell as many as leave its volume less the inner half of its
+// nodes, the rest outside, each time those nearest to the nodes.
 void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling& f) {
     std::vector<std::vector<int>> members(cells.size() + 1);
     for (std::size_t i = 0; i < f.side.size(); ++i)

@@ -2,9 +2,9 @@
 //
 //     x_i <- x_i + 0.02 H_s^2 C_i,   C_i = sum_j V_j F x_ij        at most 0.1 dx per sweep
 //
-// C points from where particles are dense to where they are sparse and vanishes where they lie evenly (sph/disorderPair.hpp).
-// Only fluid particles nearer than 4 dx to a membrane move; nodes, walls and all others stay. Only what lies within their
-// reach enters the sums, so the cost goes with the membranes' area, not with the box.
+// C points from where particles are dense to where they are sparse and vanishes where they lie evenly
+// (sph/disorderPair.hpp). Only fluid particles nearer than 4 dx to a membrane move; nodes, walls and all others stay.
+// Only what lies within their reach enters the sums, so the cost goes with the membranes' area, not with the box.
 //
 // How even it is can be read off sigma_i = sum_j V_j W_ij, which is 1 where particles fill space.
 #pragma once
