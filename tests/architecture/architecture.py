@@ -9,6 +9,7 @@
 3. No file names a place of the machine that it was written on.
 4. A file that begins with #! can be called by its name.
 5. Files and classes that the page names are there.
+6. No line of C++ is wider than 120 columns, comments included (the formatter leaves those as they are).
 """
 import os
 import re
@@ -159,9 +160,17 @@ def check_scripts(root, fail):
             fail(f"{path.relative_to(root)}: begins with #! and is not executable: chmod +x")
 
 
+def check_widths(root, fail):
+    for path, content in texts(root):
+        if path.suffix in SOURCES:
+            for number, line in enumerate(content.splitlines(), 1):
+                if len(line) > 120:
+                    fail(f"{path.relative_to(root)}:{number}: {len(line)} columns, more than 120")
+
+
 def main():
     failures = []
-    for check in (check_dependencies, check_companions, check_page, check_places, check_scripts):
+    for check in (check_dependencies, check_companions, check_page, check_places, check_scripts, check_widths):
         check(ROOT, failures.append)
     for failure in failures:
         print(failure)
