@@ -6,8 +6,8 @@
 A fault is one of five kinds (tests/simulation/faultInjection.cpp) at a random place before a random step; one in eleven comes again each time that
 the run gets to this step. Each run ends as one of
 
-    rolledBack   noticed, taken back; the end within the tolerance of the run without fault
-    healed      not noticed, and the end within the tolerance all the same
+    rolled back   noticed, taken back; the end within the tolerance of the run without fault
+    tolerated   not noticed, and the end within the tolerance all the same
     reported    exit code 3, with a report and a checkpoint of the last good state
     wrong       exit code 0 and another end: there must be none
     crashed     any other end: there must be none
@@ -109,7 +109,7 @@ def run(fault, words):
         found = end(folder)
         row["D12"], row["volume"] = (f"{found[key] / expected[key] - 1:+.2e}" for key in TOLERANCE)
         good = all(abs(found[key] / expected[key] - 1) <= allowed for key, allowed in TOLERANCE.items())
-        row["end"] = ("rolledBack" if row["rollbacks"] else "healed") if good else "wrong"
+        row["end"] = ("rolled back" if row["rollbacks"] else "tolerated") if good else "wrong"
     else:
         reported = done.returncode == 3 and "fault" in record and list((folder / "checkpoints").glob("*.h5"))
         row["end"] = "reported" if reported else "crashed"
@@ -120,7 +120,7 @@ def run(fault, words):
 
 
 def tally(rows):
-    ends = ("rolledBack", "healed", "reported", "wrong", "crashed")
+    ends = ("rolled back", "tolerated", "reported", "wrong", "crashed")
     lines = ["| fault | " + " | ".join(ends) + " | largest difference of D12 |", "|---|" + "---|" * (len(ends) + 1)]
     for kind in (*KINDS, "all"):
         mine = [row for row in rows if kind in (row["kind"], "all")]

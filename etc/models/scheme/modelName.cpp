@@ -58,7 +58,7 @@ struct ModelName final : Scheme {
             problems.add(numericsFile, "operators",
                          "found corrected, which 'integrator: modelName' does not have; write operators: plain");
     }
-    // Never by itself: the others are as cheap and more accurate.
+    // `automatic` does not choose it: other schemes cost as little and are more accurate.
     std::string unfit(const CaseFacts&, const NumericsSettings&) const override { return "it is of first order"; }
     std::vector<UnusedKey> unused(const NumericsSettings&) const override { return {unusedGuard()}; }
 
