@@ -87,9 +87,8 @@ double Kernel::viscousRate(double supportOverSpacing) const {
 }
 
 [[maybe_unused]] const bool areRegistered = [] {
-    Kernels::each([]<class Formula>(KernelKind) {
-        Registration<Kernel, KernelOf<Formula>>(Formula::name, Formula::text);
-    });
+    Kernels::each(
+        []<class Formula>(KernelKind) { Registration<Kernel, KernelOf<Formula>>(Formula::name, Formula::text); });
     return true;
 }();
 
