@@ -44,13 +44,13 @@ void Problems::add(Mark mark, std::string key, std::string message) {
         ++more_;
         return;
     }
-    const auto oneLine = [](std::string text) {
+    const auto toOneLine = [](std::string& text, std::size_t longest) {
+        text = shortened(text, longest);
         for (char& c : text)
             if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-        return text;
     };
-    list_.push_back(
-        {std::move(mark), oneLine(shortened(key, longestKey)), oneLine(shortened(message, longestMessage))});
+    toOneLine(key, longestKey), toOneLine(message, longestMessage);
+    list_.push_back({std::move(mark), std::move(key), std::move(message)});
 }
 
 void Problems::throwIfAny() const {

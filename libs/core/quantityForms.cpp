@@ -88,7 +88,7 @@ std::string patternOf(const Form& form) {
         const std::string& symbol = kinds().at(kind);
         const std::string raised = power == 1 || power == -1 ? "" : fmt::format("\\^{}", std::abs(power));
         if (power > 0)
-            text += (text.empty() ? "" : between) + symbol + raised;
+            text.append(text.empty() ? "" : between).append(symbol).append(raised);
         else
             text += fmt::format("(?:{}{}{}|{}{}\\^{})", text.empty() ? "1 ?/ ?" : " ?/ ?", symbol, raised,
                                 text.empty() ? "" : between, symbol, power);

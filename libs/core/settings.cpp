@@ -221,8 +221,8 @@ bool lacksNames(const Node& table, const FieldInfo& entries, Problems& problems)
         if (!first || first->kind != Node::Kind::scalar) return false;
     } else {
         const std::vector<FieldInfo> fields = entries.table().fields;
-        for (const auto& [name, value] : table.entries)
-            if (std::none_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == name; }))
+        for (const Node::Entry& entry : table.entries)
+            if (std::none_of(fields.begin(), fields.end(), [&](const FieldInfo& f) { return f.key == entry.key; }))
                 return false;
     }
     problems.add(first->place(), table.path,

@@ -35,11 +35,11 @@ class Digest {
 
 void addArrays(Digest& digest, const std::string& of, const Arrays& arrays) {
     for (const auto& [name, values] : arrays.scalars)
-        digest.add(of + " scalar " + name, std::span<const double>(values));
-    for (const auto& [name, values] : arrays.vectors) digest.add(of + " vector " + name, values);
+        digest.add(fmt::format("{} scalar {}", of, name), std::span<const double>(values));
+    for (const auto& [name, values] : arrays.vectors) digest.add(fmt::format("{} vector {}", of, name), values);
     for (const auto& [name, values] : arrays.integers)
-        digest.add(of + " integer " + name, std::span<const std::int64_t>(values));
-    for (const auto& [name, words] : arrays.others) digest.add(of + " " + name, words);
+        digest.add(fmt::format("{} integer {}", of, name), std::span<const std::int64_t>(values));
+    for (const auto& [name, words] : arrays.others) digest.add(fmt::format("{} {}", of, name), words);
 }
 
 }  // namespace

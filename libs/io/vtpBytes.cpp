@@ -15,12 +15,12 @@
 namespace corpuscle::io {
 namespace {
 
-constexpr std::array<signed char, 256> base64Values() {
-    std::array<signed char, 256> values{};
+constexpr std::array<int, 256> base64Values() {
+    std::array<int, 256> values{};
     values.fill(-1);
     const std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (std::size_t i = 0; i < alphabet.size(); ++i)
-        values[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
+        values[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
     return values;
 }
 
@@ -50,7 +50,7 @@ class ByteSource {
 
   private:
     void group() {
-        static constexpr std::array<signed char, 256> values = base64Values();
+        static constexpr std::array<int, 256> values = base64Values();
         unsigned bits = 0;
         int padding = 0;
         for (int n = 0; n < 4; ++at_) {

@@ -55,7 +55,7 @@ void copyNumbers(const std::string& bytes, bool littleEndian, std::vector<Target
         if (swap) std::reverse(raw, raw + sizeof(T));
         T value;
         std::memcpy(&value, raw, sizeof(T));
-        target[i] = static_cast<Target>(value);
+        target[i] = static_cast<Target>(value);  // NOLINT(bugprone-signed-char-misuse): Int8 is a number here
     }
 }
 

@@ -44,8 +44,9 @@ struct Report {
     // Broken at blanks where it is wider than the screen; `hanging`: columns before what follows.
     void line(std::string text, std::size_t hanging = 4) {
         constexpr std::size_t width = 118;
-        for (std::size_t at;
-             text.size() > width && (at = text.rfind(' ', width)) != std::string::npos && at > hanging;) {
+        while (text.size() > width) {
+            const std::size_t at = text.rfind(' ', width);
+            if (at == std::string::npos || at <= hanging) break;
             app.log().info("  {}", text.substr(0, at));
             text = std::string(hanging, ' ') + text.substr(at + 1);
         }
