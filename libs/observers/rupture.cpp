@@ -35,7 +35,8 @@ constexpr std::size_t eventNumbers = 11, holeNumbers = 8;
 void addPoint(std::vector<io::Column>& columns, const std::string& prefix, const std::string& suffix,
               const std::string& meaning) {
     for (const char axis : {'x', 'y', 'z'})
-        columns.push_back({prefix + axis + suffix, "m", fmt::format("{} coordinate of {}", axis, meaning)});
+        columns.push_back(
+            {fmt::format("{}{}{}", prefix, axis, suffix), "m", fmt::format("{} coordinate of {}", axis, meaning)});
 }
 
 template <class T>

@@ -1,5 +1,7 @@
 #include "schemes/choice.hpp"
 
+#include <fmt/format.h>
+
 #include "schemes/schemeParts.hpp"
 
 namespace corpuscle::schemes {
@@ -39,7 +41,7 @@ void checkAutomatic(const NumericsSettings& written, const CaseFacts& facts, Pro
     for (const std::string& name : Registry<Scheme>::instance().names()) {
         const std::string why = obstacle(written, facts, name);
         if (why.empty()) return;
-        all += (all.empty() ? "" : "; ") + name + ": " + why;
+        all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name, why);
     }
     problems.add(numericsFile, "integrator",
                  "found automatic, but no integrator can do this case (" + all +
