@@ -14,12 +14,10 @@
 
 namespace corpuscle::simulation {
 
-using coupling::Cell;
 using coupling::Scene;
 
 namespace {
 constexpr long goodStepsToRelax = 10;                    // past a fault
-constexpr double surroundings = 5;                       // supports
 constexpr double leastStep = 1e-7, leastAdvance = 1e-4;  // of a full step
 constexpr long triesToLook = 200;                        // at progress since the last rollback
 constexpr double mostSteps = 1e9;                        // of a run
