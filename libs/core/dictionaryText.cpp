@@ -107,6 +107,108 @@ std::string tooDeep() {
     return fmt::format("nested more than {} levels deep; no dictionary needs that", deepestDictionary);
 }
 
+namespace {
+
+// Goes through a text once, as far as its brackets, quotations and comments say what is what.
+class Scanner {
+  public:
+    Scanner(std::string& text, const std::string& shownAs, DictionaryText& result, Problems& problems)
+        : text_(text), shownAs_(shownAs), result_(result), problems_(problems) {}
+
+    // False where nothing is to be read on.
+    bool run() {
+        for (i_ = 0; i_ < text_.size(); ++i_)
+            if (!take(text_[i_])) return false;
+        if (quote_)
+            problems_.add({shownAs_, quotation_.line + 1, quotation_.column + 1}, "",
+                          fmt::format("this quotation mark is not closed; a {} is missing", quote_));
+        if (!open_.empty() && !result_.unclosed) result_.unclosed = open_.front();
+        return true;
+    }
+
+  private:
+    bool take(char c) {
+        if (c == '\n') {
+            ++line_;
+            column_ = 0;
+            previous_ = '\n';
+            return true;
+        }
+        const int here = column_++;
+        if (c == '\t') {
+            if (!tabs_++) problems_.add({shownAs_, line_ + 1, here + 1}, "", "a tab; use blanks, two for each level");
+            text_[i_] = ' ';
+            return true;
+        }
+        if (quote_) {
+            quoted(c);
+            return true;
+        }
+        if (c == '#' && (i_ == 0 || text_[i_ - 1] == ' ' || text_[i_ - 1] == '\n')) {  // a comment
+            while (i_ + 1 < text_.size() && text_[i_ + 1] != '\n') ++i_;
+            return true;
+        }
+        const bool startsToken = previous_ == '\n' ||
+                                 (text_[i_ - 1] == ' ' && (previous_ == ':' || previous_ == '-')) ||
+                                 (!open_.empty() && std::string_view(",[{:").find(previous_) != std::string_view::npos);
+        if ((c == '"' || c == '\'') && startsToken) {
+            quote_ = c;
+            quotation_ = {c, line_, here};
+        }
+        if ((c == '[' || c == '{') && (startsToken || !open_.empty())) {
+            open_.push_back({c, line_, here});
+            if (open_.size() > deepestDictionary) {
+                problems_.add({shownAs_, line_ + 1, here + 1}, "", tooDeep());
+                return false;
+            }
+        }
+        if ((c == ']' || c == '}') && !open_.empty()) close(c);
+        if (c != ' ' && c != '\r') previous_ = c;
+        return true;
+    }
+
+    void quoted(char c) {
+        if (c == '\\' && quote_ == '"' && i_ + 1 < text_.size() && text_[i_ + 1] != '\n') {
+            ++i_;
+            ++column_;
+        } else if (c == quote_) {
+            quote_ = 0;
+        }
+        previous_ = c;
+    }
+
+    // A bracket; what stands behind it as the unit of a vector is kept and blotted out.
+    void close(char c) {
+        const Opened opened = open_.back();
+        open_.pop_back();
+        if ((opened.character == '[') != (c == ']') && !result_.unclosed) result_.unclosed = opened;
+        std::size_t end = i_ + 1;
+        while (end < text_.size() && std::string_view(",]}\n").find(text_[end]) == std::string_view::npos &&
+               !(text_[end] == '#' && text_[end - 1] == ' '))
+            ++end;
+        std::string unit = text_.substr(i_ + 1, end - i_ - 1);
+        unit.erase(0, unit.find_first_not_of(' '));
+        unit.erase(unit.find_last_not_of(" \r") + 1);
+        if (opened.character == '[' && c == ']' && !unit.empty() && unit.front() != ':') {
+            result_.unitAt[{opened.line, opened.column}] = unit;
+            std::fill(text_.begin() + static_cast<long>(i_) + 1, text_.begin() + static_cast<long>(end), ' ');
+        }
+    }
+
+    std::string& text_;
+    const std::string& shownAs_;
+    DictionaryText& result_;
+    Problems& problems_;
+    std::size_t i_ = 0;
+    std::vector<Opened> open_;
+    Opened quotation_{};
+    std::size_t tabs_ = 0;  // the first is reported
+    int line_ = 0, column_ = 0;
+    char quote_ = 0, previous_ = '\n';  // previous: last character of this line that is not blank
+};
+
+}  // namespace
+
 DictionaryText dictionaryText(std::string text, const std::string& shownAs, Problems& problems) {
     DictionaryText result;
     if (text.size() > largestDictionary) {
@@ -121,76 +223,7 @@ DictionaryText dictionaryText(std::string text, const std::string& shownAs, Prob
     endLinesWithNewline(text);
     if (!isText(text, shownAs, problems)) return result;
     refuseDirectives(text, shownAs, problems);
-
-    std::vector<Opened> open;
-    Opened quotation{};
-    std::size_t tabs = 0;  // the first is reported
-    int line = 0, column = 0;
-    char quote = 0, previous = '\n';  // previous: last character of this line that is not blank
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '\n') {
-            ++line;
-            column = 0;
-            previous = '\n';
-            continue;
-        }
-        const int here = column++;
-        if (c == '\t') {
-            if (!tabs++) problems.add({shownAs, line + 1, here + 1}, "", "a tab; use blanks, two for each level");
-            text[i] = ' ';
-            continue;
-        }
-        if (quote) {
-            if (c == '\\' && quote == '"' && i + 1 < text.size() && text[i + 1] != '\n') {
-                ++i;
-                ++column;
-            } else if (c == quote) {
-                quote = 0;
-            }
-            previous = c;
-            continue;
-        }
-        if (c == '#' && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\n')) {
-            while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
-            continue;
-        }
-        const bool startsToken = previous == '\n' || (text[i - 1] == ' ' && (previous == ':' || previous == '-')) ||
-                                 (!open.empty() && std::string_view(",[{:").find(previous) != std::string_view::npos);
-        if ((c == '"' || c == '\'') && startsToken) {
-            quote = c;
-            quotation = {c, line, here};
-        }
-        if ((c == '[' || c == '{') && (startsToken || !open.empty())) {
-            open.push_back({c, line, here});
-            if (open.size() > deepestDictionary) {
-                problems.add({shownAs, line + 1, here + 1}, "", tooDeep());
-                return result;
-            }
-        }
-        if ((c == ']' || c == '}') && !open.empty()) {
-            const Opened opened = open.back();
-            open.pop_back();
-            if ((opened.character == '[') != (c == ']') && !result.unclosed) result.unclosed = opened;
-            std::size_t end = i + 1;
-            while (end < text.size() && std::string_view(",]}\n").find(text[end]) == std::string_view::npos &&
-                   !(text[end] == '#' && text[end - 1] == ' '))
-                ++end;
-            std::string unit = text.substr(i + 1, end - i - 1);
-            unit.erase(0, unit.find_first_not_of(' '));
-            unit.erase(unit.find_last_not_of(" \r") + 1);
-            if (opened.character == '[' && c == ']' && !unit.empty() && unit.front() != ':') {
-                result.unitAt[{opened.line, opened.column}] = unit;
-                std::fill(text.begin() + static_cast<long>(i) + 1, text.begin() + static_cast<long>(end), ' ');
-            }
-        }
-        if (c != ' ' && c != '\r') previous = c;
-    }
-    if (quote)
-        problems.add({shownAs, quotation.line + 1, quotation.column + 1}, "",
-                     fmt::format("this quotation mark is not closed; a {} is missing", quote));
-    if (!open.empty() && !result.unclosed) result.unclosed = open.front();
-    result.text = std::move(text);
+    if (Scanner(text, shownAs, result, problems).run()) result.text = std::move(text);
     return result;
 }
 

@@ -57,6 +57,15 @@ class SchemaBase {
                           const std::function<void(const std::string&, const Node&)>& entry);
     static void eachItem(const Node& node, Problems& problems, const std::function<void(const Node&)>& item);
 
+  private:
+    const Field* rest() const;
+    std::vector<std::string> keys() const;
+    std::vector<std::string> nameUnknown(const Node& node, const std::string& ignored, Problems& problems) const;
+    void readFields(void* object, const Node& node, const std::string& ignored,
+                    const std::vector<std::string>& misspelt, Problems& problems) const;
+    void checkRules(const Node& node, const std::vector<std::string>& misspelt, Problems& problems) const;
+
+  protected:
     std::string name_, text_;
     std::vector<Field> fields_;
     std::vector<std::vector<std::string>> exactlyOne_, atMostOne_;

@@ -254,32 +254,43 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
         return;
     }
     const std::size_t before = problems.count();
-    std::vector<std::string> known, absent;  // keys
-    const Field* rest = nullptr;
+    const std::vector<std::string> misspelt = nameUnknown(node, ignored, problems);
+    readFields(object, node, ignored, misspelt, problems);
+    checkRules(node, misspelt, problems);
+    if (problems.count() == before)
+        for (const Check& check : checks_) check(object, node, problems);
+}
+
+// The field that takes the keys that are not declared otherwise, null: none.
+const SchemaBase::Field* SchemaBase::rest() const {
+    const auto found = std::find_if(fields_.begin(), fields_.end(), [](const Field& f) { return f.info.key == "*"; });
+    return found == fields_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> SchemaBase::keys() const {
+    std::vector<std::string> all;
     for (const Field& f : fields_)
-        if (f.info.key == "*")
-            rest = &f;
-        else
-            known.push_back(f.info.key);
+        if (f.info.key != "*") all.push_back(f.info.key);
+    return all;
+}
+
+// A problem for each unknown key. Known keys that one of them is near to: they are not reported as missing as well.
+std::vector<std::string> SchemaBase::nameUnknown(const Node& node, const std::string& ignored,
+                                                 Problems& problems) const {
+    std::vector<std::string> misspelt;
+    if (rest()) return misspelt;
+    const std::vector<std::string> known = keys();
+    std::vector<std::string> absent;
     for (const std::string& k : known)
         if (!node.find(k)) absent.push_back(k);
-
-    Node others;
-    others.mark = node.mark;
-    others.keyMark = node.keyMark;
-    others.path = node.path;
-    std::vector<std::string> misspelt;  // known keys that an unknown one is near to: not reported as missing as well
     const std::string allowed = known.empty() ? "No key is allowed here" : fmt::format("Allowed: {}", joinWords(known));
-    for (const auto& [key, value] : node.entries) {
+    for (const Node::Entry& entry : node.entries) {
+        const std::string& key = entry.key;
         if (key == ignored || std::find(known.begin(), known.end(), key) != known.end()) continue;
-        if (rest) {
-            others.entries.emplace_back(key, value);
-            continue;
-        }
         std::string nearest, advice;
         if (misspelt.size() < 2 * Problems::mostShown) {
-            const bool isGiven = std::any_of(known.begin(), known.end(), [&, &name = key](const std::string& k) {
-                return differOnlyInCapitals(k, name) && node.find(k);
+            const bool isGiven = std::any_of(known.begin(), known.end(), [&](const std::string& k) {
+                return differOnlyInCapitals(k, key) && node.find(k);
             });
             if (!isGiven) nearest = nearestWord(key, absent);
             if (!nearest.empty()) {
@@ -291,12 +302,24 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
             }
         }
         misspelt.push_back(nearest);
-        problems.add(value.place(), value.path,
+        problems.add(entry.value.place(), entry.value.path,
                      fmt::format("unknown key '{}'.{} {}", shortened(key, 80), advice, allowed));
     }
+    return misspelt;
+}
 
+void SchemaBase::readFields(void* object, const Node& node, const std::string& ignored,
+                            const std::vector<std::string>& misspelt, Problems& problems) const {
+    Node others;
+    others.mark = node.mark;
+    others.keyMark = node.keyMark;
+    others.path = node.path;
+    if (const std::vector<std::string> known = keys(); rest())
+        for (const auto& [key, value] : node.entries)
+            if (key != ignored && std::find(known.begin(), known.end(), key) == known.end())
+                others.entries.emplace_back(key, value);
     for (const Field& f : fields_) {
-        if (&f == rest) {
+        if (&f == rest()) {
             if (!lacksNames(others, f.info, problems)) f.read(object, others, problems);
         } else if (const Node* value = node.find(f.info.key)) {
             const bool isMap = f.info.type == "map" || f.info.type == "models";
@@ -316,7 +339,10 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
                             example.empty() ? "" : fmt::format(", for example '{}: {}'", f.info.key, example)));
         }
     }
+}
 
+// Keys of which exactly one, or at most one, is to be given.
+void SchemaBase::checkRules(const Node& node, const std::vector<std::string>& misspelt, Problems& problems) const {
     const auto misspeltOneOf = [&](const std::vector<std::string>& keys) {
         return std::any_of(keys.begin(), keys.end(), [&](const auto& k) {
             return std::find(misspelt.begin(), misspelt.end(), k) != misspelt.end();
@@ -333,8 +359,6 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
     for (const auto& keys : atMostOne_)
         if (const auto found = present(node, keys); found.size() > 1)
             problems.add(found[1]->place(), found[1]->path, fmt::format("give at most one of {}", quotedList(keys)));
-    if (problems.count() == before)
-        for (const Check& check : checks_) check(object, node, problems);
 }
 
 Node SchemaBase::writeFrom(const void* object) const {

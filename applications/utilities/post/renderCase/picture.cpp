@@ -251,8 +251,60 @@ Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options) {
     return plan;
 }
 
-Picture drawPicture(const Plan& plan, std::span<const Frame> frames, const std::filesystem::path& output) {
+namespace {
+
+Panel panelOf(std::size_t number, const Layout& layout) {
+    const int row = static_cast<int>(number) / layout.columns, column = static_cast<int>(number) % layout.columns;
+    return {column * layout.panelWidth + layout.gap / 2,
+            row * (layout.labelStrip + layout.imageHeight) + layout.labelStrip, layout.panelWidth - layout.gap,
+            layout.imageHeight};
+}
+
+// Two layers, so that a slice through a cell does not hide half of it.
+void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, const Panel& panel, const Layout& layout,
+               double lengthPerSpeed) {
     const PictureOptions& options = plan.options;
+    const double low = layout.height - panel.y - panel.height;
+    vtkNew<vtkRenderer> back, front;
+    front->SetLayer(1);
+    for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
+        renderer->SetBackground(1, 1, 1);
+        renderer->SetViewport(static_cast<double>(panel.x) / layout.width, low / layout.height,
+                              static_cast<double>(panel.x + panel.width) / layout.width,
+                              (low + panel.height) / layout.height);
+        addLights(renderer);
+    }
+    if (options.box && !options.frameCells) addBox(back, front, *options.box, plan.camera, layout.metresPerPixel);
+    if (frame.slice) {
+        addSlice(back, *frame.slice, *plan.fluid);
+        if (options.arrows) addArrows(back, *frame.slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);
+    }
+    for (const auto& [name, surface] : frame.surfaces)
+        addSurface(front, surface, name, options.field, plan.field ? &*plan.field : nullptr, options.mesh);
+    for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
+        aim(renderer->GetActiveCamera(), plan.camera, layout, panel.width);
+        renderer->ResetCameraClippingRange();
+        window->AddRenderer(renderer);
+    }
+}
+
+// Below the panels and at their right.
+void drawMargins(Overlay& overlay, const Plan& plan, const Bars& bars, const Layout& layout, double lengthPerSpeed) {
+    if (drawLegend(overlay, plan, layout, lengthPerSpeed) > layout.width - layout.barColumn)
+        throw Failure(ExitCode::usage,
+                      fmt::format("-size {}: too small for the scale bar and its words.", layout.width));
+    const double each =
+        (layout.height - layout.textHeight) / static_cast<double>(std::max<std::size_t>(bars.size(), 1));
+    for (std::size_t i = 0; i < bars.size(); ++i)
+        overlay.colourBar(layout.panelWidth * layout.columns + layout.textHeight,
+                          0.5 * layout.textHeight + each * static_cast<double>(bars.size() - 1 - i),
+                          std::min(each - 0.5 * layout.textHeight, 22 * layout.textHeight), *bars[i].first,
+                          bars[i].second, layout.textHeight);
+}
+
+}  // namespace
+
+Picture drawPicture(const Plan& plan, std::span<const Frame> frames, const std::filesystem::path& output) {
     std::vector<std::string> labels;
     for (const Frame& frame : frames) labels.push_back(labelOf(frame, plan));
     const Bars bars = barsOf(plan, frames);
@@ -273,53 +325,15 @@ Picture drawPicture(const Plan& plan, std::span<const Frame> frames, const std::
     overlayRenderer->InteractiveOff();
     Overlay overlay(overlayRenderer, oversampling);
 
-    // 1. The panels, row by row.
     const double lengthPerSpeed = plan.largestSpeed > 0 ? 0.95 * plan.arrowSpacing / plan.largestSpeed : 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const Frame& frame = frames[i];
-        const int row = static_cast<int>(i) / layout.columns, column = static_cast<int>(i) % layout.columns;
-        const Panel panel{column * layout.panelWidth + layout.gap / 2,
-                          row * (layout.labelStrip + layout.imageHeight) + layout.labelStrip,
-                          layout.panelWidth - layout.gap, layout.imageHeight};
+        const Panel panel = panelOf(i, layout);
         picture.panels.push_back(panel);
-        const double low = picture.height - panel.y - panel.height;
-        // Two layers, so that a slice through a cell does not hide half of it.
-        vtkNew<vtkRenderer> back, front;
-        front->SetLayer(1);
-        for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
-            renderer->SetBackground(1, 1, 1);
-            renderer->SetViewport(static_cast<double>(panel.x) / picture.width, low / picture.height,
-                                  static_cast<double>(panel.x + panel.width) / picture.width,
-                                  (low + panel.height) / picture.height);
-            addLights(renderer);
-        }
-        if (options.box && !options.frameCells) addBox(back, front, *options.box, plan.camera, layout.metresPerPixel);
-        if (frame.slice) {
-            addSlice(back, *frame.slice, *plan.fluid);
-            if (options.arrows) addArrows(back, *frame.slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);
-        }
-        for (const auto& [name, surface] : frame.surfaces)
-            addSurface(front, surface, name, options.field, plan.field ? &*plan.field : nullptr, options.mesh);
-        for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
-            aim(renderer->GetActiveCamera(), plan.camera, layout, panel.width);
-            renderer->ResetCameraClippingRange();
-            offscreen.window()->AddRenderer(renderer);
-        }
+        drawPanel(offscreen.window(), plan, frames[i], panel, layout, lengthPerSpeed);
         overlay.text(labels[i], panel.x + 0.5 * panel.width, picture.height - panel.y + 0.5 * layout.labelStrip,
                      layout.labelHeight, Align::centre);
     }
-
-    // 2. Below and at the right.
-    if (drawLegend(overlay, plan, layout, lengthPerSpeed) > layout.width - layout.barColumn)
-        throw Failure(ExitCode::usage,
-                      fmt::format("-size {}: too small for the scale bar and its words.", layout.width));
-    const double each =
-        (picture.height - layout.textHeight) / static_cast<double>(std::max<std::size_t>(bars.size(), 1));
-    for (std::size_t i = 0; i < bars.size(); ++i)
-        overlay.colourBar(layout.panelWidth * layout.columns + layout.textHeight,
-                          0.5 * layout.textHeight + each * static_cast<double>(bars.size() - 1 - i),
-                          std::min(each - 0.5 * layout.textHeight, 22 * layout.textHeight), *bars[i].first,
-                          bars[i].second, layout.textHeight);
+    drawMargins(overlay, plan, bars, layout, lengthPerSpeed);
     offscreen.window()->AddRenderer(overlayRenderer);
 
     writePng(offscreen.render(), output);
