@@ -25,7 +25,7 @@ COLUMNS = {  # name in the CSV file: text in the table
     "fullTurn_strain": "strain of its first full turn",
     "areaDrift": "largest change of area",
     "volumeDrift": "largest change of volume",
-    "guardMoves": "particles put back to their side",
+    "guardMoves": "particles moved back to their side",
     "changedSide": "particles on the wrong side, at most",
     "wallClock_s": "run time [s]",
 }

@@ -49,7 +49,7 @@ class Course:
         volume = suite.worst(row[f"{self.cell}_volumeChange"] for row in self.balance)
         return [Figure(f"{label}: volume, at most", 100 * volume, 1e-5),
                 Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, ""),
-                Figure(f"{label}: particles put back", suite.worst(row["guardMoves"] for row in self.balance), 0, "")]
+                Figure(f"{label}: particles moved back", suite.worst(row["guardMoves"] for row in self.balance), 0, "")]
 
     def area(self, strain):
         return at(self.balance, strain, f"{self.cell}_areaChange")
