@@ -92,7 +92,7 @@ if __name__ == "__main__":
             sys.exit(f"boxes.py: no row '{name}'; there are {', '.join(RUNS)}")
     directory = pathlib.Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    print("| row | spacings in a radius | box | particles | D12 by inertia | against boundary elements | crossed or put back | volume | mean density | wall stress, mu gammadot | iterations a step | core-seconds a strain |")
+    print("| row | spacings in a radius | box | particles | D12 by inertia | against boundary elements | crossed or moved back | volume | mean density | wall stress, mu gammadot | iterations a step | core-seconds a strain |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for name, row in RUNS.items():
         case = directory / name

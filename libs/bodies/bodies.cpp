@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "bodies/extrapolation.hpp"
-#include "geometry/period.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::bodies {
 
@@ -19,23 +17,13 @@ namespace {
 // distance.
 double share(double distance, double reach) { return std::pow(1 - distance / reach, 6); }
 
-// The image of `to` nearest to `from`; the bits of `to` where that is the one.
-Vec3 nearestImage(const particles::Box& box, Vec3 to, const Vec3& from) {
-    for (int k = 0; k < 3; ++k)
-        if (box.periodic[static_cast<std::size_t>(k)]) {
-            const double length = box.size()[k], lengths = std::nearbyint((from[k] - to[k]) / length);
-            if (lengths != 0) to[k] += lengths * length;
-        }
-    return to;
-}
-
 // f(arm) from the centre to each periodic image of a particle within `reach` of the sphere around the body.
 template <class F>
 void forArms(const ParticleSystem& system, const Body& body, int particle, double reach, F&& f) {
     const double radius = body.solid.radius() + reach;
     const Vec3 all = Vec3::Constant(radius),
                from = system.store().position(static_cast<std::size_t>(particle)) - body.state.centre;
-    geometry::forImagesWithin(from, -all, all, particles::periodOf(system.box()), [&](const Vec3& arm) {
+    system.periodicity().forImagesWithin(from, -all, all, [&](const Vec3& arm) {
         if (arm.squaredNorm() < radius * radius) f(arm);
     });
 }
@@ -83,7 +71,7 @@ void Bodies::place(ParticleSystem& system) const {
         const auto i = static_cast<std::size_t>(groups_.members[k].particle);
         const RigidState& state = bodies_[static_cast<std::size_t>(groups_.members[k].group)].state;
         s.setPosition(i,
-                      nearestImage(system.box(), state.centre + state.orientation * parts_[k]->place, s.position(i)));
+                      system.periodicity().nearest(state.centre + state.orientation * parts_[k]->place, s.position(i)));
     }
 }
 
@@ -183,7 +171,7 @@ void Bodies::addRates(const ParticleSystem& system, const Body& body, const Rigi
                       sph::Budget::Values& rates) const {
     const Vec3 byBodyForce = medium_.density * body.solid.volume * medium_.bodyForce;
     if (body.behaviour->yields()) {
-        const Vec3 x = system.box().minimumImage(body.state.centre - system.box().middle());
+        const Vec3 x = system.periodicity().shortest(body.state.centre - system.box().middle());
         sph::Budget::addBodyForce(rates, motion.linear, x, byBodyForce);
         return;
     }

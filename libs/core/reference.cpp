@@ -63,6 +63,8 @@ std::string referenceOfModels() {
     std::string text;
     for (const auto& [name, family] : families()) {
         text += fmt::format("## {}\n\n", name);
+        if (!family.usual.empty())
+            text += fmt::format("A table that does not say `type` is one of {}.\n\n", family.usual);
         for (const ModelInfo& model : family.models()) {
             SchemaInfo settings = model.settings;
             settings.text = model.text;

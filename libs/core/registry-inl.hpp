@@ -3,9 +3,17 @@
 
 namespace corpuscle {
 
-// The model's name in `node`, checked against `known`; nothing (and one problem) when there is none.
-std::optional<std::string> modelName(const Node& node, const std::string& family, const std::vector<std::string>& known,
-                                     Problems& problems);
+template <class Family>
+constexpr const char* usualModel() {
+    if constexpr (requires { Family::usualModel; })
+        return Family::usualModel;
+    else
+        return "";
+}
+// The model's name in `node`, checked against `known`; nothing (and one problem) when there is none. usual: that of a
+// table that does not say it, "" where it must.
+std::optional<std::string> modelName(const Node& node, const std::string& family, const std::string& usual,
+                                     const std::vector<std::string>& known, Problems& problems);
 // The table with the model's settings: the node itself, or an empty table for a bare name.
 Node modelSettings(const Node& node);
 // `type: name` with the settings beside it, or the bare name when there are none.
@@ -13,7 +21,7 @@ Node modelNode(const std::string& name, Node settings);
 
 template <class Family>
 Registry<Family>::Registry() {
-    families()[Family::familyName] = {Family::familyName, [this] {
+    families()[Family::familyName] = {Family::familyName, usualModel<Family>(), [this] {
                                           std::vector<ModelInfo> models;
                                           for (const auto& [name, entry] : entries_)
                                               models.push_back({name, entry.text, entry.settings()});
@@ -63,7 +71,7 @@ template <class Family>
 Codec<Choice<Family>> choiceCodec() {
     return {[](const Node& node, Choice<Family>& choice, Problems& problems) {
                 const Registry<Family>& registry = Registry<Family>::instance();
-                const auto name = modelName(node, Family::familyName, registry.names(), problems);
+                const auto name = modelName(node, Family::familyName, usualModel<Family>(), registry.names(), problems);
                 if (!name) return;
                 choice.name = *name;
                 choice.model = registry.find(*name)->make(modelSettings(node), problems);

@@ -11,12 +11,13 @@ std::map<std::string, FamilyInfo>& families() {
     return all;
 }
 
-std::optional<std::string> modelName(const Node& node, const std::string& family, const std::vector<std::string>& known,
-                                     Problems& problems) {
+std::optional<std::string> modelName(const Node& node, const std::string& family, const std::string& usual,
+                                     const std::vector<std::string>& known, Problems& problems) {
     const std::string list = joinWords(known);
     const Node* name = &node;
     if (node.kind == Node::Kind::table) {
         name = node.find("type");
+        if (!name && !usual.empty()) return usual;
         if (!name) {
             std::string cure;
             for (const auto& [key, value] : node.entries)

@@ -23,7 +23,8 @@ struct ModelInfo {
 
 // Type-erased catalogue of all families, for listModels and the generated reference.
 struct FamilyInfo {
-    std::string name;  // "bond law"
+    std::string name;   // "bond law"
+    std::string usual;  // the model of a table that does not say `type`; "": it must
     std::function<std::vector<ModelInfo>()> models;
 };
 std::map<std::string, FamilyInfo>& families();
@@ -47,7 +48,8 @@ class Registry {
     std::map<std::string, Entry> entries_;
 };
 
-// A model chosen in a case. Family must declare `static constexpr const char* familyName` ("bond law").
+// A model chosen in a case. Family must declare `static constexpr const char* familyName` ("bond law"), and may declare
+// likewise its `usualModel`, which a table of settings without `type` belongs to.
 template <class Family>
 struct Choice {
     std::string name;                     // "harmonic"; empty: none chosen

@@ -80,18 +80,22 @@ class Writer {
         if (!definitions_.contains(family)) {
             definitions_[family] = Json::object();  // stands while the models are written: a family may contain itself
             Json names = Json::array(), branches = Json::array();
+            const std::string usual = families()[family].usual;
             for (const ModelInfo& model : families()[family].models()) {
                 names.push_back(model.name);
                 Json withSettings = table(model.settings);
                 withSettings["description"] = model.text;
                 withSettings["properties"]["type"] = {{"const", model.name}};
-                const Json isThis{{"required", {"type"}}, {"properties", {{"type", {{"const", model.name}}}}}};
+                Json isThis;
+                if (model.name != usual) isThis["required"] = {"type"};
+                isThis["properties"] = {{"type", {{"const", model.name}}}};
                 branches.push_back({{"if", isThis}, {"then", std::move(withSettings)}});
             }
-            definitions_[family] = {{"type", "object"},
-                                    {"required", {"type"}},
-                                    {"properties", {{"type", {{"enum", names}}}}},
-                                    {"allOf", std::move(branches)}};
+            Json definition{{"type", "object"}};
+            if (usual.empty()) definition["required"] = {"type"};
+            definition["properties"] = {{"type", {{"enum", names}}}};
+            definition["allOf"] = std::move(branches);
+            definitions_[family] = std::move(definition);
         }
         std::string pointer = family;
         for (auto at = pointer.find(' '); at != std::string::npos; at = pointer.find(' '))

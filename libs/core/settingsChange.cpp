@@ -52,10 +52,11 @@ bool areSame(const Node& before, const Node& now, const Spacings& spacings) {
            std::abs(a.value - b.value) <= slack * std::max(std::abs(a.value), std::abs(b.value));
 }
 
-std::string modelNameOf(const Node& node) {
+std::string modelNameOf(const Node& node, const std::string& family) {
     if (node.kind == Node::Kind::scalar) return node.scalar;
-    const Node* type = node.find("type");
-    return type ? type->scalar : std::string();
+    if (const Node* type = node.find("type")) return type->scalar;
+    const auto found = families().find(family);
+    return found == families().end() ? std::string() : found->second.usual;
 }
 
 std::optional<SchemaInfo> settingsOf(const std::string& family, const std::string& name) {
@@ -95,7 +96,8 @@ class Comparison {
         const bool areLists = before && now && before->kind == Node::Kind::list && now->kind == Node::Kind::list;
         if (info.type == "table" && areTables) {
             table(info.table(), policy, key, *before, *now);
-        } else if (info.type == "model" && before && now && modelNameOf(*before) == modelNameOf(*now)) {
+        } else if (info.type == "model" && before && now &&
+                   modelNameOf(*before, info.family) == modelNameOf(*now, info.family)) {
             model(info, policy, key, *before, *now);
         } else if (info.type == "list" && areLists) {
             list(info, policy, key, *before, *now);
@@ -130,7 +132,7 @@ class Comparison {
         }
     }
     void model(const FieldInfo& info, AtRestart policy, const std::string& key, const Node& before, const Node& now) {
-        const std::optional<SchemaInfo> settings = settingsOf(info.family, modelNameOf(now));
+        const std::optional<SchemaInfo> settings = settingsOf(info.family, modelNameOf(now, info.family));
         static const Node empty;
         const auto asTable = [&](const Node& node) -> const Node& {
             return node.kind == Node::Kind::table ? node : empty;
@@ -226,7 +228,7 @@ std::string restartPage(const std::vector<std::pair<std::string, FieldInfo>>& di
 Node withoutFree(const FieldInfo& dictionary, const Node& settings) {
     Node kept = settings;
     const std::optional<SchemaInfo> info =
-        dictionary.table ? dictionary.table() : settingsOf(dictionary.family, modelNameOf(settings));
+        dictionary.table ? dictionary.table() : settingsOf(dictionary.family, modelNameOf(settings, dictionary.family));
     if (!info) return kept;
     std::erase_if(kept.entries, [&](const Node::Entry& entry) {
         const FieldInfo* field = fieldOf(*info, entry.key);

@@ -123,7 +123,7 @@ class Verlet final : public AdjointVerlet {
         return sum;
     }
     void findRates() {
-        rates_.fill(0);
+        rates_ = sph::Budget::zero(scene_.model().walls.count());
         double compression = 0;
         for (std::size_t i = 0; i < store().size(); ++i)
             compression -= operators_.volume(i) * pressure_[i] * operators_.divergence(i);
@@ -140,7 +140,7 @@ class Verlet final : public AdjointVerlet {
     void addRatesOfParticle(std::size_t i, const Vec3& middle) {
         const Vec3 u = velocityUsed(i), f = force(i), x = store().position(i) - middle;
         if (isFixed(i))
-            sph::Budget::addWall(rates_, scene_.model().walls.isUpper(store().position(i)), u, x, -f);
+            sph::Budget::addWall(rates_, scene_.model().walls.nearest(store().position(i)).number, u, x, -f);
         else {
             const Vec3& g = scene_.model().bodyForce;
             if (!g.isZero()) sph::Budget::addBodyForce(rates_, u, x, scene_.mass(i) * g);
@@ -156,7 +156,7 @@ class Verlet final : public AdjointVerlet {
         const Vec3& g = scene_.model().bodyForce;
         const bool keeps = scene_.budget.kept;
         const Vec3 middle = scene_.system->box().middle();
-        Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
+        std::vector<Vec3> onWalls(scene_.model().walls.count(), Vec3::Zero());
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (keeps) addRatesOfParticle(i, middle);
             const double rate = -s.density[i] * operators_.divergence(i);
@@ -164,7 +164,8 @@ class Verlet final : public AdjointVerlet {
             s.densityRate[i] = rate;
             const double* f = operators_.force().data() + at(i);
             if (isFixed(i)) {
-                walls[scene_.model().walls.isUpper(s.position(i))] += Vec3(f[0], f[1], f[2]);
+                onWalls[static_cast<std::size_t>(scene_.model().walls.nearest(s.position(i)).number)] +=
+                    Vec3(f[0], f[1], f[2]);
                 continue;
             }
             const double inverse = 1 / scene_.mass(i);
@@ -172,7 +173,7 @@ class Verlet final : public AdjointVerlet {
             s.u[i] += dt * s.fx[i], s.v[i] += dt * s.fy[i], s.w[i] += dt * s.fz[i];
             put(i, s.velocity(i));
         }
-        scene_.forces->setWallForces(walls[0], walls[1]);
+        scene_.forces->setWallForces(std::move(onWalls));
         if (keeps) scene_.budget.add(dt, rates_);
     }
 
@@ -259,7 +260,7 @@ class Verlet final : public AdjointVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
-    sph::Budget::Values rates_{};  // of the last evaluation
+    sph::Budget::Values rates_;  // of the last evaluation
     double fluidPower_ = 0;
 };
 

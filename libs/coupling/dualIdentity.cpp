@@ -97,7 +97,7 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
         if (!cells_[c].held || !membrane.canRupture()) continue;
         std::vector<membrane::BrokenBond> broken = membrane.findBroken(dt);
         if (broken.empty()) continue;
-        if (intervals_.guard > 0) guard_.putBack(system, cells_[c], c);
+        if (intervals_.guard > 0) guard_.movedBack(system, cells_[c], c);
         const bool owner = std::any_of(exchange_.owned().begin(), exchange_.owned().end(), [&](const auto& n) {
             return static_cast<std::size_t>(n.cell) == c && n.node == 0;
         });
@@ -107,7 +107,7 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
         events.push_back({membrane.cell, std::move(broken)});
     }
     const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };
-    if (due(intervals_.guard)) guard_.putBack(system, cells_);
+    if (due(intervals_.guard)) guard_.movedBack(system, cells_);
     if (due(intervals_.densityBalance)) balance_.apply(system, cells_);
     return events;
 }

@@ -28,15 +28,15 @@ Eigen::Matrix<double, 5, 1> basis(const Vec3& q) { return {1, q[0], q[1], q[2], 
 // All images of x within `reach` of the rank's brick.
 template <class F>
 void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f) {
-    const particles::Box& box = system.box();
+    const Periodicity& periodicity = system.periodicity();
     const particles::Brick& brick = system.decomposition().own();
-    const Vec3 inside = box.wrap(x);
+    const Vec3 inside = periodicity.wrap(x);
     int images[3];
-    for (int k = 0; k < 3; ++k) images[k] = box.periodic[static_cast<std::size_t>(k)] ? 1 : 0;
+    for (int k = 0; k < 3; ++k) images[k] = periodicity.isAlong(k) ? 1 : 0;
     for (int a = -images[0]; a <= images[0]; ++a)
         for (int b = -images[1]; b <= images[1]; ++b)
             for (int c = -images[2]; c <= images[2]; ++c) {
-                const Vec3 image = inside + Vec3(a, b, c).cwiseProduct(box.size());
+                const Vec3 image = inside + periodicity.image({a, b, c}).shift;
                 if (particles::distanceSquared(image, brick.low, brick.high) < reach * reach) f(image);
             }
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/periodicSurface.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::coupling {
 
@@ -31,7 +30,7 @@ void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vecto
     grids_.resize(cells.size());
     candidates_.assign(cells.size(), {});
     const ParticleStore& s = system.store();
-    const geometry::Period period = particles::periodOf(system.box());
+    const Periodicity& period = system.periodicity();
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (!cells[c].held || cells[c].membrane.network().isOpen()) continue;
         const geometry::NearestImages surface(grid(cells[c], c), cells[c].membrane.position, period);
@@ -40,14 +39,14 @@ void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vecto
     }
 }
 
-void LeakageGuard::putBack(ParticleSystem& system, const std::vector<Cell>& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c) putBack(system, cells[c], c);
+void LeakageGuard::movedBack(ParticleSystem& system, const std::vector<Cell>& cells) {
+    for (std::size_t c = 0; c < cells.size(); ++c) movedBack(system, cells[c], c);
 }
 
-void LeakageGuard::putBack(ParticleSystem& system, const Cell& cell, std::size_t index) {
+void LeakageGuard::movedBack(ParticleSystem& system, const Cell& cell, std::size_t index) {
     if (!cell.held || cell.membrane.network().isOpen() || candidates_[index].empty()) return;
     ParticleStore& s = system.store();
-    const geometry::NearestImages surface(grid(cell, index), cell.membrane.position, particles::periodOf(system.box()));
+    const geometry::NearestImages surface(grid(cell, index), cell.membrane.position, system.periodicity());
     for (const int i : candidates_[index]) {
         const auto [at, x] = surface.nearest(s.position(i));
         if (!at) continue;

@@ -1,4 +1,4 @@
-// Nothing leaks silently: fluid particles that have crossed a closed membrane are counted, reported and put back.
+// Nothing leaks silently: fluid particles that have crossed a closed membrane are counted, reported and moved back.
 //
 // A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as
 // candidates; every few steps each of them is held against the nearest point p of the membrane. One on the wrong side
@@ -29,8 +29,9 @@ class LeakageGuard {
     explicit LeakageGuard(double spacing) : spacing_(spacing) {}
 
     void findCandidates(const particles::ParticleSystem& system, const std::vector<Cell>& cells);
-    void putBack(particles::ParticleSystem& system, const std::vector<Cell>& cells);
-    void putBack(particles::ParticleSystem& system, const Cell& cell, std::size_t index);  // of one cell, by its index
+    void movedBack(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+    void movedBack(particles::ParticleSystem& system, const Cell& cell,
+                   std::size_t index);  // of one cell, by its index
 
     // This rank's moves since the start of the run, and the last of them since the last call.
     long moves() const { return moves_; }

@@ -5,7 +5,6 @@
 
 #include "geometry/periodicSurface.hpp"
 #include "membrane/surface.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::coupling {
 
@@ -50,7 +49,7 @@ Vec3 NoFlux::velocity(const Near& near) const {
 
 void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidates) {
     const particles::ParticleStore& s = system.store();
-    const geometry::Period period = particles::periodOf(system.box());
+    const Periodicity& period = system.periodicity();
     near_.clear();
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         if (cells_[c].membrane.network().isOpen()) continue;
@@ -67,7 +66,7 @@ void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidat
 
 void NoFlux::keepSides(ParticleSystem& system) {
     particles::ParticleStore& s = system.store();
-    const geometry::Period period = particles::periodOf(system.box());
+    const Periodicity& period = system.periodicity();
     const double least = leastDistanceInSpacings * spacing_;
     for (std::size_t k = 0; k < near_.size();) {  // near_ is ordered by cells
         const std::size_t c = near_[k].cell;

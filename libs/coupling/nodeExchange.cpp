@@ -152,17 +152,12 @@ void NodeExchange::plan(ParticleSystem& system, std::vector<Cell>& cells, double
     }
 }
 
-void NodeExchange::place(const Box& box, Cell& cell, int node, const Vec3& position, const Vec3& velocity) {
+void NodeExchange::place(const Periodicity& periodicity, Cell& cell, int node, const Vec3& position,
+                         const Vec3& velocity) {
     // The image nearest to where the node was: whole box lengths are added, so that without them the bits are the
     // particle's.
     Vec3& x = cell.membrane.position[static_cast<std::size_t>(node)];
-    Vec3 image = position;
-    for (int k = 0; k < 3; ++k)
-        if (box.periodic[k]) {
-            const double length = box.size()[k], lengths = std::nearbyint((x[k] - position[k]) / length);
-            if (lengths != 0) image[k] += lengths * length;
-        }
-    x = image;
+    x = periodicity.nearest(position, x);
     cell.membrane.velocity[static_cast<std::size_t>(node)] = velocity;
 }
 
@@ -190,13 +185,13 @@ void NodeExchange::gather(const ParticleSystem& system, std::vector<Cell>& cells
         }
     }
     for (const OwnedNode& n : owned_)
-        place(system.box(), cells[static_cast<std::size_t>(n.cell)], n.node, store.position(n.particle),
+        place(system.periodicity(), cells[static_cast<std::size_t>(n.cell)], n.node, store.position(n.particle),
               velocity(n.particle));
     MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
     for (Channel& channel : channels_) {
         const double* in = channel.receiveBuffer.data();
         for (const auto& [c, node] : channel.receive) {
-            place(system.box(), cells[static_cast<std::size_t>(c)], node, Vec3(in), Vec3(in + 3));
+            place(system.periodicity(), cells[static_cast<std::size_t>(c)], node, Vec3(in), Vec3(in + 3));
             in += nodeFields;
         }
     }

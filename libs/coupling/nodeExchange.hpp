@@ -27,7 +27,7 @@ class NodeExchange {
     void findHolders(const particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
     void handOver(const particles::ParticleSystem& system, std::vector<Cell>& cells,
                   const std::vector<std::vector<char>>& before);
-    static void place(const particles::Box& box, Cell& cell, int node, const Vec3& position, const Vec3& velocity);
+    static void place(const Periodicity& periodicity, Cell& cell, int node, const Vec3& position, const Vec3& velocity);
 
     std::vector<OwnedNode> owned_;
     std::vector<std::vector<char>> holds_;  // [cell][rank]

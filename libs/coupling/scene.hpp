@@ -14,7 +14,8 @@ namespace corpuscle::coupling {
 
 struct Scene {
     std::unique_ptr<particles::ParticleSystem> system;  // its box holds the walls' layers too
-    particles::Box fluidBox;                            // between the walls
+    particles::Box fluidBox;                            // the smallest around the fluid
+    double fluidVolume = 0;                             // between the walls, with all that floats in it [m^3]
     sph::FlowState flow;
     std::unique_ptr<bodies::Bodies> bodies;    // none unless the case has rigid bodies
     std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
@@ -23,7 +24,8 @@ struct Scene {
     std::unique_ptr<DualIdentity> coupling;    // none without cells
     std::vector<RuptureEvent> broken;          // at the last step
     sph::Budget budget;                        // of energy and momentum; not kept unless an observer asks for it
-    long putBack = 0;    // fluid particles of this rank that had crossed a membrane and were put back, since the start
+    long movedBack =
+        0;  // fluid particles of this rank that had crossed a membrane and were moved back, since the start
     double spacing = 0;  // dx [m]
 
     const sph::FluidModel& model() const { return forces->model(); }

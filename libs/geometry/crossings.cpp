@@ -48,7 +48,7 @@ Bounds SurfaceView::bounds() const {
     return all;
 }
 
-std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Period& period, double margin) {
+std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Periodicity& period, double margin) {
     // Each surface as its image with the lower corner of its bounds in the first period, and all images of it that may
     // meet one of these.
     struct Image {
@@ -62,17 +62,18 @@ std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Perio
         if (bounds[s].isEmpty()) continue;
         Vec3 shift = Vec3::Zero();
         for (int k = 0; k < 3; ++k)
-            if (period[k] > 0) shift[k] = -period[k] * std::floor(bounds[s].min()[k] / period[k]);
+            if (period.isAlong(k))
+                shift[k] = -period.lengths()[k] * std::floor(bounds[s].min()[k] / period.lengths()[k]);
         own.push_back({s, shift});
         all.extend(at(own.back()));
     }
     const Vec3 reach = Vec3::Constant(margin);
     for (const Image& one : own) {
         const Bounds here = at(one);
-        forImagesWithin(Vec3::Zero(), all.min() - here.max() - reach, all.max() - here.min() + reach, period,
-                        [&](const Vec3& by) {
-                            images.push_back({one.surface, one.shift + by});
-                        });
+        period.forImagesWithin(Vec3::Zero(), all.min() - here.max() - reach, all.max() - here.min() + reach,
+                               [&](const Vec3& by) {
+                                   images.push_back({one.surface, one.shift + by});
+                               });
     }
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Image*>;
     std::vector<Box> ownBoxes, imageBoxes;
@@ -88,7 +89,7 @@ std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Perio
             const Vec3 shift = b.info()->shift - a.info()->shift;
             if (first > second) return;
             if (first == second) {  // of the two images opposite to each other one, and not itself
-                const Vec3 half = 0.5 * period;
+                const Vec3 half = 0.5 * period.lengths();
                 const auto side = [&](int k) { return shift[k] > half[k] ? 1 : shift[k] < -half[k] ? -1 : 0; };
                 const int lead = side(0) != 0 ? side(0) : side(1) != 0 ? side(1) : side(2);
                 if (lead <= 0) return;

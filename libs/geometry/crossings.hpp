@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "geometry/period.hpp"
+#include "core/periodicity.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::geometry {
@@ -31,7 +31,7 @@ struct ImagePair {
 
 // Every pair of whose bounds, grown by `margin` [m], some images meet; each pair of images once. Empty bounds meet
 // nothing.
-std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Period& period, double margin = 0);
+std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Periodicity& period, double margin = 0);
 
 struct Crossing {
     Vec3 place;         // of one of the pairs of triangles, in the coordinates of the first surface

@@ -76,9 +76,9 @@ bool InsideTest::inside(const Vec3& x) const {
     return crossings > 0;
 }
 
-std::optional<Vec3> InsideTest::imageInside(const Vec3& x, const Period& period) const {
+std::optional<Vec3> InsideTest::imageInside(const Vec3& x, const Periodicity& period) const {
     std::optional<Vec3> found;
-    forImagesWithin(x, low_, high_, period, [&](const Vec3& image) {
+    period.forImagesWithin(x, low_, high_, [&](const Vec3& image) {
         if (!found && inside(image)) found = image;
     });
     return found;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/period.hpp"
+#include "core/periodicity.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::geometry {
@@ -20,8 +20,8 @@ class InsideTest {
     explicit InsideTest(const TriangleMesh& mesh);  // keeps a copy
     bool inside(const Vec3& x) const;
     // In a periodic box: the image of x that is inside, empty: none is; and whether there is one.
-    std::optional<Vec3> imageInside(const Vec3& x, const Period& period) const;
-    bool inside(const Vec3& x, const Period& period) const { return imageInside(x, period).has_value(); }
+    std::optional<Vec3> imageInside(const Vec3& x, const Periodicity& period) const;
+    bool inside(const Vec3& x, const Periodicity& period) const { return imageInside(x, period).has_value(); }
 
   private:
     TriangleMesh mesh_;

@@ -19,10 +19,11 @@ namespace {
 constexpr double largestDeviation = 1e-3;
 
 // All periodic images of the nodes that lie between low and high.
-std::vector<Vec3> imagesNear(const std::vector<Vec3>& nodes, const Vec3& low, const Vec3& high, const Period& period) {
+std::vector<Vec3> imagesNear(const std::vector<Vec3>& nodes, const Vec3& low, const Vec3& high,
+                             const Periodicity& period) {
     std::vector<Vec3> images;
     for (const Vec3& x : nodes)
-        forImagesWithin(x, low, high, period, [&](const Vec3& image) { images.push_back(image); });
+        period.forImagesWithin(x, low, high, [&](const Vec3& image) { images.push_back(image); });
     return images;
 }
 
@@ -51,9 +52,7 @@ Lattice fillLattice(const LatticeBox& box) {
         to[axis] = lattice.count[axis] = countAlong(axis, box.size[axis], box.spacing);
         lattice.spacing[axis] = box.size[axis] / lattice.count[axis];
     }
-    const int normal = box.wallNormal.value_or(0), layers = box.wallNormal ? box.wallLayers : 0;
-    from[normal] -= layers;
-    to[normal] += layers;
+    for (int axis = 0; axis < 3; ++axis) from[axis] -= box.layers[axis], to[axis] += box.layers[axis];
 
     std::mt19937_64 random(box.seed);
     const auto shift = [&] {  // uniform in +-jitter, the same on every machine
@@ -62,21 +61,22 @@ Lattice fillLattice(const LatticeBox& box) {
     for (int k = from[2]; k < to[2]; ++k)
         for (int j = from[1]; j < to[1]; ++j)
             for (int i = from[0]; i < to[0]; ++i) {
-                const int layer = Index3{i, j, k}[normal];
-                const PointKind kind = layer < 0                        ? PointKind::lowerWall
-                                       : layer >= lattice.count[normal] ? PointKind::upperWall
-                                                                        : PointKind::fluid;
                 Vec3 cell(i + 0.5, j + 0.5, k + 0.5);
+                const auto place = [&]() -> Vec3 {
+                    return box.centre - box.size / 2 + cell.cwiseProduct(lattice.spacing);
+                };
+                const PointKind kind = box.kindOf ? box.kindOf(place()) : PointKind::fluid;
+                if (kind == PointKind::nothing) continue;
                 if (box.jitter > 0 && kind == PointKind::fluid)
                     for (int axis = 0; axis < 3; ++axis) cell[axis] += shift();
-                lattice.points.push_back(box.centre - box.size / 2 + cell.cwiseProduct(lattice.spacing));
+                lattice.points.push_back(place());
                 lattice.kinds.push_back(kind);
             }
     return lattice;
 }
 
 std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>& nodes, std::size_t count,
-                       const Period& period) {
+                       const Periodicity& period) {
     if (count == 0 || nodes.empty()) return {};
     if (count > points.size())
         throw Failure(ExitCode::invalidCase,
@@ -125,7 +125,7 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
 }
 
 std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
-                          const Period& period) {
+                          const Periodicity& period) {
     std::vector<int> side(points.size(), 0);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const InsideTest test(meshes[m]);
@@ -143,7 +143,7 @@ std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<Tri
 }
 
 std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, const std::vector<TriangleMesh>& meshes,
-                    double least, const Period& period) {
+                    double least, const Periodicity& period) {
     std::size_t moved = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const TriangleMesh& mesh = meshes[m];

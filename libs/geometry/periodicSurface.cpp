@@ -5,7 +5,7 @@
 
 namespace corpuscle::geometry {
 
-NearestImages::NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Period& period)
+NearestImages::NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Periodicity& period)
     : grid_(grid), period_(period), low_(nodes.front()), high_(nodes.front()) {
     for (const Vec3& x : nodes) low_ = low_.cwiseMin(x), high_ = high_.cwiseMax(x);
     low_.array() -= grid.reach();
@@ -14,7 +14,7 @@ NearestImages::NearestImages(const TriangleTree& grid, const std::vector<Vec3>& 
 
 NearestImages::Found NearestImages::nearest(const Vec3& x) const {
     Found best;
-    forImagesWithin(x, low_, high_, period_, [&](const Vec3& image) {
+    period_.forImagesWithin(x, low_, high_, [&](const Vec3& image) {
         const SurfacePoint at = grid_.nearest(image);
         if (at && (!best || std::abs(at.distance) < std::abs(best.at.distance))) best = {at, image};
     });

@@ -9,7 +9,7 @@ namespace corpuscle::geometry {
 class NearestImages {
   public:
     // grid: with these nodes, and it must stay where it is.
-    NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Period& period);
+    NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Periodicity& period);
 
     struct Found {
         SurfacePoint at;
@@ -22,7 +22,7 @@ class NearestImages {
 
   private:
     const TriangleTree& grid_;
-    Period period_;
+    Periodicity period_;
     Vec3 low_, high_;  // of what is within reach
 };
 
@@ -30,7 +30,7 @@ class NearestImages {
 class PeriodicSurface {
   public:
     // Distances are exact within `reach` [m].
-    PeriodicSurface(const TriangleMesh& mesh, double reach, const Period& period)
+    PeriodicSurface(const TriangleMesh& mesh, double reach, const Periodicity& period)
         : grid_(mesh, reach), images_(grid_, mesh.nodes, period), inside_(mesh), period_(period) {}
     PeriodicSurface(const PeriodicSurface&) = delete;
     PeriodicSurface& operator=(const PeriodicSurface&) = delete;
@@ -46,7 +46,7 @@ class PeriodicSurface {
     TriangleTree grid_;
     NearestImages images_;
     InsideTest inside_;
-    Period period_;
+    Periodicity period_;
 };
 
 }  // namespace corpuscle::geometry

@@ -29,22 +29,22 @@ Surface surfaceOf(const TriangleMesh& mesh, const Vec3& shift) {
 }  // namespace
 
 std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
-                                 const Vec3& low, const Vec3& high, const Period& period) {
+                                 const Vec3& low, const Vec3& high, const Periodicity& period) {
     std::vector<RaySide> sides(points.size());
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         Vec3 from = meshes[m].nodes.front(), to = from;
         for (const Vec3& x : meshes[m].nodes) from = from.cwiseMin(x), to = to.cwiseMax(x);
         double first[3]{}, last[3]{};  // periods by which the surface is moved so that its bounds meet the box
         for (int k = 0; k < 3; ++k)
-            if (period[k] > 0) {
-                first[k] = std::ceil((low[k] - to[k]) / period[k]);
-                last[k] = std::floor((high[k] - from[k]) / period[k]);
+            if (period.isAlong(k)) {
+                first[k] = std::ceil((low[k] - to[k]) / period.lengths()[k]);
+                last[k] = std::floor((high[k] - from[k]) / period.lengths()[k]);
             }
         for (double a = 0; a <= last[0] - first[0]; ++a)
             for (double b = 0; b <= last[1] - first[1]; ++b)
                 for (double c = 0; c <= last[2] - first[2]; ++c) {
                     const Vec3 periods(first[0] + a, first[1] + b, first[2] + c);
-                    const Surface surface = surfaceOf(meshes[m], periods.cwiseProduct(period));
+                    const Surface surface = surfaceOf(meshes[m], periods.cwiseProduct(period.lengths()));
                     const CGAL::Side_of_triangle_mesh<Surface, Kernel> side(surface);
                     for (std::size_t i = 0; i < points.size(); ++i) {
                         const CGAL::Bounded_side found = side({points[i].x(), points[i].y(), points[i].z()});

@@ -8,7 +8,7 @@
 //                                                                       | as it takes
 // They have no code in common.
 #pragma once
-#include "geometry/period.hpp"
+#include "core/periodicity.hpp"
 #include "geometry/triangleMesh.hpp"
 
 namespace corpuscle::geometry {
@@ -21,6 +21,6 @@ struct RaySide {
 
 // low, high: the box, in which the points lie. Throws Failure(invalidCase) for a mesh that is no closed surface.
 std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
-                                 const Vec3& low, const Vec3& high, const Period& period);
+                                 const Vec3& low, const Vec3& high, const Periodicity& period);
 
 }  // namespace corpuscle::geometry

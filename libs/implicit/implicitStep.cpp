@@ -191,13 +191,15 @@ class Step final : public ImplicitStep {
         ParticleStore& s = scene_.store();
         const TimeDifference& time = system_.time();
         if (system_.rigid()) system_.findForcesOnBodies(velocity_);
-        Vec3 walls[2] = {Vec3::Zero(), Vec3::Zero()};
+        const boundary::Walls& walls = scene_.model().walls;
+        std::vector<Vec3> onWalls(walls.count(), Vec3::Zero());
         rate_.resize(s.size());
         for (std::size_t i = 0; i < s.size(); ++i) {
             rate_[i] = system_.rigid() ? system_.divergence(i) : static_cast<double>(divergence_.value[i]);
-            if (system_.isPrescribed(i)) walls[scene_.model().walls.isUpper(s.position(i))] += vectorAt(residual_, i);
+            if (system_.isPrescribed(i))
+                onWalls[static_cast<std::size_t>(walls.nearest(s.position(i)).number)] += vectorAt(residual_, i);
         }
-        scene_.forces->setWallForces(walls[0], walls[1]);
+        scene_.forces->setWallForces(std::move(onWalls));
         if (scene_.budget.kept) budget_.keep(velocity_, residual_, rate_);
         state.reference = disturbanceOf(system_, velocity_, rate_);
         for (std::size_t i = 0; i < s.size(); ++i) {

@@ -18,7 +18,7 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
     const RigidUnknowns<Real>* const rigid = system_.rigid();
     const particles::ParticleStore& s = scene.store();
     const Vec3 &g = scene.model().bodyForce, middle = scene.system->box().middle();
-    Budget::Values rates{};
+    Budget::Values rates = Budget::zero(scene.model().walls.count());
     double power = 0;  // of the terms on everything that moves, walls included
     for (std::size_t i = 0; i < s.size(); ++i) {
         rates[Budget::compression] -=
@@ -27,7 +27,7 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
         if (system_.isPrescribed(i)) {
             const Vec3 u = s.velocity(i), f = vectorAt(residual, i);
             power += u.dot(f);
-            Budget::addWall(rates, scene.model().walls.isUpper(x), u, x - middle, -f);
+            Budget::addWall(rates, scene.model().walls.nearest(x).number, u, x - middle, -f);
             continue;
         }
         const Vec3 v = vectorAt(velocity, i), a(s.fx[i], s.fy[i], s.fz[i]);

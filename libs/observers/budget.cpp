@@ -19,9 +19,7 @@ namespace {
 Budget::Values summed(const Scene& scene) {
     const Budget::Values& own = scene.budget.total;
     const std::vector<double> all = Communicator(scene.system->comm()).sum(std::vector<double>(own.begin(), own.end()));
-    Budget::Values values;
-    std::copy(all.begin(), all.end(), values.begin());
-    return values;
+    return all;
 }
 
 void add(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); }
@@ -57,7 +55,9 @@ BudgetTable::Content BudgetTable::contentOf(const Scene& scene) {
             c.kinetic += 0.5 * (body.solid.mass * motion.linear.squaredNorm() + motion.angular.dot(spin));
             c.mass += body.solid.mass, c.speeds += body.solid.mass * motion.linear.norm();
             momentum += body.solid.mass * motion.linear;
-            angular += spin + body.solid.mass * box.minimumImage(body.state.centre - box.middle()).cross(motion.linear);
+            angular +=
+                spin + body.solid.mass *
+                           scene.system->periodicity().shortest(body.state.centre - box.middle()).cross(motion.linear);
         }
     std::copy_n(momentum.data(), 3, c.momentum), std::copy_n(angular.data(), 3, c.angular);
     const auto own = std::bit_cast<Numbers>(c);
@@ -79,7 +79,7 @@ BudgetTable::Balance BudgetTable::balance(const Scene& scene) const {
     const Content now = contentOf(scene);
     Balance b{};
     b.work = summed(scene);
-    for (std::size_t k = 0; k < Budget::count; ++k) b.work[k] -= before_[k];
+    for (std::size_t k = 0; k < b.work.size(); ++k) b.work[k] -= before_[k];
     const Budget::Values& w = b.work;
     b.elastic = now.elastic - start_.elastic, b.compression = now.compression - start_.compression,
     b.kinetic = now.kinetic - start_.kinetic;
@@ -97,11 +97,16 @@ BudgetTable::Balance BudgetTable::balance(const Scene& scene) const {
 
     b.momentum = Vec3::Map(now.momentum) - Vec3::Map(start_.momentum);
     b.angular = Vec3::Map(now.angular) - Vec3::Map(start_.angular);
-    const Vec3 lower = Budget::vector(w, Budget::lowerWall), upper = Budget::vector(w, Budget::upperWall),
-               force = Budget::vector(w, Budget::bodyForce), bodies = Budget::vector(w, Budget::givenBodies);
-    b.drift = b.momentum - lower - upper - force - bodies;
-    const double exchanged =
-        std::max({lower.norm() + upper.norm(), force.norm(), bodies.norm(), now.speeds, start_.speeds});
+    const Vec3 force = Budget::vector(w, Budget::bodyForce), bodies = Budget::vector(w, Budget::givenBodies);
+    b.drift = b.momentum;
+    double byWalls = 0;
+    for (std::size_t n = 0; n < parts_.walls.size(); ++n) {
+        const Vec3 impulse = Budget::vector(w, Budget::wall(n));
+        b.drift -= impulse;
+        byWalls += impulse.norm();
+    }
+    b.drift = b.drift - force - bodies;
+    const double exchanged = std::max({byWalls, force.norm(), bodies.norm(), now.speeds, start_.speeds});
     b.driftShare = exchanged > 0 ? b.drift.norm() / exchanged : 0;
     b.mass = now.mass / start_.mass - 1, b.volume = now.volume / start_.volume - 1;
     return b;
@@ -113,7 +118,7 @@ std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
         columns.push_back({name, "J", meaning});
     };
     const bool cells = !parts.cells.empty();
-    if (parts.walls) joules("workOfWalls", "energy put in by the walls since the start");
+    if (!parts.walls.empty()) joules("workOfWalls", "energy put in by the walls since the start");
     if (parts.bodyForce) joules("workOfBodyForce", "energy put in by the body force since the start");
     if (parts.givenBodies) joules("workOfBodies", "energy put in by bodies whose motion is given, since the start");
     joules("dissipated", "energy dissipated by viscosity since the start, all of it");
@@ -130,17 +135,16 @@ std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
     joules("residualOfCompression", "part of the residual: the same of the energy of compression");
     joules("residualOfSolver", "part of the residual: what the linear solver leaves");
     addVector(columns, "momentum", "Ns", "component of the change of momentum");
-    if (parts.walls) {
-        addVector(columns, "impulseOfLowerWall", "Ns", "component of the time integral of the lower wall's force");
-        addVector(columns, "impulseOfUpperWall", "Ns", "component of the time integral of the upper wall's force");
-    }
+    for (const std::string& wall : parts.walls)
+        addVector(columns, "impulseOfWall_" + wall, "Ns",
+                  "component of the time integral of the force of the " + wall + " wall");
     if (parts.bodyForce)
         addVector(columns, "impulseOfBodyForce", "Ns", "component of the time integral of the body force");
     if (parts.givenBodies)
         addVector(columns, "impulseOfBodies", "Ns", "component of the time integral of the force of given bodies");
     addVector(columns, "momentumDrift", "Ns", "component of the change of momentum that no force explains");
     addVector(columns, "angularMomentum", "Js", "component of the change of angular momentum about the box's middle");
-    if (parts.walls)
+    if (!parts.walls.empty())
         addVector(columns, "angularImpulseOfWalls", "Js", "component of the time integral of the walls' torque");
     if (parts.bodyForce)
         addVector(columns, "angularImpulseOfBodyForce", "Js",
@@ -153,7 +157,7 @@ std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
 std::vector<double> BudgetTable::row(const Scene& scene) const {
     const Balance b = balance(scene);
     const Budget::Values& w = b.work;
-    const bool walls = parts_.walls, force = parts_.bodyForce, bodies = parts_.givenBodies,
+    const bool walls = !parts_.walls.empty(), force = parts_.bodyForce, bodies = parts_.givenBodies,
                cells = !parts_.cells.empty();
     std::vector<double> row;
     if (walls) row.push_back(w[Budget::ofWalls]);
@@ -167,7 +171,7 @@ std::vector<double> BudgetTable::row(const Scene& scene) const {
     if (cells) row.push_back(b.ofMembranes);
     row.push_back(b.ofCompression), row.push_back(b.ofSolver);
     add(row, b.momentum);
-    if (walls) add(row, Budget::vector(w, Budget::lowerWall)), add(row, Budget::vector(w, Budget::upperWall));
+    for (std::size_t n = 0; n < parts_.walls.size(); ++n) add(row, Budget::vector(w, Budget::wall(n)));
     if (force) add(row, Budget::vector(w, Budget::bodyForce));
     if (bodies) add(row, Budget::vector(w, Budget::givenBodies));
     add(row, b.drift);
@@ -190,7 +194,7 @@ Summary BudgetTable::summary(const Scene& scene) const {
     summary.figures["momentumDriftShare"] = b.driftShare;
     const auto joule = [](double value) { return formatQuantity(value, unit::joule); };
     std::string given;
-    if (parts_.walls) given += "walls put in " + joule(w[Budget::ofWalls]) + ", ";
+    if (!parts_.walls.empty()) given += "walls put in " + joule(w[Budget::ofWalls]) + ", ";
     if (parts_.bodyForce) given += "the body force " + joule(w[Budget::ofBodyForce]) + ", ";
     if (parts_.givenBodies) given += "bodies of given motion " + joule(w[Budget::ofBodies]) + ", ";
     if (!parts_.cells.empty()) given += "stored in membranes " + joule(b.elastic) + ", ";

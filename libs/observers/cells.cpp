@@ -4,7 +4,6 @@
 
 #include "core/communicator.hpp"
 #include "membrane/surface.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::observers {
 
@@ -77,7 +76,7 @@ geometry::TriangleMesh closedSurface(const Cell& cell) {
 }
 
 TrueSides::TrueSides(const Scene& scene)
-    : scene_(scene), period_(particles::periodOf(scene.system->box())), surfaces_(scene.cells.size()) {
+    : scene_(scene), period_(scene.system->periodicity()), surfaces_(scene.cells.size()) {
     for (std::size_t c = 0; c < scene.cells.size(); ++c) {
         if (!scene.cells[c].held) continue;
         const geometry::TriangleMesh mesh = closedSurface(scene.cells[c]);

@@ -38,7 +38,7 @@ class TrueSides {
 
   private:
     const coupling::Scene& scene_;
-    geometry::Period period_;
+    Periodicity period_;
     std::vector<std::optional<geometry::InsideTest>> surfaces_;  // empty: not held
 };
 

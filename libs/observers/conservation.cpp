@@ -103,7 +103,7 @@ class ConservationObservation : public Observation {
         double energy = 0;
         for (const auto& cell : measured) energy += cell[4];
         row.insert(row.end(),
-                   {energy, static_cast<double>(ranks.sum(changed)), static_cast<double>(ranks.sum(scene.putBack))});
+                   {energy, static_cast<double>(ranks.sum(changed)), static_cast<double>(ranks.sum(scene.movedBack))});
         for (const auto& cell : measured) row.insert(row.end(), cell.begin(), cell.begin() + 4);
     }
 

@@ -41,14 +41,14 @@ SceneParts SceneParts::of(const Scene& scene) {
             parts.bodies.push_back(body.name);
             parts.givenBodies = parts.givenBodies || !body.behaviour->yields();
         }
-    parts.walls = scene.flow.walls.exist();
+    for (const boundary::Wall& wall : scene.flow.walls) parts.walls.push_back(wall.name);
     parts.shear = scene.flow.shearRate != 0;
     parts.bodyForce = !scene.model().bodyForce.isZero();
     parts.budget = scene.budget.kept;
     return parts;
 }
 
-SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, true, true, true, true, true, true, true}; }
+SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, {"<wall>"}, true, true, true, true, true, true}; }
 
 std::optional<Summary> Observation::summary(const Scene&, const Time&) { return {}; }
 

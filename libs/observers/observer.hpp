@@ -40,11 +40,11 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 
 // Of a scene, what decides which tables and columns there are.
 struct SceneParts {
-    std::vector<std::string> cells, bodies;  // their names
-    bool walls = false, shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false,
-         rupture = false, budget = false;
+    std::vector<std::string> cells, bodies, walls;  // their names
+    bool shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false, rupture = false,
+         budget = false;
     static SceneParts of(const Scene& scene);
-    // Everything, with cells and bodies "<cell>" and "<body>": for the documentation.
+    // Everything, with cells, bodies and walls "<cell>", "<body>" and "<wall>": for the documentation.
     static SceneParts all();
 };
 
@@ -89,7 +89,7 @@ class Observation {
 
 // What a case has to look at, known before it runs.
 struct Subject {
-    bool cells = false, walls = false;
+    bool cells = false, planeWalls = false;
     double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
     bool bodies = false;   // rigid ones
 };

@@ -34,7 +34,7 @@ class ProfileObservation : public Observation {
         std::vector<double> sums(numbers * static_cast<std::size_t>(bins_), 0.0);
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (s.kindOf(i) != particles::Kind::fluid) continue;
-            const double bin = std::floor((box.wrap(s.position(i))[axis_] - low) / width);
+            const double bin = std::floor((box.wrap(s.position(i)[axis_], axis_) - low) / width);
             double* const sum = sums.data() + numbers * static_cast<std::size_t>(std::clamp(bin, 0.0, bins_ - 1.0));
             sum[0] += s.u[i], sum[1] += s.v[i], sum[2] += s.w[i];
             sum[3] += s.density[i];

@@ -48,7 +48,7 @@ class ShapeObservation : public Observation {
   public:
     ShapeObservation(std::vector<Table> tables, const Scene& scene)
         : Observation(std::move(tables)), angles_(scene.cells.size()) {
-        if (scene.flow.walls.axis == 1) plane_.gradient = 1;
+        plane_.gradient = scene.flow.gradient;
         for (const coupling::Cell& cell : scene.cells) {
             markers_.push_back(
                 markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_));

@@ -1,7 +1,8 @@
 // Observer `wallStress`: what the fluid does to the walls; one file, wallStress.csv.
 //
-// Shear stress: sigma_xg in the fluid at the wall, g across the walls, which is F_x/A of the lower wall and -F_x/A of
-// the upper one, F the force of the fluid on the wall.
+// Of a wall of area A and normal n into the fluid, on which the fluid exerts the force F: the pressure is -F.n/A, and
+// the shear stress sigma_xg in the fluid at the wall F_x/A times the sign of n_g, g the axis along which the flow
+// changes: F_x/A at the lower of two planes and -F_x/A at the upper one.
 //
 // Numbers to compare with: plane Couette flow has sigma_xg = mu gammadot at both walls, effectiveViscosity 1; plane
 // Poiseuille flow under the body force b over the gap h has +-rho b h/2 (momentum balance, exact). A dilute suspension
@@ -18,18 +19,21 @@ class WallStressObservation : public Observation {
     using Observation::Observation;
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
-        const int axis = scene.flow.walls.axis;
-        const double area = scene.fluidBox.volume() / scene.fluidBox.size()[axis];
-        const Vec3 &lower = scene.forces->wallForce(0), &upper = scene.forces->wallForce(1);
-        const auto force =
-            Communicator(scene.system->comm()).sum(std::vector<double>{lower[0], -upper[0], -lower[axis], upper[axis]});
+        const std::vector<Vec3>& forces = scene.forces->wallForces();
         std::vector<double> row;
-        row.reserve(force.size() + 1);
-        for (const double f : force) row.push_back(f / area);
+        for (const boundary::Wall& wall : scene.flow.walls)
+            row.push_back(forces[static_cast<std::size_t>(wall.number)][0] * normal(wall)[scene.flow.gradient] /
+                          wall.surface->area());
+        for (const boundary::Wall& wall : scene.flow.walls)
+            row.push_back(-forces[static_cast<std::size_t>(wall.number)].dot(normal(wall)) / wall.surface->area());
+        row = Communicator(scene.system->comm()).sum(std::move(row));
         if (const double rate = scene.flow.shearRate; rate != 0)
             row.push_back(0.5 * (row[0] + row[1]) / (scene.model().viscosity * rate));
         return {{0, std::move(row)}};
     }
+
+  private:
+    static Vec3 normal(const boundary::Wall& wall) { return wall.normal(Vec3::Zero()); }  // of a plane, everywhere
 };
 
 struct WallStressObserver : Observer {
@@ -40,16 +44,18 @@ struct WallStressObserver : Observer {
         return s;
     }
     std::string obstacle(const Subject& subject) const override {
-        if (subject.walls) return {};
-        return "this observer looks at walls, and the flow has none; remove it, or choose a flow with walls in "
-               "constant/flow.yaml";
+        if (subject.planeWalls) return {};
+        return "this observer looks at plane walls, and the flow has none; remove it, or choose a flow with plane "
+               "walls in constant/flow.yaml";
     }
     std::vector<Table> tables(const SceneParts& parts) const override {
-        std::vector<io::Column> columns{
-            {"shearStress_lower", "Pa", "shear stress in the fluid at the lower wall, along the flow"},
-            {"shearStress_upper", "Pa", "shear stress in the fluid at the upper wall, along the flow"},
-            {"pressure_lower", "Pa", "normal force on the lower wall over its area, positive when the fluid pushes"},
-            {"pressure_upper", "Pa", "normal force on the upper wall over its area, positive when the fluid pushes"}};
+        std::vector<io::Column> columns;
+        for (const std::string& wall : parts.walls)
+            columns.push_back(
+                {"shearStress_" + wall, "Pa", "shear stress in the fluid at the " + wall + " wall, along the flow"});
+        for (const std::string& wall : parts.walls)
+            columns.push_back({"pressure_" + wall, "Pa",
+                               "normal force on the " + wall + " wall over its area, positive when the fluid pushes"});
         if (parts.shear)
             columns.push_back({"effectiveViscosity", "", "mean of the two shear stresses over mu gammadot"});
         return {{"wallStress", columns}};

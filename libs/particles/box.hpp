@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/vec.hpp"
+#include "core/periodicity.hpp"
 
 namespace corpuscle::particles {
 
@@ -15,26 +15,13 @@ struct Box {
     Vec3 middle() const { return 0.5 * (low + high); }
     double volume() const { return size().prod(); }
 
-    // The image of p inside the box, along periodic axes only.
-    Vec3 wrap(Vec3 p) const {
-        for (int k = 0; k < 3; ++k)
-            if (periodic[k]) p[k] = wrap(p[k], k);
-        return p;
-    }
+    Periodicity periodicity() const { return {low, high, periodic}; }
+    // A coordinate inside the box, as if the box were periodic along this axis.
     double wrap(double p, int k) const {
         const double length = high[k] - low[k];
         if (p >= low[k] && p < high[k]) return p;
         p -= length * std::floor((p - low[k]) / length);
         return p < high[k] ? p : low[k];  // rounding may land on the upper face
-    }
-    // The shortest of all images of the difference d.
-    Vec3 minimumImage(Vec3 d) const {
-        for (int k = 0; k < 3; ++k)
-            if (periodic[k]) {
-                const double length = high[k] - low[k];
-                d[k] -= length * std::nearbyint(d[k] / length);
-            }
-        return d;
     }
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 namespace corpuscle::particles {
@@ -21,7 +23,8 @@ double gapSquared(const Vec3& lowA, const Vec3& highA, const Vec3& lowB, const V
 }  // namespace
 
 void Halo::plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition,
-                const Box& box, double reach) {
+                const Periodicity& periodicity, double reach) {
+    if (periodicity.slides()) throw std::logic_error("the halo does not know which fields are velocities");
     comm_ = decomposition.comm();
     const int size = decomposition.size(), self = decomposition.rank();
     const auto position = [&](int i) { return Vec3(x[i], y[i], z[i]); };
@@ -33,10 +36,20 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
         if (b.low[0] <= b.high[0]) all.include(b.low), all.include(b.high);
 
     int images[3];
-    for (int k = 0; k < 3; ++k) images[k] = box.periodic[k] ? static_cast<int>(std::ceil(reach / box.size()[k])) : 0;
+    for (int k = 0; k < 3; ++k)
+        images[k] = periodicity.isAlong(k) ? static_cast<int>(std::ceil(reach / periodicity.lengths()[k])) : 0;
 
-    sendIndex_.clear(), sendShift_.clear(), sends_.clear(), receives_.clear();
+    images_.clear(), sendIndex_.clear(), sendImage_.clear(), sends_.clear(), receives_.clear();
     std::vector<int> sendCounts(static_cast<std::size_t>(size), 0), receiveCounts(static_cast<std::size_t>(size), 0);
+    for (int a = -images[0]; a <= images[0]; ++a)
+        for (int b = -images[1]; b <= images[1]; ++b)
+            for (int c = -images[2]; c <= images[2]; ++c) images_.push_back(periodicity.image({a, b, c}));
+    if (images_.size() > std::numeric_limits<std::uint16_t>::max())
+        throw std::logic_error("the box is far too small for the reach of the halo");
+    const auto number = [&](const Index3& n) {  // in images_
+        return static_cast<std::uint16_t>(
+            ((n[0] + images[0]) * (2 * images[1] + 1) + n[1] + images[1]) * (2 * images[2] + 1) + n[2] + images[2]);
+    };
     const double reach2 = reach * reach;
     for (int r = 0; r < size; ++r) {
         const int begin = static_cast<int>(sendIndex_.size());
@@ -45,7 +58,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
             for (int b = -images[1]; b <= images[1]; ++b)
                 for (int c = -images[2]; c <= images[2]; ++c) {
                     if (r == self && a == 0 && b == 0 && c == 0) continue;
-                    const Vec3 shift = Vec3(a, b, c).cwiseProduct(box.size());
+                    const Vec3 shift = periodicity.image({a, b, c}).shift;
                     const Vec3 low = brick.low - shift, high = brick.high - shift;
                     if (n == 0 || gapSquared(all.low, all.high, low, high) >= reach2) continue;
                     for (std::size_t g = 0; g < bounds.size(); ++g) {
@@ -54,7 +67,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
                         for (int i = static_cast<int>(g) * group; i < last; ++i)
                             if (distanceSquared(position(i), low, high) < reach2) {
                                 sendIndex_.push_back(i);
-                                sendShift_.push_back(shift);
+                                sendImage_.push_back(number({a, b, c}));
                             }
                     }
                 }
@@ -113,7 +126,8 @@ void Halo::begin(Real* records, int owned, int fields, double scale) {
         const Real* from = records + static_cast<std::size_t>(sendIndex_[k]) * static_cast<std::size_t>(fields);
         std::copy_n(from, fields, to);
         for (std::size_t f = 0; f < 3; ++f)
-            to[f] = static_cast<Real>(static_cast<double>(to[f]) + scale * sendShift_[k][static_cast<int>(f)]);
+            to[f] = static_cast<Real>(static_cast<double>(to[f]) +
+                                      scale * images_[sendImage_[k]].shift[static_cast<int>(f)]);
     });
 }
 

@@ -4,11 +4,13 @@
 // One mechanism serves both: for every rank and every periodic image, the particles whose shifted position lies within
 // reach of that rank's brick are sent to it. The plan is made when lists are built and used at every step; ghosts are
 // kept sorted in columns. A message carries records (pairLoop.hpp): fields 0..2 are the position, which gets the
-// image's shift.
+// image's shift. Velocities in records would get its slide: nothing slides yet, and a plan of images that do is
+// refused.
 #pragma once
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
@@ -20,7 +22,7 @@ class Halo {
   public:
     // Who needs which of the n own particles at x, y, z. Collective.
     void plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition,
-              const Box& box, double reach);
+              const Periodicity& periodicity, double reach);
 
     int ghostCount() const { return ghosts_; }
 
@@ -80,8 +82,9 @@ class Halo {
     MPI_Comm comm_ = MPI_COMM_NULL;
     int ghosts_ = 0;
     std::size_t selfCount_ = 0;
-    std::vector<int> sendIndex_;   // own particle of each entry
-    std::vector<Vec3> sendShift_;  // image shift of each entry
+    std::vector<int> sendIndex_;            // own particle of each entry
+    std::vector<std::uint16_t> sendImage_;  // in which image it goes: number in images_
+    std::vector<Periodicity::Image> images_;
     std::vector<Message> sends_, receives_;
     Message selfSend_{}, selfReceive_{};
     std::vector<int> slot_;  // ghost number of the k-th received ghost

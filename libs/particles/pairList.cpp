@@ -44,42 +44,40 @@ void forSpans(const Columns& columns, int from, const double* z, const Bounds& b
 
 }  // namespace
 
+// Of as many blocks as share their candidates, from particle `start` on. found_ holds what was found: near and far, of
+// each block; out points behind the last entry, later behind the last that is no ghost.
+struct PairList::Candidates {
+    int* out[4];
+    std::ptrdiff_t later[4];
+};
+
 void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
                      const double* const position[3], const std::vector<unsigned char>& wall,
                      const std::vector<int>& imageOf, const Brick& brick, double support, double reach) {
     owned_ = owned;
     constexpr int points = ListKernel::points;
-    const int together = points / lanes_, count = (owned + lanes_ - 1) / lanes_, total = owned + ghosts;
+    const int together = points / lanes_, count = (owned + lanes_ - 1) / lanes_;
     first_.assign(PairView::parts * static_cast<std::size_t>(count) + 1, 0);
     for (auto& group : blocks_) group.clear();
     const double *x = position[0], *y = position[1], *z = position[2];
 
-    // Single precision relative to the middle; reach grows by what rounding may take away.
-    const Vec3 middle = 0.5 * (brick.low + brick.high);
-    double extent = 0;
-    for (int k = 0; k < 3; ++k) {
-        relative_[k].resize(static_cast<std::size_t>(total) + ListKernel::padding, 0.0f);
-        for (int i = 0; i < total; ++i) {
-            const double d = position[k][i] - middle[k];
-            extent = std::max(extent, std::abs(d));
-            relative_[k][i] = static_cast<float>(d);
-        }
-    }
+    // Reach grows by what rounding may take away.
+    const double extent = findRelative(position, owned + ghosts, 0.5 * (brick.low + brick.high));
     const auto wide = static_cast<float>(reach + 4 * std::numeric_limits<float>::epsilon() * (extent + reach));
     const ListKernel::Gather gather = together == 2 ? listKernel().twoBlocks : listKernel().oneBlock;
     std::vector<Columns::Span> ownedSpans(static_cast<std::size_t>(ownedColumns.columnCount()));
     std::vector<Columns::Span> ghostSpans(static_cast<std::size_t>(ghostColumns.columnCount()));
     const auto within = static_cast<float>(support);
-    int* out[4];  // behind the last entry found: near and far, of each block
+    Candidates c;
     float point[3 * points];
     const auto find = [&](Columns::Span span, int offset) {
         for (int k = 0; k < 2 * together; ++k) {  // room for all of the span
-            const auto used = static_cast<std::size_t>(out[k] - found_[k].data());
+            const auto used = static_cast<std::size_t>(c.out[k] - found_[k].data());
             const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
-            if (found_[k].size() < room) found_[k].resize(2 * room), out[k] = found_[k].data() + used;
+            if (found_[k].size() < room) found_[k].resize(2 * room), c.out[k] = found_[k].data() + used;
         }
         gather(point, relative_[0].data() + offset, relative_[1].data() + offset, relative_[2].data() + offset,
-               span.begin, span.end, offset, within * within, wide * wide, out);
+               span.begin, span.end, offset, within * within, wide * wide, c.out);
     };
     std::size_t used = 0;
     for (int start = 0; start < owned; start += points) {
@@ -92,68 +90,85 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             for (int k = 0; k < 3; ++k) point[k * points + l] = relative_[k][i];
         }
         // The particles of later blocks: those of the second block are met by the first alone.
-        for (int k = 0; k < 2 * together; ++k) out[k] = found_[k].data();
+        for (int k = 0; k < 2 * together; ++k) c.out[k] = found_[k].data();
         if (start + lanes_ < stop) {
             find({start + lanes_, stop}, 0);
-            out[2] = found_[2].data(), out[3] = found_[3].data();
+            c.out[2] = found_[2].data(), c.out[3] = found_[3].data();
         }
         forSpans(ownedColumns, stop, z, bounds, reach, ownedSpans, [&](Columns::Span span) { find(span, 0); });
-        std::ptrdiff_t later[4];
-        for (int k = 0; k < 2 * together; ++k) later[k] = out[k] - found_[k].data();
+        for (int k = 0; k < 2 * together; ++k) c.later[k] = c.out[k] - found_[k].data();
         // Ghosts lie outside the brick.
         const bool inside =
             ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
         if (ghosts > 0 && !inside)
             forSpans(ghostColumns, 0, z + owned, bounds, reach, ghostSpans,
                      [&](Columns::Span span) { find(span, owned); });
-
-        for (int h = 0; h < together && start + h * lanes_ < stop; ++h) {
-            const int slot = start + h * lanes_, b = slot / lanes_, last = std::min(slot + lanes_, stop);
-            std::size_t room = used + ListKernel::padding;
-            for (const int k : {2 * h, 2 * h + 1}) room += static_cast<std::size_t>(out[k] - found_[k].data());
-            if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
-            const bool allWall = !wall.empty() && std::all_of(wall.begin() + slot, wall.begin() + last, isSet);
-            // A block and one image of another meet twice, once across either face: the earlier block takes them.
-            const auto blockOf = [&](int ghost) {
-                const int own = imageOf[ghost - owned];
-                return own < 0 ? -1 : own / lanes_;
-            };
-            int* const begin = j_.data() + used;
-            int* to = begin;
-            int* first = first_.data() + static_cast<std::size_t>(PairView::parts) * static_cast<std::size_t>(b);
-            bool meetsGhosts = false;
-            const auto append = [&](int j) {
-                *to = j;
-                to += !allWall || wall[j] == 0;
-            };
-            for (const int k : {2 * h, 2 * h + 1}) {
-                const int *found = found_[k].data(), *ghosts = found + later[k];
-                std::for_each(found, ghosts, append);
-                const int* const before = to;
-                std::for_each(ghosts, static_cast<const int*>(out[k]), [&](int j) {
-                    if (const int block = blockOf(j); block < 0 || block > b) append(j);
-                });
-                meetsGhosts = meetsGhosts || to > before;
-                *++first = static_cast<int>(to - j_.data());
-            }
-            for (const int k : {2 * h, 2 * h + 1}) {
-                const int* const before = to;
-                std::for_each(found_[k].data() + later[k], out[k], [&](int j) {
-                    if (blockOf(j) == b) append(j);
-                });
-                meetsGhosts = meetsGhosts || to > before;
-                *++first = static_cast<int>(to - j_.data());
-            }
-            used = static_cast<std::size_t>(to - j_.data());
-            if (used > static_cast<std::size_t>(INT32_MAX))
-                throw Failure(ExitCode::numerics,
-                              "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
-            const bool atWall = !wall.empty() && (std::any_of(wall.begin() + slot, wall.begin() + last, isSet) ||
-                                                  std::any_of(begin, to, [&](int j) { return wall[j] != 0; }));
-            blocks_[(meetsGhosts ? boundary : interior) + (atWall ? 1 : 0)].push_back(b);
-        }
+        for (int h = 0; h < together && start + h * lanes_ < stop; ++h)
+            used = list(start + h * lanes_, stop, h, c, used, wall, imageOf);
     }
     if (used > 0) j_[used] = 0;
+}
+
+// Positions relative to the middle in single precision; the largest of their coordinates.
+double PairList::findRelative(const double* const position[3], int count, const Vec3& middle) {
+    double extent = 0;
+    for (int k = 0; k < 3; ++k) {
+        relative_[k].resize(static_cast<std::size_t>(count) + ListKernel::padding, 0.0f);
+        for (int i = 0; i < count; ++i) {
+            const double d = position[k][i] - middle[k];
+            extent = std::max(extent, std::abs(d));
+            relative_[k][i] = static_cast<float>(d);
+        }
+    }
+    return extent;
+}
+
+// The list of the block that begins at particle `slot`, number h of those that share c, behind the `used` entries that
+// there are; how many there are then.
+std::size_t PairList::list(int slot, int stop, int h, const Candidates& c, std::size_t used,
+                           const std::vector<unsigned char>& wall, const std::vector<int>& imageOf) {
+    const int b = slot / lanes_, last = std::min(slot + lanes_, stop);
+    std::size_t room = used + ListKernel::padding;
+    for (const int k : {2 * h, 2 * h + 1}) room += static_cast<std::size_t>(c.out[k] - found_[k].data());
+    if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
+    const bool allWall = !wall.empty() && std::all_of(wall.begin() + slot, wall.begin() + last, isSet);
+    // A block and one image of another meet twice, once across either face: the earlier block takes them.
+    const auto blockOf = [&](int ghost) {
+        const int own = imageOf[ghost - owned_];
+        return own < 0 ? -1 : own / lanes_;
+    };
+    int* const begin = j_.data() + used;
+    int* to = begin;
+    int* first = first_.data() + static_cast<std::size_t>(PairView::parts) * static_cast<std::size_t>(b);
+    bool meetsGhosts = false;
+    const auto append = [&](int j) {
+        *to = j;
+        to += !allWall || wall[j] == 0;
+    };
+    for (const int k : {2 * h, 2 * h + 1}) {
+        const int *found = found_[k].data(), *ghosts = found + c.later[k];
+        std::for_each(found, ghosts, append);
+        const int* const before = to;
+        std::for_each(ghosts, static_cast<const int*>(c.out[k]), [&](int j) {
+            if (const int block = blockOf(j); block < 0 || block > b) append(j);
+        });
+        meetsGhosts = meetsGhosts || to > before;
+        *++first = static_cast<int>(to - j_.data());
+    }
+    for (const int k : {2 * h, 2 * h + 1}) {
+        const int* const before = to;
+        std::for_each(found_[k].data() + c.later[k], c.out[k], [&](int j) {
+            if (blockOf(j) == b) append(j);
+        });
+        meetsGhosts = meetsGhosts || to > before;
+        *++first = static_cast<int>(to - j_.data());
+    }
+    if (to - j_.data() > INT32_MAX)
+        throw Failure(ExitCode::numerics, "the neighbour list of one rank exceeds 2^31 entries: use more ranks");
+    const bool atWall = !wall.empty() && (std::any_of(wall.begin() + slot, wall.begin() + last, isSet) ||
+                                          std::any_of(begin, to, [&](int j) { return wall[j] != 0; }));
+    blocks_[(meetsGhosts ? boundary : interior) + (atWall ? 1 : 0)].push_back(b);
+    return static_cast<std::size_t>(to - j_.data());
 }
 
 }  // namespace corpuscle::particles

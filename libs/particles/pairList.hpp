@@ -42,6 +42,11 @@ class PairList {
     std::size_t bytes() const { return j_.capacity() * sizeof(int) + first_.capacity() * sizeof(int); }
 
   private:
+    struct Candidates;
+    double findRelative(const double* const position[3], int count, const Vec3& middle);
+    std::size_t list(int slot, int stop, int h, const Candidates& c, std::size_t used,
+                     const std::vector<unsigned char>& wall, const std::vector<int>& imageOf);
+
     int lanes_, owned_ = 0;
     std::vector<int> first_{0};
     AlignedVector<int> j_;

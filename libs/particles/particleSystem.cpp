@@ -17,6 +17,7 @@ constexpr double tolerableImbalance = 1.05;
 ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support,
                                double skin, double spacing, Precision precision)
     : box_(box),
+      periodicity_(box.periodicity()),
       support_(support),
       skin_(skin),
       spacing_(spacing),
@@ -26,9 +27,15 @@ ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Opt
       list_(blockLanes(precision)) {}
 
 void ParticleSystem::start() {
-    for (std::size_t i = 0; i < store_.size(); ++i) store_.setPosition(i, box_.wrap(store_.position(i)));
+    for (std::size_t i = 0; i < store_.size(); ++i) wrap(i);
     decomposition_.balance(store_);
     rebuild();
+}
+
+void ParticleSystem::wrap(std::size_t i) {
+    Vec3 x = store_.position(i), u = store_.velocity(i);
+    periodicity_.wrap(x, u);
+    store_.setPosition(i, x), store_.setVelocity(i, u);
 }
 
 void ParticleSystem::resume(const std::vector<double>& bricks, long rebuilds) {
@@ -69,7 +76,7 @@ void ParticleSystem::rebuild() {
         const Vec3 p = store_.position(i);
         if (!p.allFinite())
             fault = "particle " + std::to_string(store_.id[i]) + " has no finite position: the run has diverged";
-        store_.setPosition(i, box_.wrap(p));
+        wrap(i);
     }
     throwTogether(comm(), !fault.empty(), fault, ExitCode::numerics);
     if (rebuilds_ % rebuildsPerBalance == rebuildsPerBalance - 1 &&
@@ -87,7 +94,7 @@ void ParticleSystem::rebuild() {
 void ParticleSystem::buildFrom(const RealArray& x, const RealArray& y, const RealArray& z) {
     const double reach = support_ + skin_;
     const int n = owned();
-    halo_.plan(x.data(), y.data(), z.data(), n, decomposition_, box_, reach);
+    halo_.plan(x.data(), y.data(), z.data(), n, decomposition_, periodicity_, reach);
     const int g = halo_.ghostCount();
     const auto actsOnFluidOnly = [&](int i) {
         const Kind kind = store_.kindOf(static_cast<std::size_t>(i));

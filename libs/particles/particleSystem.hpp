@@ -30,6 +30,7 @@ class ParticleSystem {
     ParticleStore& store() { return store_; }
     const ParticleStore& store() const { return store_; }
     const Box& box() const { return box_; }
+    const Periodicity& periodicity() const { return periodicity_; }
     const Decomposition& decomposition() const { return decomposition_; }
     const PairList& list() const { return list_; }
     Halo& halo() { return halo_; }
@@ -97,8 +98,10 @@ class ParticleSystem {
     }
 
   private:
+    void wrap(std::size_t i);
     void buildFrom(const RealArray& x, const RealArray& y, const RealArray& z);
     Box box_;
+    Periodicity periodicity_;
     double support_, skin_, spacing_;
     Precision precision_;
     bool pairWithinBodies_ = false;

@@ -18,14 +18,14 @@ class AdjointVerletStepper final : public ExplicitStepper {
 
     void advance(double dt, double /*planned*/) override {
         scene_.broken = step_->advance(dt);
-        if (step_->noFlux()) scene_.putBack = step_->noFlux()->crossings();
+        if (step_->noFlux()) scene_.movedBack = step_->noFlux()->crossings();
     }
     double largestDensityBalance() const override { return step_->largestDensityBalance(); }
     long mostFallbacks() const override { return step_->immersed() ? step_->immersed()->mostFallbacks() : 0; }
 
   private:
     void startScheme() override { step_->start(); }
-    void resumeScheme(long count) override { step_->resume(count, scene_.putBack); }
+    void resumeScheme(long count) override { step_->resume(count, scene_.movedBack); }
     long count() const override { return step_->steps(); }
     ExplicitRates estimate() override {
         const coupling::AdjointVerlet::Rates rates = step_->rates(powerIterations);

@@ -30,14 +30,14 @@ class ImplicitStepper final : public Stepper {
     }
     std::size_t stateSize() const override { return 4; }
     void resume(const std::vector<double>& state) override {
-        step_->resume({state.at(0), state.at(1), state.at(2), std::lround(state.at(3))}, scene_.putBack);
+        step_->resume({state.at(0), state.at(1), state.at(2), std::lround(state.at(3))}, scene_.movedBack);
     }
     // The limit follows from the case, which may have another shear rate now.
     double resumedStep(double kept, double allowed) const override { return std::min(kept, allowed); }
 
     void advance(double dt, double planned) override {
         scene_.broken = step_->advance(dt, planned);
-        if (step_->noFlux()) scene_.putBack = step_->noFlux()->crossings();
+        if (step_->noFlux()) scene_.movedBack = step_->noFlux()->crossings();
     }
     void damp(bool damped) override { step_->damped = damped; }
     long tries() const override { return step_->statistics.steps + step_->statistics.halvings; }

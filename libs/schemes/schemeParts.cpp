@@ -30,7 +30,7 @@ sph::StepLimits verletLimits(const CaseFacts& facts, const NumericsSettings& num
 }
 
 coupling::DensityBalance densityBalance(const coupling::Scene& scene) {
-    double volume = scene.fluidBox.volume();
+    double volume = scene.fluidVolume;
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             if (body.cell == 0) volume -= body.solid.volume;

@@ -21,8 +21,8 @@ class Stepper {
     // The step to go on with: `kept` by the checkpoint, `allowed` by the limits now [s].
     virtual double resumedStep(double kept, double /*allowed*/) const { return kept; }
 
-    // One step of dt, planned to be longer where an event has shortened it [s]; what broke and who was put back is then
-    // in the scene. Throws Failure(numerics), on all ranks, where it cannot be made.
+    // One step of dt, planned to be longer where an event has shortened it [s]; what broke and how many particles were
+    // moved back is then in the scene. Throws Failure(numerics), on all ranks, where it cannot be made.
     virtual void advance(double dt, double planned) = 0;
     // From the next step on by backward Euler, where the scheme knows it.
     virtual void damp(bool /*damped*/) {}

@@ -33,7 +33,7 @@ class VelocityVerletStepper final : public ExplicitStepper {
         step_->advance(dt);
         if (!scene_.coupling) return;
         scene_.broken = scene_.coupling->endStep(*scene_.system, dt, budget());
-        scene_.putBack = scene_.coupling->guard().moves();
+        scene_.movedBack = scene_.coupling->guard().moves();
     }
     double largestDensityBalance() const override {
         return scene_.coupling ? scene_.coupling->densityBalance().largest() : 0;
@@ -45,7 +45,7 @@ class VelocityVerletStepper final : public ExplicitStepper {
         step_->resume();
         if (!scene_.coupling) return;
         scene_.coupling->restore(count);
-        scene_.coupling->guard().restore(scene_.putBack);
+        scene_.coupling->guard().restore(scene_.movedBack);
     }
     long count() const override { return scene_.coupling ? scene_.coupling->steps() : 0; }
     ExplicitRates estimate() override {

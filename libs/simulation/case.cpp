@@ -246,14 +246,14 @@ Case Case::read(const Application& app) {
     resolveFlow(c, problems);
     settle(c);
     c.observers.check(c.files["system/observers.yaml"],
-                      {!c.mesh.cells.empty(), c.flowModel->wallAxis() >= 0, c.flow.shearRate, !c.mesh.bodies.empty()},
+                      {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty()},
                       problems);
     c.throwIfAny(problems);
     return c;
 }
 
 int Case::wallLayers() const {
-    return flowModel->wallAxis() < 0 ? 0 : static_cast<int>(std::ceil(support() / spacing() - 1e-9));
+    return !flowModel->walls() ? 0 : static_cast<int>(std::ceil(support() / spacing() - 1e-9));
 }
 
 particles::Box Case::fluidBox() const {
@@ -262,11 +262,15 @@ particles::Box Case::fluidBox() const {
 
 particles::Box Case::particleBox() const {
     particles::Box box = fluidBox();
-    if (const int k = flowModel->wallAxis(); k >= 0) {
-        box.low[k] -= wallLayers() * latticeSpacing()[k];
-        box.high[k] += wallLayers() * latticeSpacing()[k];
-    }
+    const Vec3 depth = wallDepth();
+    for (int k = 0; k < 3; ++k)
+        if (hasWallsAcross(k)) box.low[k] -= depth[k], box.high[k] += depth[k];
     return box;
+}
+
+double Case::fluidVolume() const {
+    const boundary::WallShape* const walls = flowModel->walls();
+    return walls ? walls->volume(fluidBox()) : fluidBox().volume();
 }
 
 Vec3 Case::latticeSpacing() const { return mesh.domain.size.array() / (mesh.domain.size / spacing()).array().round(); }
@@ -325,7 +329,7 @@ bool Case::varyingViscosity() const {
 double Case::viscosityAt(const Vec3& x) const {
     double viscosity = fluid.viscosity;
     for (const LayerSettings& layer : fluid.layers)
-        if (x[flowModel->wallAxis()] > layer.above) viscosity = layer.viscosity;
+        if (x[*planesAcross()] > layer.above) viscosity = layer.viscosity;
     return viscosity;
 }
 

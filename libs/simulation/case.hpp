@@ -37,8 +37,15 @@ struct Case {
     double spacing() const { return numerics.spacing; }
     double support() const { return numerics.support(); }
     double skin() const { return numerics.skin.metres(spacing()); }
-    int wallLayers() const;              // of particles behind each wall: as deep as the support reaches
-    particles::Box fluidBox() const;     // between the walls
+    bool hasWallsAcross(int axis) const { return flowModel->walls() && flowModel->walls()->isAcross(axis); }
+    // The axis across two plane walls, where the flow has them.
+    std::optional<int> planesAcross() const {
+        return flowModel->walls() ? flowModel->walls()->planesAcross() : std::nullopt;
+    }
+    int wallLayers() const;  // of particles behind each wall: as deep as the support reaches
+    Vec3 wallDepth() const { return wallLayers() * latticeSpacing(); }  // of these along each axis [m]
+    double fluidVolume() const;          // between the walls, with all that floats in it [m^3]
+    particles::Box fluidBox() const;     // the smallest around the fluid
     particles::Box particleBox() const;  // with the walls' layers
     Vec3 latticeSpacing() const;         // that divides the fluid's box evenly, dx to 1e-3 of it [m]
     double particleVolume() const { return latticeSpacing().prod(); }  // [m^3]

@@ -74,8 +74,8 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                                  ": it would meet its own image within the kernel's reach; at least " +
                                  formatQuantity(least, unit::metre) + ", better five times its radius");
         }
-    const int wall = c.flowModel->wallAxis();
-    if (wall < 0) return;
+    if (!c.planesAcross()) return;  // whether it crosses walls of another shape its nodes tell (stateCheck.hpp)
+    const int wall = *c.planesAcross();
     // Extent across the walls, as that of the ellipsoid in the shape's box.
     const Vec3 across = geometry::rotationFromZ(settings.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
                middle = box.center();
@@ -122,14 +122,14 @@ void checkLayers(const Case& c, Problems& problems) {
     const Mark fluid{"constant/fluid.yaml", 0, 0};
     const std::vector<LayerSettings>& layers = c.fluid.layers;
     if (layers.empty()) return;
-    const int wall = c.flowModel->wallAxis();
-    if (wall < 0) {
+    if (!c.planesAcross()) {
         problems.add(fluid, "layers",
                      "found layers, but the flow '" + c.flowModel.name +
-                         "' has no walls for them to lie between; remove them, or take a flow with walls in "
-                         "constant/flow.yaml");
+                         "' has no plane walls for them to lie between; remove them, or take a flow with plane walls "
+                         "in constant/flow.yaml");
         return;
     }
+    const int wall = *c.planesAcross();
     if (!c.mesh.cells.empty() || !c.mesh.bodies.empty())
         problems.add(fluid, "layers",
                      std::string("found layers, which are for a fluid alone, but system/mesh.yaml has ") +
@@ -168,19 +168,19 @@ void checkApplication(const Case& c, Problems& problems) {
 }
 
 void checkDomain(const Case& c, Problems& problems) {
-    const int wall = c.flowModel->wallAxis();
     const Mark mesh{"system/mesh.yaml", 0, 0};
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
-        if (k == wall && c.mesh.domain.periodic[axis])
+        const bool hasWalls = c.hasWallsAcross(k);
+        if (hasWalls && c.mesh.domain.periodic[axis])
             problems.add(mesh, "domain.periodic",
                          std::string("axis ") + axisName(k) + " is periodic, but the flow '" + c.flowModel.name +
                              "' has walls across it; write false for this axis");
-        if (k != wall && !c.mesh.domain.periodic[axis])
+        if (!hasWalls && !c.mesh.domain.periodic[axis])
             problems.add(mesh, "domain.periodic",
                          std::string("axis ") + axisName(k) +
                              " is not periodic and has no walls; write true, "
-                             "or give the flow walls with this normal in constant/flow.yaml");
+                             "or give the flow walls across it in constant/flow.yaml");
         const double n = c.mesh.domain.size[k] / c.spacing();
         if (!(std::abs(c.latticeSpacing()[k] / c.spacing() - 1) <= 1e-3))
             problems.add(

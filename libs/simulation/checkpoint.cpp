@@ -44,8 +44,8 @@ std::vector<double> gathered(const sph::Budget& budget, MPI_Comm comm) {
 }
 // A rank's own part where there are as many ranks; else all of it to the root.
 void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sameRanks, int rank) {
-    constexpr std::size_t count = sph::Budget::count, length = 2 * count + 1;
-    budget.total.fill(0), budget.last.fill(0);
+    const std::size_t count = budget.total.size(), length = 2 * count + 1;
+    std::fill(budget.total.begin(), budget.total.end(), 0.0), std::fill(budget.last.begin(), budget.last.end(), 0.0);
     for (std::size_t part = 0; part < all.size() / length; ++part) {
         const double* values = all.data() + length * part;
         budget.lastKnown = values[2 * count] != 0;
@@ -66,7 +66,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (!scene.cells.empty())
-        file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.putBack)));
+        file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.movedBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
     if (scene.budget.kept) file.writeReplicated("budget", gathered(scene.budget, comm));
@@ -144,7 +144,7 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     if (!scene.cells.empty()) {
         const auto moves = file.template attribute<std::int64_t>("guardMoves");
         // The sum over ranks is what counts: rank 0 takes it up.
-        scene.putBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
+        scene.movedBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
     }
     if (file.sameRanks())
         scene.system->resume(file.template readReplicated<double>("bricks"),

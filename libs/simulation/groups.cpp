@@ -39,7 +39,7 @@ void addResolution(Groups& groups, const Case& c, double a, const std::string& w
 }
 
 void addGap(Groups& groups, const Case& c, double a, const std::string& whose, const char* text) {
-    if (const int k = c.flowModel->wallAxis(); k >= 0) groups.add("L/a", c.mesh.domain.size[k] / a, text, whose);
+    if (const auto k = c.planesAcross()) groups.add("L/a", c.mesh.domain.size[*k] / a, text, whose);
 }
 
 void addCell(Groups& groups, const Case& c, const CellSettings& cell) {

@@ -25,7 +25,7 @@ class Integrator {
     };
     State state(const Time& time) const { return {time.dt, stepper_->state()}; }
     void resume(const State& state, Time& time);  // after a restart
-    // The same where the scene has been put back within a run.
+    // The same where the scene has been rolled back within a run.
     void goBack(const State& state, Time& time);
     // From the next step that is chosen on: none longer than this [s], and by backward Euler where damped and the
     // scheme knows it.

@@ -9,7 +9,6 @@
 
 #include "geometry/insideTest.hpp"
 #include "geometry/triangleTree.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::simulation {
 
@@ -35,7 +34,7 @@ class Clearance {
 
     std::vector<Problem> problems() {
         for (std::size_t s = 0; s < all_.size(); ++s) inBox(s);
-        for (const ImagePair& pair : geometry::neighbours(bounds_, particles::periodOf(box_), gap_)) meet(pair);
+        for (const ImagePair& pair : geometry::neighbours(bounds_, box_.periodicity(), gap_)) meet(pair);
         return std::move(problems_);
     }
 
@@ -161,7 +160,7 @@ class Clearance {
         return *grid;
     }
     std::string words(const Vec3& x) const {
-        const Vec3 p = 1e6 * box_.wrap(x);
+        const Vec3 p = 1e6 * box_.periodicity().wrap(x);
         return fmt::format("({:.4g}, {:.4g}, {:.4g}) um", p[0], p[1], p[2]);
     }
     static std::string inUm(double metres) { return fmt::format("{:.3g} um", 1e6 * metres); }

@@ -69,7 +69,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     auto& spacing = data.point.scalars["spacing"];
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;
-        data.points.push_back(scene.system->box().wrap(s.position(i)));
+        data.points.push_back(scene.system->periodicity().wrap(s.position(i)));
         id.push_back(s.id[i]);
         spacing.push_back(scene.spacing);
         if (side) side->push_back(s.optional().side ? s.side[i] : 0);
@@ -184,7 +184,7 @@ std::string writeFault(const Case& input, const Scene& scene, const Time& time, 
     auto& density = near.point.scalars["density"];
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec3 x = s.position(i);
-        if (!(scene.system->box().minimumImage(x - place).norm() <= reach * input.support())) continue;
+        if (!(scene.system->periodicity().shortest(x - place).norm() <= reach * input.support())) continue;
         near.points.push_back(x);
         id.push_back(s.id[i]), kind.push_back(s.kind[i]);
         velocity.push_back(s.velocity(i)), density.push_back(s.density[i]);

@@ -1,7 +1,6 @@
 #include "simulation/sceneBuilder.hpp"
 
 #include "geometry/periodicSurface.hpp"
-#include "particles/period.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/startFiles.hpp"
 #include "simulation/stressFree.hpp"
@@ -54,7 +53,7 @@ std::vector<Cell> readCells(const Case& input) {
 int cellAround(const Scene& scene, const Vec3& x) {
     for (const Cell& cell : scene.cells) {
         const geometry::TriangleMesh mesh{cell.membrane.position, cell.membrane.network().triangles()};
-        if (geometry::InsideTest(mesh).inside(x, particles::periodOf(scene.fluidBox))) return cell.membrane.cell;
+        if (geometry::InsideTest(mesh).inside(x, scene.fluidBox.periodicity())) return cell.membrane.cell;
     }
     return 0;
 }
@@ -68,7 +67,7 @@ void addBodies(const Case& input, Scene& scene) {
         bodies::Body body(place.name, place.type(), {mesh.points, mesh.triangles}, input.densityOf(place),
                           input.bodyOf(place).motion.model, input.support(), input.spacing());
         const geometry::PeriodicSurface surface({mesh.points, mesh.triangles}, input.support(),
-                                                particles::periodOf(scene.fluidBox));
+                                                scene.fluidBox.periodicity());
         std::vector<Vec3> places;
         for (std::size_t k = 0; k < number.size(); ++k)
             if (number[k] == static_cast<std::int64_t>(all.size()) + 1)
@@ -121,6 +120,8 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.spacing = input.spacing();
     scene.fluidBox = input.fluidBox();
     scene.flow = input.flow;
+    scene.fluidVolume = input.fluidVolume();
+    scene.budget = sph::Budget(input.flow.walls.count());
     scene.budget.kept = input.observers.wantBudget();
     const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
     const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
@@ -173,7 +174,7 @@ class StartingParticles {
         const io::PolyData walls = readStart(input_, "walls");
         forShare(walls.points.size(), comm_, [&](std::size_t k) {
             const Vec3& x = walls.points[k];
-            const std::size_t i = add(Kind::wall, k, x, model.walls.velocity[model.walls.isUpper(x)], model.density);
+            const std::size_t i = add(Kind::wall, k, x, model.walls.nearest(x).velocityAt(x), model.density);
             if (s_.optional().side) s_.side[i] = 0;
         });
         firstId_ += walls.points.size();

@@ -174,9 +174,9 @@ void Schedule::reportRupture(const Scene& scene, const Time& time) {
 }
 
 void Schedule::reportGuard(const Scene& scene, const Time& time) {
-    const long moves = app_.communicator().sum(scene.putBack);
+    const long moves = app_.communicator().sum(scene.movedBack);
     if (moves > guardMoves_)
-        app_.log().info("membranes: {} particles put back until strain {:.3f} ({} since the last note)", moves,
+        app_.log().info("membranes: {} particles moved back until strain {:.3f} ({} since the last note)", moves,
                         time.strain(), moves - guardMoves_);
     guardMoves_ = moves;
 }

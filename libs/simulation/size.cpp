@@ -35,7 +35,7 @@ double ghostShare(const Case& c, int ranks, double reach) {
     }
     double share = 1;
     for (int k = 0; k < 3; ++k) {
-        const double outer = k == c.flowModel->wallAxis() ? 2 * brick[k] / box[k] : 0;  // faces at walls
+        const double outer = c.hasWallsAcross(k) ? 2 * brick[k] / box[k] : 0;  // faces at walls
         share *= 1 + (2 - outer) * reach / brick[k];
     }
     return share - 1;
@@ -74,16 +74,16 @@ long estimateNodes(const CellSettings& cell) {
     return std::lround(cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
 }
 
-ParticleEstimate estimateParticles(const Case& c) {
+ParticleEstimate estimateLattice(const Case& c) {
     ParticleEstimate n;
-    long count[3], layer = 1;
-    n.fluid = 1;
-    for (int k = 0; k < 3; ++k) n.fluid *= count[k] = std::lround(c.mesh.domain.size[k] / c.spacing());
-    if (const int k = c.flowModel->wallAxis(); k >= 0) {
-        for (int j = 0; j < 3; ++j)
-            if (j != k) layer *= count[j];
-        n.walls = 2 * layer * c.wallLayers();
-    }
+    n.fluid = std::lround(c.fluidVolume() / c.particleVolume());
+    if (const boundary::WallShape* const walls = c.flowModel->walls())
+        n.walls = std::lround(walls->volumeBehind(c.fluidBox(), c.wallDepth()) / c.particleVolume());
+    return n;
+}
+
+ParticleEstimate estimateParticles(const Case& c) {
+    ParticleEstimate n = estimateLattice(c);
     if (!c.numerics.isImmersed())  // else nodes are no particles
         for (const CellSettings& cell : c.mesh.cells) {
             // As particles the nodes replace fluid of area x dx.

@@ -16,6 +16,8 @@ struct ParticleEstimate {
     long fluid = 0, walls = 0, nodes = 0, bodies = 0;  // nodes: of membranes that are particles too (dual identity)
     long all() const { return fluid + walls + nodes + bodies; }
 };
+// Of a case without cells and bodies.
+ParticleEstimate estimateLattice(const Case& input);
 ParticleEstimate estimateParticles(const Case& input);
 
 long estimateNodes(const CellSettings& cell);  // of its mesh

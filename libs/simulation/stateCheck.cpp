@@ -10,7 +10,6 @@
 #include "core/together.hpp"
 #include "geometry/crossings.hpp"
 #include "geometry/triangleMesh.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::simulation {
 
@@ -28,6 +27,7 @@ constexpr double sharpestFold = -0.5;      // cosine between the normals of neig
 constexpr double beyondWall = 2;           // spacings
 constexpr double mostPeriods = 3;          // of a cell's length
 constexpr const char* noContact = "there is no contact law in this version";
+constexpr const char* tooShort = "the box is too short for it";
 constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
 
 double length(const Membrane& m, const Bond& bond) {
@@ -102,7 +102,7 @@ Fault StateCheck::ofParticles(const Scene& scene, const Time& time, double& fast
     const double scale2 = std::max(fastest2_, input_.flow.speed * input_.flow.speed);
     const double far = std::min(0.5 * scene.spacing / time.dt, model.soundSpeed);
     const double tooFast2 = std::max(largestSpeedUp * largestSpeedUp * scale2, far * far);
-    const sph::Walls& walls = model.walls;
+    const boundary::Walls& walls = model.walls;
     const double reserve = beyondWall * scene.spacing;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec3 x = s.position(i), u = s.velocity(i);
@@ -110,8 +110,7 @@ Fault StateCheck::ofParticles(const Scene& scene, const Time& time, double& fast
         const double speed2 = u.squaredNorm();
         fastest2 = std::max(fastest2, speed2);
         const bool isDense = change < largestDensityChange, isSlow = speed2 <= tooFast2;
-        const bool isInside = !walls.exist() || s.kindOf(i) == Kind::wall ||
-                              (x[walls.axis] > walls.low - reserve && x[walls.axis] < walls.high + reserve);
+        const bool isInside = s.kindOf(i) == Kind::wall || walls.distance(x) > -reserve;
         if (isDense && isSlow && isInside && x.allFinite()) continue;
         const char* const what =
             isDense && isSlow && x.allFinite() ? "is lost beyond a wall" : "shows that the run has diverged";
@@ -186,80 +185,100 @@ Fault StateCheck::ofCell(const Scene& scene, std::size_t index, const Time& time
     return {when() + fmt::format("at {}: {} pairs of its triangles cut each other", words(x), cuts.size()), x};
 }
 
-// Of closed cells that this rank holds and of bodies, against each other, their periodic images and walls. Where all
-// ranks know all, each looks at its share.
-Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
-    struct Surface {
-        std::string name;
-        geometry::SurfaceView view;
-        bool isCell;
-    };
+namespace {
+
+// A closed cell or a body.
+struct Surface {
+    std::string name;
+    geometry::SurfaceView view;
+    bool isCell;
+    std::string text() const { return fmt::format("the {} {}", isCell ? "cell" : "body", name); }
+};
+
+// Closed cells that this rank holds, and bodies; their nodes go to `ofBodies`, which must stay.
+std::vector<Surface> surfacesOf(const Scene& scene, std::vector<std::vector<Vec3>>& ofBodies) {
     std::vector<Surface> surfaces;
-    std::vector<std::vector<Vec3>> nodesOfBodies;
     for (const Cell& cell : scene.cells)
         if (cell.held && !cell.membrane.network().isOpen())
             surfaces.push_back({fmt::format("'{}'", cell.membrane.name),
                                 {&cell.membrane.position, &cell.membrane.network().triangles()},
                                 true});
-    if (scene.bodies) {
-        nodesOfBodies.reserve(scene.bodies->all().size());
-        for (const bodies::Body& body : scene.bodies->all()) {
-            nodesOfBodies.push_back(body.nodes());
-            surfaces.push_back(
-                {fmt::format("'{}'", body.name), {&nodesOfBodies.back(), &body.solid.surface.triangles}, false});
-        }
+    if (!scene.bodies) return surfaces;
+    ofBodies.reserve(scene.bodies->all().size());
+    for (const bodies::Body& body : scene.bodies->all()) {
+        ofBodies.push_back(body.nodes());
+        surfaces.push_back({fmt::format("'{}'", body.name), {&ofBodies.back(), &body.solid.surface.triangles}, false});
     }
-    const particles::Box& box = scene.system->box();
+    return surfaces;
+}
+
+struct Meeting {
+    Vec3 place = Vec3::Zero();
+    std::string text, cause;  // empty: none
+};
+
+Meeting withItself(const Surface& surface, const geometry::Bounds& bounds, const Periodicity& period) {
+    for (int k = 0; k < 3; ++k)
+        if (period.isAlong(k) && bounds.sizes()[k] > mostPeriods * period.lengths()[k])
+            return {bounds.center(),
+                    fmt::format("{} has become {:.4g} um long along {}, more than {} times the box", surface.text(),
+                                1e6 * bounds.sizes()[k], "xyz"[k], mostPeriods),
+                    tooShort};
+    return {};
+}
+
+Meeting withWalls(const Surface& surface, const geometry::Bounds& bounds, const boundary::Walls& walls) {
+    if (walls.distance(bounds.center()) > 0.5 * bounds.diagonal().norm()) return {};
+    for (const Vec3& x : *surface.view.nodes)
+        if (walls.distance(x) < 0)
+            return {x, fmt::format("{} crosses the {} wall", surface.text(), walls.nearest(x).name), noContact};
+    return {};
+}
+
+// A surface and its own image: one and other are the same.
+Meeting ofTwo(const Surface& one, const Surface& other, const Vec3& shift) {
+    const auto found = geometry::crossing(one.view, other.view, shift);
+    if (!found) return {};
+    if (&one == &other)
+        return {found->place, fmt::format("{} touches or crosses its own periodic image", one.text()), tooShort};
+    return {found->place,
+            one.isCell == other.isCell
+                ? fmt::format("the {} {} and {} touch or cross", one.isCell ? "cells" : "bodies", one.name, other.name)
+                : fmt::format("the cell {} and the body {} touch or cross", one.name, other.name),
+            noContact};
+}
+
+}  // namespace
+
+// Against each other, their periodic images and walls. Where all ranks know all, each looks at its share.
+Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
+    std::vector<std::vector<Vec3>> nodesOfBodies;
+    const std::vector<Surface> surfaces = surfacesOf(scene, nodesOfBodies);
     const particles::Decomposition& ranks = scene.system->decomposition();
     const auto isShare = [&](std::size_t n) {
         return !input_.numerics.isImmersed() ||
                n % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
     };
-    const auto fault = [&](const Vec3& place, const std::string& text, const std::string& cause) {
-        const Vec3 x = box.wrap(place), um = 1e6 * x;
+    const Periodicity& period = scene.system->periodicity();
+    const auto faultOf = [&](const Meeting& meeting) {
+        const Vec3 x = period.wrap(meeting.place), um = 1e6 * x;
         return Fault{fmt::format("step {}, t = {:.6g} s{}: {} at ({:.4g}, {:.4g}, {:.4g}) um; {}", time.step, time.t,
-                                 time.shearRate > 0 ? fmt::format(", strain {:.4g}", time.strain()) : "", text, um[0],
-                                 um[1], um[2], cause),
+                                 time.shearRate > 0 ? fmt::format(", strain {:.4g}", time.strain()) : "", meeting.text,
+                                 um[0], um[1], um[2], meeting.cause),
                      x, true};
     };
-    const sph::Walls& walls = scene.model().walls;
-    const geometry::Period period = particles::periodOf(box);
     std::vector<geometry::Bounds> bounds;
     for (std::size_t n = 0; n < surfaces.size(); ++n) {
         const geometry::Bounds& own = bounds.emplace_back(surfaces[n].view.bounds());
         if (own.isEmpty()) continue;
-        for (int k = 0; k < 3; ++k)
-            if (period[k] > 0 && own.sizes()[k] > mostPeriods * period[k])
-                return fault(own.center(),
-                             fmt::format("the {} {} has become {:.4g} um long along {}, more than {} times the box",
-                                         surfaces[n].isCell ? "cell" : "body", surfaces[n].name, 1e6 * own.sizes()[k],
-                                         "xyz"[k], mostPeriods),
-                             "the box is too short for it");
-        if (!walls.exist() || !isShare(n)) continue;
-        if (own.min()[walls.axis] >= walls.low && own.max()[walls.axis] <= walls.high) continue;
-        for (const Vec3& x : *surfaces[n].view.nodes)
-            if (x[walls.axis] < walls.low || x[walls.axis] > walls.high)
-                return fault(x,
-                             fmt::format("the {} {} crosses the wall along {}", surfaces[n].isCell ? "cell" : "body",
-                                         surfaces[n].name, "xyz"[walls.axis]),
-                             noContact);
+        Meeting meeting = withItself(surfaces[n], own, period);
+        if (meeting.text.empty() && isShare(n)) meeting = withWalls(surfaces[n], own, scene.model().walls);
+        if (!meeting.text.empty()) return faultOf(meeting);
     }
     for (const geometry::ImagePair& pair : geometry::neighbours(bounds, period)) {
-        const Surface &one = surfaces[pair.first], &other = surfaces[pair.second];
         if (!isShare(pair.first)) continue;
-        const auto found = geometry::crossing(one.view, other.view, pair.shift);
-        if (!found) continue;
-        if (pair.first == pair.second)
-            return fault(found->place,
-                         fmt::format("the {} {} touches or crosses its own periodic image",
-                                     one.isCell ? "cell" : "body", one.name),
-                         "the box is too short for it");
-        return fault(
-            found->place,
-            one.isCell == other.isCell
-                ? fmt::format("the {} {} and {} touch or cross", one.isCell ? "cells" : "bodies", one.name, other.name)
-                : fmt::format("the cell {} and the body {} touch or cross", one.name, other.name),
-            noContact);
+        const Meeting meeting = ofTwo(surfaces[pair.first], surfaces[pair.second], pair.shift);
+        if (!meeting.text.empty()) return faultOf(meeting);
     }
     return {};
 }

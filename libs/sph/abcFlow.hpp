@@ -19,7 +19,6 @@ namespace corpuscle::sph {
 struct AbcFlow : Flow {
     double A = 0, B = 0, C = 0;
     static const Schema<AbcFlow>& schema();
-    int wallAxis() const override { return -1; }
     bool isThreeDimensional() const override { return true; }
     FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
 };

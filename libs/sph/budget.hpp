@@ -12,8 +12,8 @@
 // by is what the step makes or loses (observers/conservation.cpp). Every rank has its part and nothing is reduced until
 // somebody looks.
 #pragma once
-#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "core/vec.hpp"
 
@@ -21,34 +21,36 @@ namespace corpuscle::sph {
 
 struct Budget {
     enum Entry : std::size_t {
-        ofWalls,      // power of the walls on the fluid [W]
-        ofBodyForce,  // of the body force on fluid, nodes and bodies that yield
-        ofBodies,     // of bodies whose motion is given
-        viscous,      // dissipated by the viscosity of the fluid: velocity . L velocity
-        inMembranes,  // dissipated by that of membranes
-        kinetic,      // velocity . mass d(velocity)/dt as the step has it
-        elastic,      // - velocity of nodes . elastic force
-        compression,  // - sum of V p div u
-        ofSolver,     // velocity . residual of the step's equations
-        released,     // elastic energy of what broke, no rate [J]
-        lowerWall,    // force of the lower wall on the fluid [N], three numbers; of the upper
-        upperWall = lowerWall + 3,
-        bodyForce = upperWall + 3,     // force
+        ofWalls,                       // power of the walls on the fluid [W]
+        ofBodyForce,                   // of the body force on fluid, nodes and bodies that yield
+        ofBodies,                      // of bodies whose motion is given
+        viscous,                       // dissipated by the viscosity of the fluid: velocity . L velocity
+        inMembranes,                   // dissipated by that of membranes
+        kinetic,                       // velocity . mass d(velocity)/dt as the step has it
+        elastic,                       // - velocity of nodes . elastic force
+        compression,                   // - sum of V p div u
+        ofSolver,                      // velocity . residual of the step's equations
+        released,                      // elastic energy of what broke, no rate [J]
+        bodyForce,                     // force [N], three numbers
         givenBodies = bodyForce + 3,   // force of bodies whose motion is given
-        wallTorque = givenBodies + 3,  // of both walls about the middle of the box [N m]
+        wallTorque = givenBodies + 3,  // of all walls about the middle of the box [N m]
         forceTorque = wallTorque + 3,  // of the body force
         count = forceTorque + 3
     };
-    using Values = std::array<double, count>;
+    // By entry; behind them, for each wall by its number, its force on the fluid [N], three numbers.
+    using Values = std::vector<double>;
+    static std::size_t wall(std::size_t number) { return count + 3 * number; }
+    static Values zero(std::size_t walls) { return Values(wall(walls), 0.0); }
 
     bool kept = false;
-    Values total{};  // rates over time, of this rank
+    Values total;  // rates over time, of this rank
     // Where the quadrature needs them: rates at the end of the last step, and whether they are known.
-    Values last{};
+    Values last;
     bool lastKnown = false;
 
+    explicit Budget(std::size_t walls = 0) : total(zero(walls)), last(zero(walls)) {}
     void add(double seconds, const Values& rates) {
-        for (std::size_t k = 0; k < count; ++k) total[k] += seconds * rates[k];
+        for (std::size_t k = 0; k < total.size(); ++k) total[k] += seconds * rates[k];
     }
     static void add(Values& values, std::size_t first, const Vec3& v) {
         for (int k = 0; k < 3; ++k) values[first + static_cast<std::size_t>(k)] += v[k];
@@ -57,9 +59,9 @@ struct Budget {
         return {values[first], values[first + 1], values[first + 2]};
     }
     // Of a wall that exerts this force on the fluid at x, from the middle of the box.
-    static void addWall(Values& rates, bool upper, const Vec3& velocity, const Vec3& x, const Vec3& force) {
+    static void addWall(Values& rates, int number, const Vec3& velocity, const Vec3& x, const Vec3& force) {
         rates[ofWalls] += velocity.dot(force);
-        add(rates, upper ? upperWall : lowerWall, force);
+        add(rates, wall(static_cast<std::size_t>(number)), force);
         add(rates, wallTorque, x.cross(force));
     }
     // Of the body force on something of velocity u at x.

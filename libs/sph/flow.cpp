@@ -23,11 +23,14 @@ bool equallyLong(const std::string& flow, const particles::Box& box, const std::
     return equal;
 }
 
-const Schema<WallSettings>& WallSettings::schema() {
-    static const Schema<WallSettings> s = Schema<WallSettings>("walls", "two parallel walls at the ends of the box")
-                                              .word("normal", &WallSettings::normal, {"x", "y", "z"},
-                                                    "axis that the walls are normal to", {.fallback = "z"});
-    return s;
+void checkWalls(const boundary::WallShape& walls, bool planes, const Mark& mark, Problems& problems) {
+    const std::optional<int> across = walls.planesAcross();
+    if (across == 0)
+        problems.add(mark, "walls.normal", "found x, but the flow goes along x; allowed are y, z");
+    else if (walls.isAcross(0))
+        problems.add(mark, "walls", "these walls end the fluid along x, but the flow goes along x");
+    else if (planes && !across)
+        problems.add(mark, "walls.type", "this flow needs two parallel planes; allowed is planes");
 }
 
 const Schema<InertiaSettings>& InertiaSettings::schema() {

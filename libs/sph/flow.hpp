@@ -1,4 +1,5 @@
-// Family of flows: what drives the fluid, from constant/flow.yaml.
+// Family of flows: what drives the fluid, from constant/flow.yaml: how fast walls move (where they stand is up to
+// boundary/wallShape.hpp), and a body force.
 //
 // A case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the membrane's bond law,
 //     Ca = mu gammadot a/Gs.
@@ -7,9 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/registry.hpp"
-#include "particles/box.hpp"
-#include "sph/walls.hpp"
+#include "boundary/wallShape.hpp"
 
 namespace corpuscle::sph {
 
@@ -29,13 +28,14 @@ struct FlowState {
     double density = 0;  // [kg/m^3]
     bool densityFromRe = false;
     double shearRate = 0;  // gammadot; 0: none [1/s]
+    int gradient = 2;      // axis along which a sheared flow changes
     double speed = 0;      // largest speed that walls or body force give [m/s]
     double length = 0;     // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
     double rate = 0;       // shearRate, or speed/length [1/s]
     double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: it is developed at t = 0
     bool settles = false;  // towards a steady flow; else it decays
-    Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
-    Walls walls;
+    Vec3 bodyForce = Vec3::Zero();                // [m/s^2]
+    boundary::Walls walls;                        // as they move
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0
     std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
 };
@@ -44,8 +44,8 @@ class Flow {
   public:
     static constexpr const char* familyName = "flow";
     virtual ~Flow() = default;
-    // Axis normal to the walls, -1 for none: known before anything else, since filling needs it.
-    virtual int wallAxis() const = 0;
+    // Where its walls are, null for none: known before anything else, since filling needs it.
+    virtual const boundary::WallShape* walls() const { return nullptr; }
     // Whether it carries particles along all axes: a perfect lattice then does not last.
     virtual bool isThreeDimensional() const { return false; }
     // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
@@ -56,12 +56,9 @@ class Flow {
 bool equallyLong(const std::string& flow, const particles::Box& box, const std::string& axes, const Mark& mark,
                  Problems& problems);
 
-// walls: {normal: z}
-struct WallSettings {
-    std::string normal = "z";
-    static const Schema<WallSettings>& schema();
-    int axis() const { return normal[0] - 'x'; }
-};
+// Problems of the key `walls` where walls end the fluid along x, the direction of the flow; with `planes`, also where
+// they are not two parallel planes.
+void checkWalls(const boundary::WallShape& walls, bool planes, const Mark& mark, Problems& problems);
 
 // inertia: {Re: 0.1}
 struct InertiaSettings {

@@ -16,27 +16,25 @@ using particles::ParticleSystem;
 using particles::Precision;
 using particles::RealArray;
 
-namespace {
-constexpr double nowhere = 1e6;  // in supports: the planes of a scene that has bodies but no walls
-}  // namespace
-
 FluidForces::FluidForces(const FluidModel& model, const ParticleSystem& system, RigidGroups* groups)
-    : model_(model), groups_(groups) {
+    : model_(model),
+      groups_(groups),
+      wallForces_(model.walls.count(), Vec3::Zero()),
+      rates_(Budget::zero(model.walls.count())) {
     const double H = system.support();
     variant_ = {model.kernel->kind(), system.store().optional().mass, system.store().optional().viscosity,
-                groups != nullptr};
+                groups                ? Boundaries::bodies
+                : model.walls.exist() ? Boundaries::walls
+                                      : Boundaries::none};
     constants_.support = H;
     constants_.gradientNormalisation = model.kernel->gradientNormalisation(H);
     constants_.mass = model.mass;
-    const bool walls = model.walls.exist();
-    if (walls) constants_.walls = planes(model.walls, system.box(), system.spacing(), H);
-    if (groups && !walls) constants_.walls.half = nowhere, constants_.walls.smallestDistance = 1;
-    const bool boundaries = walls || groups;
+    constants_.noSlip = NoSlip::of(system.spacing(), H);
     if (system.precision() == Precision::mixed)
         float_.away = pairKernels().fluidFloat(variant_, false),
-        float_.atWall = pairKernels().fluidFloat(variant_, boundaries);
+        float_.atWall = pairKernels().fluidFloat(variant_, true);
     else
-        double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, boundaries);
+        double_.away = pairKernels().fluid(variant_, false), double_.atWall = pairKernels().fluid(variant_, true);
 }
 
 std::size_t FluidForces::bytes() const {
@@ -61,6 +59,8 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
     pairs.records.resize((n + static_cast<std::size_t>(system.ghosts())) * fields);
     const double viscous = variant_.varyingViscosity ? 1.0 : std::sqrt(2 * model_.viscosity);
     const double support = constants_.support, inverseMass = 1 / constants_.mass;
+    const bool hasGap = variant_.boundaries != Boundaries::none;
+    if (hasGap) model_.walls.findDistances(boundary::pointsOf(s), gap_);
     const particles::RecordFrame frame(system);
     Real* r = pairs.records.data();
     for (std::size_t i = 0; i < n; ++i, r += fields) {
@@ -70,8 +70,9 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
         r[7] = static_cast<Real>(viscous / density[i]);
         if (variant_.varyingMass) r[8] = static_cast<Real>(s.mass[i] * inverseMass);
         if (variant_.varyingViscosity) r[variant_.varyingMass ? 9 : 8] = static_cast<Real>(s.viscosity[i]);
+        if (hasGap) r[variant_.gap()] = static_cast<Real>(NoSlip::gap(gap_[i], support));
     }
-    for (const int i : wallParticles_) pairs.records[static_cast<std::size_t>(i) * fields + 7] *= -1;
+    for (const auto& [i, wall] : wallParticles_) pairs.records[static_cast<std::size_t>(i) * fields + 7] *= -1;
     if (groups_) packGroups(pairs.records.data(), system.owned(), motion);
     particles::sumOverPairs(system, pairs.away, pairs.atWall, constants_, pairs.records, variant_.fields(), sums_,
                             results);
@@ -79,7 +80,7 @@ void FluidForces::run(Pairs<Real>& pairs, ParticleSystem& system, const RealArra
 
 template <class Real>
 void FluidForces::packGroups(Real* records, int owned, const std::vector<RigidMotion>& motion) const {
-    const int fields = variant_.fields(), slope = fields - 4;
+    const int fields = variant_.fields(), slope = variant_.slope();
     const double support = constants_.support;
     const auto record = [&](int particle) { return records + static_cast<long>(particle) * fields; };
     for (int i = 0; i < owned; ++i) std::fill_n(record(i) + slope, 4, Real(0));
@@ -129,15 +130,15 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
         groups_->wrenches =
             groups_->gather(groups_->motion, s.fx.data(), s.fy.data(), s.fz.data(), s.mass.data(), system.comm());
     if (keepsBudget_) findRates(system);
-    for (Vec3& f : wallForce_) f.setZero();
-    for (const int i : wallParticles_) {
+    for (Vec3& f : wallForces_) f.setZero();
+    for (const auto& [i, wall] : wallParticles_) {
         const double mass = variant_.varyingMass ? s.mass[i] : model_.mass;
-        wallForce_[model_.walls.isUpper(s.position(i))] += mass * Vec3(s.fx[i], s.fy[i], s.fz[i]);
+        wallForces_[static_cast<std::size_t>(wall)] += mass * Vec3(s.fx[i], s.fy[i], s.fz[i]);
     }
     if (!model_.bodyForce.isZero())
         for (std::size_t i = 0; i < n; ++i)
             s.fx[i] += model_.bodyForce[0], s.fy[i] += model_.bodyForce[1], s.fz[i] += model_.bodyForce[2];
-    for (const int i : wallParticles_) s.fx[i] = s.fy[i] = s.fz[i] = 0;
+    for (const auto& [i, wall] : wallParticles_) s.fx[i] = s.fy[i] = s.fz[i] = 0;
     if (groups_)
         for (const RigidGroups::Member& m : groups_->members)
             s.fx[m.particle] = s.fy[m.particle] = s.fz[m.particle] = 0;
@@ -147,7 +148,7 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
 void FluidForces::findRates(const ParticleSystem& system) {
     const ParticleStore& s = system.store();
     const Vec3 middle = system.box().middle(), &g = model_.bodyForce;
-    rates_.fill(0);
+    std::fill(rates_.begin(), rates_.end(), 0.0);
     double power = 0, compression = 0, moving = 0;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Kind kind = s.kindOf(i);
@@ -158,7 +159,7 @@ void FluidForces::findRates(const ParticleSystem& system) {
         power += force.dot(u);
         if (kind == Kind::wall) {
             const Vec3 x = s.position(i);
-            Budget::addWall(rates_, model_.walls.isUpper(x), u, x - middle, -force);
+            Budget::addWall(rates_, model_.walls.nearest(x).number, u, x - middle, -force);
             continue;
         }
         moving += force.dot(u);
@@ -177,7 +178,8 @@ void FluidForces::findWalls(const ParticleSystem& system) {
     wallParticles_.clear();
     if (!model_.walls.exist()) return;
     for (int i = 0; i < system.owned(); ++i)
-        if (system.store().kindOf(i) == Kind::wall) wallParticles_.push_back(i);
+        if (const ParticleStore& s = system.store(); s.kindOf(i) == Kind::wall)
+            wallParticles_.push_back({i, model_.walls.nearest(s.position(i)).number});
 }
 
 void FluidForces::runViscosity(ParticleSystem& system, const RealArray (&velocity)[3],
@@ -194,7 +196,7 @@ void FluidForces::runViscosity(ParticleSystem& system, const RealArray (&velocit
 
 void FluidForces::findViscosity(ParticleSystem& system, const RealArray (&velocity)[3], RealArray (&acceleration)[3]) {
     runViscosity(system, velocity, still_, acceleration);
-    for (const int i : wallParticles_)
+    for (const auto& [i, wall] : wallParticles_)
         for (auto& component : acceleration) component[static_cast<std::size_t>(i)] = 0;
 }
 
@@ -204,7 +206,7 @@ double FluidForces::viscousRate(ParticleSystem& system, int iterations) {
     RealArray vector[3], image[3];
     for (int k = 0; k < 3; ++k) vector[k].resize(n), image[k].resize(n);
     const auto clearWalls = [&] {
-        for (const int i : wallParticles_)
+        for (const auto& [i, wall] : wallParticles_)
             for (auto& component : vector) component[i] = 0;
     };
     for (std::size_t i = 0; i < n; ++i)

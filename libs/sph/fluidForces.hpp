@@ -6,12 +6,12 @@
 #pragma once
 #include <memory>
 
+#include "boundary/walls.hpp"
 #include "particles/particleSystem.hpp"
 #include "sph/budget.hpp"
 #include "sph/equationOfState.hpp"
 #include "sph/kernel.hpp"
 #include "sph/rigidGroups.hpp"
-#include "sph/walls.hpp"
 
 namespace corpuscle::sph {
 
@@ -23,7 +23,7 @@ struct FluidModel {
     double soundSpeed = 0;          // c0 [m/s]
     double mass = 0;                // of one fluid particle, rho0 dx^3 [kg]
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
-    Walls walls;
+    boundary::Walls walls;
     double lowestLayer = 0;  // lowest viscosity of the fluid's layers [Pa s]; 0: no layers
 };
 
@@ -48,10 +48,10 @@ class FluidForces {
     // Particles that are walls, found anew after each list build.
     void findWalls(const particles::ParticleSystem& system);
 
-    // Force of the fluid on the lower and the upper wall at the last evaluation, this rank's part [N].
-    const Vec3& wallForce(int upper) const { return wallForce_[upper]; }
+    // Forces of the fluid on the walls, by their number, at the last evaluation, this rank's part [N].
+    const std::vector<Vec3>& wallForces() const { return wallForces_; }
     // For integrators that work forces out by other operators.
-    void setWallForces(const Vec3& lower, const Vec3& upper) { wallForce_[0] = lower, wallForce_[1] = upper; }
+    void setWallForces(std::vector<Vec3> forces) { wallForces_ = std::move(forces); }
 
     // Accelerations of the owned particles by viscosity alone at a velocity; those of walls are 0. No rigid groups.
     // Collective.
@@ -95,10 +95,14 @@ class FluidForces {
     Pairs<double> double_;
     Pairs<float> float_;
     particles::RealArray sums_, density_, pressure_, unused_;
-    std::vector<int> wallParticles_;
-    Vec3 wallForce_[2] = {Vec3::Zero(), Vec3::Zero()};
+    struct WallParticle {
+        int particle, wall;
+    };
+    std::vector<WallParticle> wallParticles_;
+    std::vector<double> gap_;  // distance from the nearest wall [m]
+    std::vector<Vec3> wallForces_;
     bool keepsBudget_ = false;
-    Budget::Values rates_{};
+    Budget::Values rates_;
     particles::RealArray used_[3];
 };
 

@@ -1,6 +1,8 @@
 // Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the
 // longest to compile.
 #pragma once
+#include <stdexcept>
+
 #include "sph/pairBuild.hpp"
 #include "sph/pairKernels.hpp"
 
@@ -15,16 +17,30 @@ struct FluidKernels {
   private:
     template <class Kernel>
     static PairKernels::Fluid<Real> of(FluidVariant v, bool atWall) {
-        if (v.bodies)
-            return v.varyingViscosity ? of<Kernel, true, true, true>(atWall) : of<Kernel, true, false, true>(atWall);
-        if (v.varyingMass)
-            return v.varyingViscosity ? of<Kernel, true, true, false>(atWall) : of<Kernel, true, false, false>(atWall);
-        return v.varyingViscosity ? of<Kernel, false, true, false>(atWall) : of<Kernel, false, false, false>(atWall);
+        switch (v.boundaries) {
+            case Boundaries::none:
+                return of<Kernel, Boundaries::none>(v, atWall);
+            case Boundaries::walls:
+                return of<Kernel, Boundaries::walls>(v, atWall);
+            case Boundaries::bodies:
+                return v.varyingViscosity ? of<Kernel, true, true, Boundaries::bodies>(atWall)
+                                          : of<Kernel, true, false, Boundaries::bodies>(atWall);
+        }
+        throw std::logic_error("there are no such boundaries");
     }
-    template <class Kernel, bool varyingMass, bool varyingViscosity, bool bodies>
+    template <class Kernel, Boundaries boundaries>
+    static PairKernels::Fluid<Real> of(FluidVariant v, bool atWall) {
+        if (v.varyingMass)
+            return v.varyingViscosity ? of<Kernel, true, true, boundaries>(atWall)
+                                      : of<Kernel, true, false, boundaries>(atWall);
+        return v.varyingViscosity ? of<Kernel, false, true, boundaries>(atWall)
+                                  : of<Kernel, false, false, boundaries>(atWall);
+    }
+    template <class Kernel, bool varyingMass, bool varyingViscosity, Boundaries boundaries>
     static PairKernels::Fluid<Real> of(bool atWall) {
-        return atWall ? build<FluidPair<Kernel, varyingMass, varyingViscosity, bodies, true>>
-                      : build<FluidPair<Kernel, varyingMass, varyingViscosity, bodies, false>>;
+        constexpr bool canBeAtWall = boundaries != Boundaries::none;
+        return atWall ? build<FluidPair<Kernel, varyingMass, varyingViscosity, boundaries, canBeAtWall>>
+                      : build<FluidPair<Kernel, varyingMass, varyingViscosity, boundaries, false>>;
     }
     template <class Law>
     static constexpr PairKernels::Fluid<Real> build = PairBuild<Law, FluidConstants, Real, precision>::kernel;

@@ -4,7 +4,7 @@
 //     drho_i/dt = - sum_j m_j F x_ij . u_ij                      F = -W'(r)/r,  grad W = -F x_ij
 //
 // mu_ij is the uniform viscosity, or across a jump the harmonic mean 2 mu_i mu_j/(mu_i + mu_j) (Cleary and Monaghan,
-// J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls; wallPlanes.hpp has its form at them.
+// J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls; noSlip.hpp has its form at them.
 //
 // At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion
 // is taken away: with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the
@@ -15,14 +15,14 @@
 //
 // record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies |
 //                                                                            | viscosity, if it varies |
-//          where there are bodies: H_s g (3), depth/H_s
+//          where there are walls or bodies: gap/H_s (noSlip.hpp) | where there are bodies: H_s g (3), depth/H_s
 //          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do
 //              not act
 //          on each other (the list leaves such pairs out only where a whole block is wall)
 // What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives
 // forces, which are equal and opposite.
 #pragma once
-#include "sph/wallPlanes.hpp"
+#include "sph/noSlip.hpp"
 
 namespace corpuscle::sph {
 
@@ -30,13 +30,21 @@ struct FluidConstants {
     double support = 0;                // H_s
     double gradientNormalisation = 0;  // of the kernel
     double mass = 0;                   // of a particle, or the unit of masses
-    WallPlanes walls;
+    NoSlip noSlip;
 };
 
-template <class Kernel, bool varyingMass, bool varyingViscosity, bool bodies, bool atWall>
+// Of a scene; bodies: rigid ones, with walls or without.
+enum class Boundaries { none, walls, bodies };
+constexpr int fieldsOf(Boundaries boundaries) {
+    return boundaries == Boundaries::none ? 0 : boundaries == Boundaries::walls ? 1 : 5;
+}
+
+template <class Kernel, bool varyingMass, bool varyingViscosity, Boundaries boundaries, bool atWall>
 struct FluidPair {
-    static constexpr int slope = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);  // the first of H_s g
-    static constexpr int fields = slope + (bodies ? 4 : 0);
+    static constexpr int gap = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);
+    static constexpr int slope = gap + 1;  // the first of H_s g
+    static constexpr int fields = gap + fieldsOf(boundaries);
+    static constexpr bool bodies = boundaries == Boundaries::bodies;
     FluidConstants c;
 
     template <class V, class J>
@@ -53,17 +61,17 @@ struct FluidPair {
             if (particles::anyNegative(i[7]) || particles::anyNegative(J(j[7]))) {
                 const V both = max(i[7], V(j[7]));
                 F = whereNegative(both, V(0.0), F);
-                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) *
-                          c.walls.beta(c.walls.gap(i), c.walls.gap(j));
+                viscous =
+                    whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * c.noSlip.beta(i[gap], J(j[gap]));
                 for (int k = 0; k < 3; ++k) extra[k] = i[slope + 3] * V(j[slope + k]) - i[slope + k] * V(j[slope + 3]);
             }
         } else if constexpr (atWall) {
-            const V gapI = c.walls.gap(i);
-            const J gapJ = c.walls.gap(j);
+            const V gapI = i[gap];
+            const J gapJ(j[gap]);
             if (particles::anyNegative(gapJ) || particles::anyNegative(gapI)) {
                 const V both = max(i[7], V(j[7]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), F);
-                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * c.walls.beta(gapI, gapJ);
+                viscous = whereNegative(both, V(0.0), max(viscous, V(0.0) - viscous)) * c.noSlip.beta(gapI, gapJ);
             }
         }
 

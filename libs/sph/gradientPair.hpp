@@ -2,9 +2,9 @@
 //     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta m_ij
 //     V_i sum_j V_j F d (u_j - u_i)^T,    d = x_j - x_i,  F = -W'(r)/r;  B_i before it makes it the gradient
 // m_ij is the harmonic mean 2 m_i m_j/(m_i + m_j) of the layers' viscosities, 1 where it does not vary in layers; beta
-// that of plane walls (wallPlanes.hpp). Two wall particles do not act on each other.
+// that of walls (noSlip.hpp). Two wall particles do not act on each other.
 //
-// record | that of ratePair.hpp, and in layers the viscosity m in units of the fluid's
+// record | that of ratePair.hpp, in layers with the viscosity m in units of the fluid's
 // sums   | -(L u) (3), nothing, d_x du (3), d_y du (3), d_z du (3), nothing (3)
 #pragma once
 #include "sph/ratePair.hpp"
@@ -15,12 +15,12 @@ template <class Kernel, bool layered, bool atWall>
 struct GradientPair {
     using Rate = RatePair<Kernel, atWall>;
     static constexpr int fields = Rate::fields, viscosity = 14, gradient = 4, sums = 16;
-    WallPlanes walls;
+    NoSlip noSlip;
 
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[sums]) const {
         V F, w;
-        Rate::weights(walls, i, j, q, F, w);
+        Rate::weights(noSlip, i, j, q, F, w);
         if constexpr (layered) w = w * (i[viscosity] * V(J(2) * j[viscosity])) / (i[viscosity] + V(j[viscosity]));
         for (V& sum : p) sum = V(0.0);
         for (int l = 0; l < 3; ++l) {

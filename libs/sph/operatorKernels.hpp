@@ -29,9 +29,9 @@ struct OperatorKernels {
     }
     template <class Kernel, class Rates, class RatesAtWall, bool symmetricStress>
     static PairKernels::Operators<Real> of() {
-        return {build<MomentPair<Kernel>, MomentConstants>, build<Rates, WallPlanes>, build<RatesAtWall, WallPlanes>,
-                build<StressPair<Kernel, symmetricStress, false>, WallPlanes>,
-                build<StressPair<Kernel, symmetricStress, true>, WallPlanes>};
+        return {build<MomentPair<Kernel>, MomentConstants>, build<Rates, NoSlip>, build<RatesAtWall, NoSlip>,
+                build<StressPair<Kernel, symmetricStress, false>, NoSlip>,
+                build<StressPair<Kernel, symmetricStress, true>, NoSlip>};
     }
     template <class Law, class Constants>
     static constexpr particles::PairKernel<Constants, Real> build = PairBuild<Law, Constants, Real, precision>::kernel;

@@ -17,7 +17,7 @@ using particles::ParticleSystem;
 namespace {
 constexpr int rateFields = 16, momentFields = 4, stressAt = 4;
 constexpr particles::Halo::Part velocityPart{3, 6};
-constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14;
+constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14, gapAt = 15;
 constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
 constexpr double leastMoment = 0.05;              // of the smallest direction, 1 on an ideal set
 
@@ -56,7 +56,7 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
     viscousUnit_ = model.viscosity * gradient * unitVolume_ * unitVolume_;
     rateUnit_ = gradient * H * unitVolume_ * unitVolume_;
     wallScale_ = form == OperatorForm::plain ? 1 : 1 / model.kernel->secondMoment(H / system.spacing());
-    if (model.walls.exist()) walls_ = planes(model.walls, system.box(), system.spacing(), H);
+    noSlip_ = NoSlip::of(system.spacing(), H);
 }
 
 template <class Real>
@@ -125,6 +125,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
     rateRecords_.assign(all * rateFields, Real(0));
     const auto stressFields = static_cast<std::size_t>(stressFields_);
     stressRecords_.assign(all * stressFields, Real(0));
+    model_.walls.findDistances(boundary::pointsOf(system.store()), gap_);
     for (std::size_t i = 0; i < n; ++i) {
         Real *rate = rateRecords_.data() + rateFields * i, *stress = stressRecords_.data() + stressFields * i;
         std::copy_n(momentRecords_.data() + momentFields * i, 3, rate);
@@ -133,6 +134,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
         rate[scaleAt] = static_cast<Real>(scale_[i]);
         for (std::size_t k = 0; k < 6; ++k) rate[correctionAt + k] = static_cast<Real>(correction_[i][k]);
         if (isLayered()) rate[viscosityAt] = static_cast<Real>(system.store().viscosity[i] / model_.viscosity);
+        rate[gapAt] = static_cast<Real>(NoSlip::gap(gap_[i], system.support()));
         stress[3] = rate[volumeAt];
     }
     const double scale = 1 / system.support();
@@ -152,7 +154,7 @@ void Operators<Real>::sumRates(ParticleSystem& system, const Field& u, Known kno
         std::copy_n(u.data() + width * entry, 3, rateRecords_.data() + rateFields * record + 3);
     };
     const auto work = [&](PairList::Group group) {
-        particles::addPairs(PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, walls_, system.list(),
+        particles::addPairs(PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, noSlip_, system.list(),
                             system.list().blocks(group), rateRecords_, sums);
     };
     const std::size_t n = volume_.size();
@@ -232,8 +234,8 @@ void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& fo
         }
     std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // what rates left to others
     const auto work = [&](const particles::SharedParticles::Blocks& blocks) {
-        particles::addPairs(kernels_.stress, walls_, system.list(), blocks.away, stressRecords_, sums_);
-        particles::addPairs(kernels_.stressAtWall, walls_, system.list(), blocks.atWall, stressRecords_, sums_);
+        particles::addPairs(kernels_.stress, noSlip_, system.list(), blocks.away, stressRecords_, sums_);
+        particles::addPairs(kernels_.stressAtWall, noSlip_, system.list(), blocks.atWall, stressRecords_, sums_);
         system.halo().foldImages(sums_.data(), system.owned(), width);
     };
     work(shared_.reaching());

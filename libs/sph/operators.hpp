@@ -119,7 +119,7 @@ class Operators {
     int stressFields_;
     PairKernels::Operators<Real> kernels_;
     MomentConstants moments_;
-    WallPlanes walls_;
+    NoSlip noSlip_;
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
     Field momentRecords_, rateRecords_, stressRecords_;
     particles::SharedParticles shared_;
@@ -133,6 +133,7 @@ class Operators {
     std::vector<double> scale_;                      // 1/S2
     std::vector<Vec3> disorder_;
     std::vector<char> wall_;
+    std::vector<double> gap_;  // distance from the nearest wall [m]
 };
 
 extern template class Operators<double>;

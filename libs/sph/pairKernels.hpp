@@ -15,8 +15,10 @@ enum class ViscosityKind { uniform, sides, layers };
 struct FluidVariant {
     KernelKind kernel = Kernels::kindOf<WendlandC2>();
     bool varyingMass = false, varyingViscosity = false;
-    bool bodies = false;  // rigid ones; only with varyingMass
-    int fields() const { return 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0) + (bodies ? 4 : 0); }
+    Boundaries boundaries = Boundaries::none;  // bodies only with varyingMass
+    int gap() const { return 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0); }
+    int slope() const { return gap() + 1; }
+    int fields() const { return gap() + fieldsOf(boundaries); }
 };
 
 struct PairKernels {
@@ -31,9 +33,9 @@ struct PairKernels {
     // Of operators.hpp.
     template <class Real>
     struct Operators {
-        particles::PairKernel<MomentConstants, Real> moments;          // results: MomentPair::sums
-        particles::PairKernel<WallPlanes, Real> rates, ratesAtWall;    // sums only
-        particles::PairKernel<WallPlanes, Real> stress, stressAtWall;  // sums only
+        particles::PairKernel<MomentConstants, Real> moments;      // results: MomentPair::sums
+        particles::PairKernel<NoSlip, Real> rates, ratesAtWall;    // sums only
+        particles::PairKernel<NoSlip, Real> stress, stressAtWall;  // sums only
     };
     Operators<double> (*operators)(KernelKind, ViscosityKind);      // Precision::full
     Operators<float> (*operatorsFloat)(KernelKind, ViscosityKind);  // Precision::mixed

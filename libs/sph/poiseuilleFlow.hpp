@@ -2,6 +2,7 @@
 //     u(s) = F/(2 nu) (s - low)(high - s) in the end; from rest
 //     u nu/(F L^2) = y(1 - y)/2 - sum_n 4/((2n+1)^3 pi^3) sin((2n+1) pi y) exp(-(2n+1)^2 pi^2 nu t/L^2),  y = (s -
 //         low)/L
+// Between other walls it starts from rest.
 #pragma once
 #include "sph/flow.hpp"
 
@@ -9,10 +10,10 @@ namespace corpuscle::sph {
 
 struct PoiseuilleFlow : Flow {
     double bodyForce = 0;
-    WallSettings walls;
+    Choice<boundary::WallShape> wallShape;
     std::string start = "rest";
     static const Schema<PoiseuilleFlow>& schema();
-    int wallAxis() const override { return walls.axis(); }
+    const boundary::WallShape* walls() const override { return wallShape.model.get(); }
     FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
 };
 

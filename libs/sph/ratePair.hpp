@@ -1,36 +1,37 @@
 // Viscous force and divergence of a velocity (operators.hpp), where viscosity is uniform:
 //     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta
 //     V_i (D u)_i = sum_j V_i V_j F (B_i d).(u_j - u_i),   d = x_j - x_i,  F = -W'(r)/r
-// beta is that of plane walls (wallPlanes.hpp). Two wall particles do not act on each other.
+// beta is that of walls (noSlip.hpp). Two wall particles do not act on each other.
 //
 // record | x y z in supports | u (3) | V in units of `volume`, negative for wall particles | s | B (xx yy zz xy xz yz)
+//        | nothing here | gap in supports
 // sums   | -(L u) (3), V D u
 #pragma once
-#include "sph/wallPlanes.hpp"
+#include "sph/noSlip.hpp"
 
 namespace corpuscle::sph {
 
 template <class Kernel, bool atWall>
 struct RatePair {
-    static constexpr int velocity = 3, volume = 6, scale = 7, correction = 8;
-    static constexpr int fields = 16;  // one cache line of floats; the last two are not used here
+    static constexpr int velocity = 3, volume = 6, scale = 7, correction = 8, gap = 15;
+    static constexpr int fields = 16;  // one cache line of floats
     static constexpr bool distinct = true;
-    WallPlanes walls;
+    NoSlip noSlip;
 
     // V_i V_j F and w_ij.
     template <class V, class J>
-    static CORPUSCLE_INLINE void weights(const WallPlanes& walls, const V (&i)[fields], const J* j, const V& q, V& F,
+    static CORPUSCLE_INLINE void weights(const NoSlip& noSlip, const V (&i)[fields], const J* j, const V& q, V& F,
                                          V& w) {
         F = Kernel::template slope<V>(q) * (i[volume] * V(j[volume]));
         w = F * (i[scale] + V(j[scale]));
         if constexpr (atWall) {
-            const V gapI = walls.gap(i);
-            const J gapJ = walls.gap(j);
+            const V gapI = i[gap];
+            const J gapJ(j[gap]);
             if (particles::anyNegative(min(gapI, i[volume])) || particles::anyNegative(gapJ) ||
                 particles::anyNegative(J(j[volume]))) {
                 const V both = max(i[volume], V(j[volume]));  // negative for two wall particles
                 F = whereNegative(both, V(0.0), max(F, V(0.0) - F));
-                w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * walls.beta(gapI, gapJ);
+                w = whereNegative(both, V(0.0), max(w, V(0.0) - w)) * noSlip.beta(gapI, gapJ);
             }
         }
     }
@@ -38,7 +39,7 @@ struct RatePair {
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[5]) const {
         V F, w;
-        weights(walls, i, j, q, F, w);
+        weights(noSlip, i, j, q, F, w);
         V du[3];
         for (int k = 0; k < 3; ++k) {
             du[k] = V(j[velocity + k]) - i[velocity + k];

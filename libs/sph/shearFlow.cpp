@@ -14,7 +14,7 @@ const Schema<ShearFlow>& ShearFlow::schema() {
             .exactlyOneOf({"Ca", "shearRate"})
             .tableOr("physical", "inertia", &ShearFlow::inertia, "density as given, or set by a Reynolds number",
                      {.fallback = "physical"})
-            .table("walls", &ShearFlow::walls, "the two moving walls", {.fallback = "{normal: z}"})
+            .model("walls", &ShearFlow::wallShape, "the two moving walls", {.fallback = "{normal: z}"})
             .word("start", &ShearFlow::start, {"linear", "rest"},
                   "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"})
             .atRestart(AtRestart::noted, {"Ca", "shearRate"})
@@ -24,7 +24,6 @@ const Schema<ShearFlow>& ShearFlow::schema() {
 }
 
 FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Problems& problems) const {
-    const int axis = walls.axis();
     FlowState flow;
     if (Ca && context.shearModulus <= 0)
         problems.add(mark, "Ca",
@@ -35,8 +34,9 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
                      "Re = rho gammadot a^2/mu needs the radius a of a cell or a rigid body, and the case has neither; "
                      "write inertia: "
                      "physical and give the density in constant/fluid.yaml");
-    if (axis == 0) problems.add(mark, "walls.normal", "found x, but the flow goes along x; allowed are y, z");
+    checkWalls(*wallShape, true, mark, problems);
     if (!problems.empty()) return flow;
+    const int axis = *wallShape->planesAcross();
 
     flow.shearRate = Ca ? *Ca * context.shearModulus / (context.viscosity * context.radius) : *shearRate;
     flow.density = inertia ? inertia->Re * context.viscosity / (flow.shearRate * context.radius * context.radius)
@@ -49,11 +49,10 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
     flow.settles = true;
     if (start == "rest" || context.layered)
         flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.leastViscosity;
-    flow.walls.axis = axis;
-    flow.walls.low = context.box.low[axis];
-    flow.walls.high = context.box.high[axis];
-    flow.walls.velocity[0] = Vec3(-flow.speed, 0, 0);
-    flow.walls.velocity[1] = Vec3(flow.speed, 0, 0);
+    flow.gradient = axis;
+    flow.walls = wallShape->place(context.box);
+    for (const boundary::Wall& wall : boundary::Walls(flow.walls))
+        flow.walls.setVelocity(wall.number, Vec3(-flow.speed * wall.normal(Vec3::Zero())[axis], 0, 0));
     const double rate = start == "linear" ? flow.shearRate : 0;
     flow.velocity = [=](const Vec3& p) { return Vec3(rate * (p[axis] - middle), 0, 0); };
     flow.pressure = [](const Vec3&) { return 0.0; };

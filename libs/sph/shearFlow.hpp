@@ -11,10 +11,10 @@ namespace corpuscle::sph {
 struct ShearFlow : Flow {
     std::optional<double> Ca, shearRate;
     std::optional<InertiaSettings> inertia;  // empty: physical
-    WallSettings walls;
+    Choice<boundary::WallShape> wallShape;
     std::string start = "linear";
     static const Schema<ShearFlow>& schema();
-    int wallAxis() const override { return walls.axis(); }
+    const boundary::WallShape* walls() const override { return wallShape.model.get(); }
     FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
 };
 

@@ -7,14 +7,14 @@
 //                                                                                  | row
 // sums   | f (3), nothing
 #pragma once
-#include "sph/wallPlanes.hpp"
+#include "sph/noSlip.hpp"
 
 namespace corpuscle::sph {
 
 template <class Kernel, bool symmetric, bool atWall>
 struct StressPair {
     static constexpr int volume = 3, stress = 4, numbers = symmetric ? 6 : 9, fields = stress + numbers;
-    WallPlanes walls;  // the constants of ratePair.hpp; not used here
+    NoSlip noSlip;  // the constants of ratePair.hpp; not used here
 
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const {

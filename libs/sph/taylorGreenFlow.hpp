@@ -20,7 +20,6 @@ struct TaylorGreenFlow : Flow {
     double speed = 0;
     long dimensions = 2;
     static const Schema<TaylorGreenFlow>& schema();
-    int wallAxis() const override { return -1; }
     bool isThreeDimensional() const override { return dimensions == 3; }
     FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
 };

@@ -34,7 +34,7 @@ Plain plainForces(SphereInFluid& f) {
     std::vector<Vec3> foot(n, Vec3::Zero());
     std::size_t member = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        arm[i] = box.minimumImage(f.places[i] - f.centre);
+        arm[i] = box.periodicity().shortest(f.places[i] - f.centre);
         density[i] = 1 + 0.02 * std::sin(static_cast<double>(i));
         if (f.solid[i]) {
             const BodyParticle& part = f.body().particles[member++];
@@ -53,7 +53,7 @@ Plain plainForces(SphereInFluid& f) {
     Plain plain{{}, std::vector<Vec3>(n, Vec3::Zero())};
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
-            const Vec3 d = box.minimumImage(f.places[j] - f.places[i]);
+            const Vec3 d = box.periodicity().shortest(f.places[j] - f.places[i]);
             const double q = d.norm() / support;
             if (i == j || q >= 1 || (f.solid[i] && f.solid[j])) continue;
             const double F = f.fluid.kernel->gradientNormalisation(support) * f.fluid.kernel->slope(q);
@@ -140,7 +140,7 @@ TEST(Bodies, fluidAndFreeBodyKeepTheirMomentum) {
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::body) continue;
         const Vec3 arm = body.state.orientation * body.particles[static_cast<std::size_t>(s.member[i])].place;
-        EXPECT_LT(f.system->box().minimumImage(body.state.centre + arm - s.position(i)).norm(), 1e-12);
+        EXPECT_LT(f.system->periodicity().shortest(body.state.centre + arm - s.position(i)).norm(), 1e-12);
         EXPECT_LT((body.state.motion.at(arm) - s.velocity(i)).norm(), 1e-12);
     }
 }

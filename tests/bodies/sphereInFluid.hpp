@@ -80,7 +80,7 @@ struct SphereInFluid {
         bodies->groups().motion[0] = rigid;
         ParticleStore& s = system->store();
         for (std::size_t i = 0; i < s.size(); ++i) {
-            const Vec3 arm = system->box().minimumImage(s.position(i) - centre);
+            const Vec3 arm = system->periodicity().shortest(s.position(i) - centre);
             const auto id = static_cast<std::size_t>(s.id[i]);
             s.setVelocity(i, solid[id] ? rigid.at(arm) : velocity(id, arm));
             s.density[i] = 1 + 0.02 * std::sin(static_cast<double>(id));

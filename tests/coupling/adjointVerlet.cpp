@@ -105,6 +105,7 @@ struct Cells : SphereScene {
         scene.system = std::move(system);
         scene.cells = std::move(cells);
         scene.fluidBox = scene.system->box();
+        scene.fluidVolume = scene.fluidBox.volume();
         scene.spacing = 1;
         scene.flow.rate = 0.02;
         scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);

@@ -15,15 +15,15 @@ inline std::vector<sph::testing::Particle> still(const Index3& size, double diso
 
 // Off its lattice between walls that are on theirs, moving with the walls and the flow.
 template <class Flow>
-std::vector<sph::testing::Particle> sheared(const Index3& size, double jitter, const sph::Walls& walls, Flow&& flow) {
+std::vector<sph::testing::Particle> sheared(const Index3& size, double jitter, const boundary::Walls& walls,
+                                            Flow&& flow) {
     std::vector<sph::testing::Particle> all = sph::testing::lattice(size, jitter),
                                         places = sph::testing::lattice(size, 0);
     for (std::size_t i = 0; i < all.size(); ++i) {
         sph::testing::Particle& p = all[i];
-        const double z = places[i].x[2];
-        p.wall = z < walls.low || z > walls.high;
+        p.wall = walls.distance(places[i].x) < 0;
         if (p.wall) p.x = places[i].x;
-        p.u = p.wall ? walls.velocity[walls.isUpper(p.x)] : flow(p.x);
+        p.u = p.wall ? walls.nearest(p.x).velocity : flow(p.x);
         p.density = p.mass = p.viscosity = 1;
     }
     return all;
@@ -39,6 +39,8 @@ struct FluidScene {
                                                                    fields, fluidSupport, skin, 1.0, precision);
         sph::testing::deal(all, *scene.system);
         scene.fluidBox = scene.system->box();
+        scene.fluidVolume = scene.fluidBox.volume();
+        scene.budget = sph::Budget(model.walls.count());
         scene.spacing = 1;
         scene.flow.rate = rate;
         scene.flow.length = static_cast<double>(size[2]);

@@ -108,7 +108,7 @@ std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const 
         std::vector<Weight>& own = result.emplace_back();
         std::vector<Vec5> of;
         Eigen::Matrix<double, 5, 5> moments = Eigen::Matrix<double, 5, 5>::Zero();
-        const Vec3 x = system->box().wrap(node);
+        const Vec3 x = system->periodicity().wrap(node);
         for (std::size_t j = 0; j < all.size(); ++j)
             for (int image = 0; image < 27; ++image) {
                 const Vec3 shift(size[0] * (image % 3 - 1), size[1] * (image / 3 % 3 - 1), size[2] * (image / 9 - 1));
@@ -176,7 +176,7 @@ TEST(Immersed, constantAndLinearFieldsAreFoundExactly) {
         const Cell& cell = scene.cells[c];
         const Vec3 middle = middleOf(cell);
         const auto u = scene.field<double>(
-            [&](std::size_t, const Vec3& x) -> Vec3 { return a + G * box.minimumImage(x - middle); });
+            [&](std::size_t, const Vec3& x) -> Vec3 { return a + G * box.periodicity().shortest(x - middle); });
         const auto v = scene.immersed.interpolate(u.data());
         const auto& x = cell.membrane.position;
         const auto g = membrane::volumeGradient(x, cell.membrane.network().triangles());
@@ -309,7 +309,7 @@ TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
     const particles::Box& box = scene.system->box();
     const Vec3 middle = middleOf(scene.cells[0]);
     for (std::size_t j = 0; j < scene.all.size(); ++j)
-        if (box.minimumImage(scene.all[j].x - middle).norm() < radius + 1.6) scene.volumes[j] = 0;
+        if (box.periodicity().shortest(scene.all[j].x - middle).norm() < radius + 1.6) scene.volumes[j] = 0;
     scene.open(0), scene.open(1);
     scene.build();
     long shepard = 0;
@@ -344,7 +344,7 @@ TEST(Immersed, spreadForcesKeepTheirTorque) {
         double scale = 0;
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec3 f = Vec3::Map(spread.data() + 4 * i),
-                       arm = scene.system->box().minimumImage(s.position(i) - middle);
+                       arm = scene.system->periodicity().shortest(s.position(i) - middle);
             force += f, torque += arm.cross(f), scale += arm.norm() * f.norm();
         }
         scale = sph::testing::sumOverRanks(scale);

@@ -41,10 +41,10 @@ struct Guarded : SphereScene {
         return least.rank == self ? found : -1;
     }
     Vec3 outward(std::size_t i) const {
-        return system->box().minimumImage(system->store().position(i) - centre).normalized();
+        return system->periodicity().shortest(system->store().position(i) - centre).normalized();
     }
     double distance(std::size_t i) const {
-        return system->box().minimumImage(system->store().position(i) - centre).norm();
+        return system->periodicity().shortest(system->store().position(i) - centre).norm();
     }
     int moves() const { return static_cast<int>(sph::testing::sumOverRanks(static_cast<double>(guard.moves()))); }
 };
@@ -58,7 +58,7 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
     const double own = side == 1 ? -1 : 1;
     Guarded scene;
     ParticleStore& s = scene.system->store();
-    scene.guard.putBack(*scene.system, scene.cells);
+    scene.guard.movedBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 0) << "nobody is on the wrong side yet";
 
     const int i = scene.nearest(side);
@@ -69,7 +69,7 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
         s.setVelocity(i, -own * 3 * n + Vec3(0, 0, 0.25));
     }
     const ParticleStore before = s;
-    scene.guard.putBack(*scene.system, scene.cells);
+    scene.guard.movedBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 1);
     const auto report = scene.guard.takeReport();
     EXPECT_EQ(report.size(), i >= 0 ? 1u : 0u);
@@ -87,7 +87,7 @@ TEST_P(Guard, putsAParticleThrownAcrossTheMembraneBackToItsSide) {
         EXPECT_NEAR(report[0].depth, 0.4, 0.07);
         EXPECT_EQ(scene.guard.deepest(), report[0].depth);
     }
-    scene.guard.putBack(*scene.system, scene.cells);
+    scene.guard.movedBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 1) << "it stays";
 }
 
@@ -102,7 +102,7 @@ TEST_P(Guard, leavesARupturedCellAlone) {
     alive[3] = 0;
     scene.cells[0].membrane.restore(alive);
     EXPECT_TRUE(scene.cells[0].membrane.network().isOpen());
-    scene.guard.putBack(*scene.system, scene.cells);
+    scene.guard.movedBack(*scene.system, scene.cells);
     EXPECT_EQ(scene.moves(), 0);
 }
 

@@ -41,7 +41,9 @@ struct Watched : SphereScene {
         for (std::size_t i = 0; i < every.size(); ++i) every[i] = static_cast<int>(i);
         noFlux.find(*system, every);
     }
-    Vec3 fromCentre(std::size_t i) const { return system->box().minimumImage(system->store().position(i) - centre); }
+    Vec3 fromCentre(std::size_t i) const {
+        return system->periodicity().shortest(system->store().position(i) - centre);
+    }
 
     // Nearest point of the mesh, triangle by triangle: its place from the centre, and the distance from it, positive
     // outside.

@@ -65,7 +65,7 @@ struct SphereScene {
                 int side = 0;
                 bool free = true;  // not where the membrane's nodes and facets are
                 for (std::size_t c = 0; c < centres.size(); ++c) {
-                    const double distance = box.minimumImage(p.x - centres[c]).norm();
+                    const double distance = box.periodicity().shortest(p.x - centres[c]).norm();
                     if (distance < radius) side = static_cast<int>(c) + 1;
                     free &= std::abs(distance - radius) > 0.15;
                 }
@@ -91,6 +91,7 @@ struct SphereScene {
         scene.system = std::move(system);
         scene.cells = std::move(cells);
         scene.fluidBox = scene.system->box();
+        scene.fluidVolume = scene.fluidBox.volume();
         scene.spacing = 1;
         scene.flow.rate = rate;
         scene.forces = std::make_unique<sph::FluidForces>(sph::testing::model("wendlandC2"), *scene.system);
@@ -106,8 +107,8 @@ struct SphereScene {
                 const std::int64_t n = s.node[i] - cells[c].firstNode;
                 if (s.node[i] < 0 || n < 0 || n >= cells[c].nodeCount()) continue;
                 // The image nearest to where the particle is: it moves continuously between builds.
-                s.setPosition(i, s.position(i) + system->box().minimumImage(f(start[c][static_cast<std::size_t>(n)]) -
-                                                                            s.position(i)));
+                s.setPosition(i, s.position(i) + system->periodicity().shortest(
+                                                     f(start[c][static_cast<std::size_t>(n)]) - s.position(i)));
             }
     }
 };

@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 SKIPPED = re.compile(r"build(-.*)?|\.git|results|checkpoints|postProcessing|runs|__pycache__")  # folders
-KINDS = {"law": "membrane", "kernel": "sph", "flow": "sph", "observer": "observers", "scheme": "schemes"}
+KINDS = {"law": "membrane", "kernel": "sph", "wall": "boundary", "flow": "sph", "observer": "observers", "scheme": "schemes"}
 
 
 def run(command, folder, code=0):

@@ -50,21 +50,24 @@ TEST(LatticeFill, adjustsTheSpacingWithinATenthOfAPercent) {
     }
 }
 
-TEST(LatticeFill, wallLayersBeyondTheWalls) {
+// Plane walls at the box's ends across an axis, with particles in this many layers behind them.
+LatticeBox walled(int axis, int layers) {
     LatticeBox box = periodicBox();
-    box.wallNormal = 2;
-    box.wallLayers = 3;
-    const Lattice lattice = fillLattice(box);
+    box.layers[static_cast<std::size_t>(axis)] = layers;
+    box.kindOf = [axis, half = 0.5 * box.size[axis]](const Vec3& x) {
+        return std::abs(x[axis]) < half ? PointKind::fluid : PointKind::wall;
+    };
+    return box;
+}
+
+TEST(LatticeFill, wallLayersBeyondTheWalls) {
+    const Lattice lattice = fillLattice(walled(2, 3));
     int lower = 0, upper = 0;
     for (std::size_t n = 0; n < lattice.points.size(); ++n) {
         const double z = lattice.points[n].z();
-        if (lattice.kinds[n] == PointKind::lowerWall) {
-            ++lower;
-            EXPECT_LT(z, -3 * um);
-        }
-        if (lattice.kinds[n] == PointKind::upperWall) {
-            ++upper;
-            EXPECT_GT(z, 3 * um);
+        if (lattice.kinds[n] == PointKind::wall) {
+            ++(z < 0 ? lower : upper);
+            EXPECT_GT(std::abs(z), 3 * um);
         }
         if (lattice.kinds[n] == PointKind::fluid) {
             EXPECT_LT(std::abs(z), 3 * um);
@@ -75,10 +78,31 @@ TEST(LatticeFill, wallLayersBeyondTheWalls) {
     EXPECT_NEAR(lattice.points.front().z(), -4.25 * um, 1e-18);
 }
 
-TEST(LatticeFill, jitterMovesTheFluidOnlyAndFollowsTheSeed) {
+// A tube along x, its wall three spacings thick, leaves the corners of the box empty.
+TEST(LatticeFill, leavesOutWhereNothingIs) {
     LatticeBox box = periodicBox();
-    box.wallNormal = 1;
-    box.wallLayers = 2;
+    const double radius = 2 * um, thickness = 1.5 * um;
+    box.layers = {0, 1, 1};
+    box.kindOf = [=](const Vec3& x) {
+        const double depth = std::hypot(x[1], x[2]) - radius;
+        return depth < 0 ? PointKind::fluid : depth < thickness ? PointKind::wall : PointKind::nothing;
+    };
+    const Lattice lattice = fillLattice(box);
+    long fluid = 0, wall = 0;
+    for (std::size_t n = 0; n < lattice.points.size(); ++n) {
+        const double r = std::hypot(lattice.points[n][1], lattice.points[n][2]);
+        EXPECT_EQ(lattice.kinds[n], r < radius ? PointKind::fluid : PointKind::wall);
+        EXPECT_LT(r, radius + thickness);
+        ++(lattice.kinds[n] == PointKind::fluid ? fluid : wall);
+    }
+    const double volume = box.size[0] * std::numbers::pi / std::pow(box.spacing, 3);
+    EXPECT_NEAR(static_cast<double>(fluid), volume * radius * radius, 0.06 * static_cast<double>(fluid));
+    EXPECT_NEAR(static_cast<double>(wall), volume * (std::pow(radius + thickness, 2) - radius * radius),
+                0.06 * static_cast<double>(wall));
+}
+
+TEST(LatticeFill, jitterMovesTheFluidOnlyAndFollowsTheSeed) {
+    LatticeBox box = walled(1, 2);
     const Lattice still = fillLattice(box);
     box.jitter = 0.2;
     const Lattice moved = fillLattice(box), again = fillLattice(box);
@@ -101,7 +125,8 @@ TEST(LatticeFill, jitterMovesTheFluidOnlyAndFollowsTheSeed) {
 TEST(Carve, takesTheNearestPoints) {
     const Lattice lattice = fillLattice(periodicBox());
     const std::vector<Vec3> nodes{{5.9 * um, 0, 0}, {0.1 * um, 0.2 * um, 0.3 * um}, {-2 * um, 1 * um, 2.9 * um}};
-    const Period period(12 * um, 10 * um, 0);
+    const Vec3 lengths(12 * um, 10 * um, 0);
+    const Periodicity period = Periodicity::centred(lengths);
     for (const std::size_t count : {std::size_t{1}, std::size_t{25}, std::size_t{700}, lattice.points.size()}) {
         const std::vector<int> removed = carve(lattice.points, nodes, count, period);
         ASSERT_EQ(removed.size(), count);
@@ -112,7 +137,7 @@ TEST(Carve, takesTheNearestPoints) {
             double d = std::numeric_limits<double>::infinity();
             for (const Vec3& node : nodes) {
                 Vec3 r = lattice.points[i] - node;
-                for (int axis = 0; axis < 2; ++axis) r[axis] -= period[axis] * std::round(r[axis] / period[axis]);
+                for (int axis = 0; axis < 2; ++axis) r[axis] -= lengths[axis] * std::round(r[axis] / lengths[axis]);
                 d = std::min(d, r.norm());
             }
             if (taken.contains(i))
@@ -130,7 +155,7 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
     LatticeBox box = periodicBox();
     box.size = Vec3(20, 10, 6) * um;
     const Lattice lattice = fillLattice(box);
-    const Period period(20 * um, 10 * um, 0);
+    const Periodicity period = Periodicity::centred({20 * um, 10 * um, 0});
     const KuchelFackerell shape(8 * um, 2.12 * um, 1 * um);
     std::vector<TriangleMesh> cells(2, meshSurface(shape, 0.5 * um));
     cells[1].translate({9 * um, 1 * um, 0});  // sticks out of the box at x = 10 um
@@ -152,7 +177,7 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
     EXPECT_EQ(different, moved);
     EXPECT_GT(moved, 100u);
     std::vector<Vec3> inBox = held;
-    for (Vec3& x : inBox) x.x() -= period.x() * std::round(x.x() / period.x());
+    for (Vec3& x : inBox) x.x() -= period.lengths().x() * std::round(x.x() / period.lengths().x());
     EXPECT_EQ(tagSides(inBox, cells, period), side);
     EXPECT_EQ(holdOff(held, side, cells, 0.9 * least, period), 0u);
 

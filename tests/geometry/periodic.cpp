@@ -49,11 +49,11 @@ std::vector<Vec3> lattice(const Vec3& size, double spacing) {
 }
 
 // By the solid angles of all 7 x 7 x 7 images of the surface.
-bool insideAnyImage(const TriangleMesh& mesh, const Vec3& x, const Period& period) {
+bool insideAnyImage(const TriangleMesh& mesh, const Vec3& x, const Periodicity& period) {
     Vec3 low = mesh.nodes.front(), high = low;
     for (const Vec3& n : mesh.nodes) low = low.cwiseMin(n), high = high.cwiseMax(n);
     for (int n = 0; n < 343; ++n) {
-        const Vec3 image = x + Vec3(n % 7 - 3, n / 7 % 7 - 3, n / 49 - 3).cwiseProduct(period);
+        const Vec3 image = x + Vec3(n % 7 - 3, n / 7 % 7 - 3, n / 49 - 3).cwiseProduct(period.lengths());
         if ((image.array() < low.array()).any() || (image.array() > high.array()).any()) continue;
         if (windingNumber(mesh, image) > 0.5) return true;
     }
@@ -67,12 +67,7 @@ struct TailedCase {
 
 class Tailed : public testing::TestWithParam<TailedCase> {
   protected:
-    Period period() const {
-        Period p = GetParam().size;
-        for (int k = 0; k < 3; ++k)
-            if (!GetParam().periodic[static_cast<std::size_t>(k)]) p[k] = 0;
-        return p;
-    }
+    Periodicity period() const { return {low(), high(), GetParam().periodic}; }
     Vec3 low() const { return -0.5 * GetParam().size; }
     Vec3 high() const { return 0.5 * GetParam().size; }
 };
@@ -106,7 +101,8 @@ TEST_P(Tailed, theNearestImageIsTheNearestOfAll) {
         const Vec3& x = points[i];
         double least = reach, signedLeast = 0;
         for (int n = 0; n < 343; ++n) {
-            const SurfacePoint at = grid.nearest(x + Vec3(n % 7 - 3, n / 7 % 7 - 3, n / 49 - 3).cwiseProduct(period()));
+            const SurfacePoint at =
+                grid.nearest(x + Vec3(n % 7 - 3, n / 7 % 7 - 3, n / 49 - 3).cwiseProduct(period().lengths()));
             if (at && std::abs(at.distance) < least) least = std::abs(at.distance), signedLeast = at.distance;
         }
         const NearestImages::Found nearest = images.nearest(x);
@@ -150,7 +146,7 @@ TEST(PeriodicSurface, surfacesLongerThanTheBoxHaveTheirSidesToo) {
     TriangleMesh rod = ball(1 * um, 0.35 * um);
     for (Vec3& x : rod.nodes) x.z() *= 7;
     rod.rotate(rotationFromZ({1, 0, 0.8}));  // 14 um long; 10.9 um of it along x
-    const Period period(6 * um, 0, 0);
+    const Periodicity period = Periodicity::centred({6 * um, 0, 0});
     const SurfaceView view{&rod.nodes, &rod.triangles};
     for (const ImagePair& pair : neighbours({view.bounds()}, period)) EXPECT_FALSE(crossing(view, view, pair.shift));
     const Vec3 size(6 * um, 6 * um, 14 * um);
@@ -164,7 +160,7 @@ TEST(PeriodicSurface, surfacesLongerThanTheBoxHaveTheirSidesToo) {
 struct Meeting {
     const char* what;
     Vec3 centre;  // of the second ball, radius 1 um; the first stands at the origin with radius 2 um
-    Period period;
+    Vec3 period;  // 0 along an axis that is not periodic
     bool cross;
 };
 
@@ -174,7 +170,8 @@ TEST_P(Meetings, areFound) {
     const TriangleMesh one = ball(2 * um, 0.5 * um), other = ball(1 * um, 0.3 * um, GetParam().centre);
     const SurfaceView views[2] = {{&one.nodes, &one.triangles}, {&other.nodes, &other.triangles}};
     std::size_t found = 0;
-    for (const ImagePair& pair : neighbours({views[0].bounds(), views[1].bounds()}, GetParam().period)) {
+    for (const ImagePair& pair :
+         neighbours({views[0].bounds(), views[1].bounds()}, Periodicity::centred(GetParam().period))) {
         const auto cut = crossing(views[pair.first], views[pair.second], pair.shift);
         if (!cut) continue;
         ++found;
@@ -186,7 +183,7 @@ TEST_P(Meetings, areFound) {
     EXPECT_EQ(found, GetParam().cross ? 1 : 0);
 }
 
-const Period none = Period::Zero(), box(10 * um, 10 * um, 10 * um);
+const Vec3 none = Vec3::Zero(), box(10 * um, 10 * um, 10 * um);
 
 INSTANTIATE_TEST_SUITE_P(pairs, Meetings,
                          testing::Values(Meeting{"apart", {3.2 * um, 0, 0}, none, false},
@@ -211,8 +208,7 @@ TEST(Crossings, aSurfaceAndItsOwnImage) {
           std::tuple(Vec3(0, 0, 1), 4.9, 2), std::tuple(Vec3(0, 1, 0), 4.9, 2)}) {
         const TriangleMesh mesh = tailed(axis, {3 * um, 20 * um, 0});
         const SurfaceView view{&mesh.nodes, &mesh.triangles};
-        Period period(length * um, length * um, 0);
-        if (expected < 2) period[1] = 0;
+        const Periodicity period = Periodicity::centred({length * um, expected < 2 ? 0 : length * um, 0});
         std::size_t found = 0;
         for (const ImagePair& pair : neighbours({view.bounds()}, period)) {
             EXPECT_EQ(pair.first, pair.second);
@@ -237,12 +233,14 @@ TEST(Crossings, neighboursOfALattice) {
             const Vec3 at = Vec3(k % n, k / n % n, k / (n * n)) + drift;
             bounds.emplace_back(at, at + Vec3(1.2, 0.9, 0.9));
         }
-        EXPECT_EQ(neighbours(bounds, Period(length, length, length)).size(), n * n * n) << "along x only";
-        EXPECT_EQ(neighbours(bounds, Period(length, length, length), 0.15).size(), 13 * n * n * n) << "all 26 around";
+        EXPECT_EQ(neighbours(bounds, Periodicity::centred({length, length, length})).size(), n * n * n)
+            << "along x only";
+        EXPECT_EQ(neighbours(bounds, Periodicity::centred({length, length, length}), 0.15).size(), 13 * n * n * n)
+            << "all 26 around";
     }
-    EXPECT_TRUE(neighbours({}, box).empty());
+    EXPECT_TRUE(neighbours({}, Periodicity::centred(box)).empty());
     Bounds empty;
-    EXPECT_TRUE(neighbours({empty, empty}, box).empty());
+    EXPECT_TRUE(neighbours({empty, empty}, Periodicity::centred(box)).empty());
 }
 
 }  // namespace

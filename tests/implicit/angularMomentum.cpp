@@ -134,7 +134,7 @@ TEST(AngularMomentum, keptOverATurn) {
         const ParticleStore& s = f.scene.store();
         const auto momentum = [&] {
             return f.sum([&](std::size_t i) {
-                return f.scene.system->box().minimumImage(s.position(i) - centre).cross(s.velocity(i))[2];
+                return f.scene.system->periodicity().shortest(s.position(i) - centre).cross(s.velocity(i))[2];
             });
         };
         const double before = momentum();

@@ -112,7 +112,7 @@ Outcome run(const std::string& name, double time, int steps) {
     if (Fluid::isImplicit(name))  // past the first steps, which are of first order
         for (int k = 0; k < steps / 4; ++k) fluid.advance(time / steps);
     const Budget::Values before = [&] {
-        Budget::Values values;
+        Budget::Values values = Budget::zero(0);
         for (std::size_t k = 0; k < Budget::count; ++k) values[k] = fluid.total(static_cast<Budget::Entry>(k));
         return values;
     }();
@@ -229,7 +229,7 @@ TEST(Budget, wallsWorkAsMuchAsCouetteFlowDissipates) {
          {std::string("velocityVerlet"), std::string("adjointVerlet"), std::string("midpoint")}) {
         sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
         model.viscosity = viscosity, model.soundSpeed = name == "midpoint" ? 22 : 5;
-        model.walls = {2, low, low + gap, {flow({0, 0, low}), flow({0, 0, low + gap})}};
+        model.walls = boundary::testing::planes(2, low, low + gap, flow({0, 0, low}), flow({0, 0, low + gap}));
         const bool plain = name == "velocityVerlet";
         Fluid box(name, coupling::testing::sheared(size, plain ? 0 : 0.1, model.walls, flow), size, model);
         const int steps = name == "midpoint" ? 40 : 400;
@@ -243,8 +243,8 @@ TEST(Budget, wallsWorkAsMuchAsCouetteFlowDissipates) {
         EXPECT_NEAR(dissipated / expected, 1, plain ? 0.03 : 0.015) << name;
         EXPECT_NEAR(dissipated / walls, 1, 0.01) << name;
         // Forces on both walls are opposite, those on the lower one act against the flow.
-        const double lower = sph::testing::sumOverRanks(box.scene.budget.total[Budget::lowerWall]),
-                     upper = sph::testing::sumOverRanks(box.scene.budget.total[Budget::upperWall]);
+        const double lower = sph::testing::sumOverRanks(box.scene.budget.total[Budget::wall(0)]),
+                     upper = sph::testing::sumOverRanks(box.scene.budget.total[Budget::wall(1)]);
         EXPECT_LT(lower, 0);
         EXPECT_NEAR(lower + upper, 0, 0.01 * upper);
         EXPECT_NEAR(0.5 * rate * gap * (upper - lower), walls, 1e-6 * walls);

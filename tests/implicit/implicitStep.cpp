@@ -157,7 +157,7 @@ TEST(ImplicitStep, plateFlowStartsAsItShould) {
     const double low = 3, gap = 16, speed = 1e-3, nu = 0.7, time = 0.1 * gap * gap / nu;
     const int steps = 40;
     sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
-    model.walls = {2, low, low + gap, {Vec3::Zero(), Vec3(speed, 0, 0)}};
+    model.walls = boundary::testing::planes(2, low, low + gap, Vec3::Zero(), Vec3(speed, 0, 0));
     std::vector<Particle> all = still(size);
     for (Particle& p : all) {
         p.wall = p.x[2] < low || p.x[2] > low + gap;
@@ -183,7 +183,7 @@ TEST(ImplicitStep, plateFlowStartsAsItShould) {
     EXPECT_GT(exact(0.25 * gap, time), 0.02);
     EXPECT_LT(exact(0.25 * gap, time), 0.24) << "still on its way to 0.25";
     // The lower wall is drawn along: the force on it is that of the profile's slope there, in the middle of the step.
-    const double onWall = sph::testing::sumOverRanks(couette.scene.forces->wallForce(0)[0]);
+    const double onWall = sph::testing::sumOverRanks(couette.scene.forces->wallForces()[0][0]);
     EXPECT_NEAR(onWall / (size[0] * size[1]), -stress, 0.05 * std::abs(stress));
 }
 

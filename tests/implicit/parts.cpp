@@ -143,7 +143,9 @@ TEST(Movement, goesThereAndBackAndArrives) {
         for (std::size_t i = 0; i < scene.store().size(); ++i) at[scene.store().id[i]] = scene.store().position(i);
         return at;
     };
-    const auto distance = [&](const Vec3& a, const Vec3& b) { return scene.system->box().minimumImage(a - b).norm(); };
+    const auto distance = [&](const Vec3& a, const Vec3& b) {
+        return scene.system->periodicity().shortest(a - b).norm();
+    };
     const Vec3 u(0.3, -0.2, 0.1), v(0.5, 0.1, -0.4);
     for (std::size_t i = 0; i < scene.store().size(); ++i) {
         scene.store().setVelocity(i, u);

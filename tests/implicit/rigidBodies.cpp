@@ -118,7 +118,7 @@ TEST(RigidBodies, fluidThatTurnsWithTheBodyExertsNothing) {
     auto u = s.velocity(1, turning);
     const auto& store = s.sphere.scene.store();
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec3 arm = s.sphere.scene.system->box().minimumImage(store.position(i) - s.sphere.centre);
+        const Vec3 arm = s.sphere.scene.system->periodicity().shortest(store.position(i) - s.sphere.centre);
         particles::setVector(u, i, turning.at(arm));
     }
     s.system.shared().distribute(u.data(), 4);
@@ -168,7 +168,7 @@ TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
             if (store.kindOf(i) != particles::Kind::body) continue;
             const Vec3 arm =
                 s.body().state.orientation * s.body().particles[static_cast<std::size_t>(store.member[i])].place;
-            EXPECT_LT(s.scene.system->box().minimumImage(s.body().state.centre + arm - store.position(i)).norm(),
+            EXPECT_LT(s.scene.system->periodicity().shortest(s.body().state.centre + arm - store.position(i)).norm(),
                       1e-12);
         }
     }

@@ -15,6 +15,7 @@ struct RigidSphereScene {
         scene.bodies = std::move(f.bodies);
         scene.forces = std::move(f.forces);
         scene.fluidBox = scene.system->box();
+        scene.fluidVolume = scene.fluidBox.volume();
         scene.spacing = 1;
         scene.flow.rate = rate;
         scene.flow.length = scene.fluidBox.size()[2];

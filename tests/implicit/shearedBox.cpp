@@ -26,7 +26,7 @@ struct ShearedBox : FluidScene {
     static sph::FluidModel model() {
         sph::FluidModel m = sph::testing::model("wendlandC2", "linear");
         m.viscosity = 1, m.soundSpeed = std::sqrt(500.0);  // bulk modulus 500 mu gammadot
-        m.walls = {2, low, low + gap, {velocity({0, 0, low}), velocity({0, 0, low + gap})}};
+        m.walls = boundary::testing::planes(2, low, low + gap, velocity({0, 0, low}), velocity({0, 0, low + gap}));
         return m;
     }
     ShearedBox()
@@ -43,7 +43,7 @@ struct ShearedBox : FluidScene {
 
     // Mean force per area that drags on the two walls, in units of mu gammadot.
     double stress() const {
-        const double both = scene.forces->wallForce(0)[0] - scene.forces->wallForce(1)[0];
+        const double both = scene.forces->wallForces()[0][0] - scene.forces->wallForces()[1][0];
         return sph::testing::sumOverRanks(both) / (2 * size[0] * size[1]);
     }
     // Root mean square of what the velocity is off the flow, in units of that between the walls.

@@ -35,7 +35,7 @@ Inclusion measure(int radius, double lambda) {
     model.viscosity = 1,
     model.soundSpeed = std::sqrt(2e4 * rate);  // what the first step compresses is below 1 % of the strain
     const double low = layers, high = layers + length;
-    model.walls = {2, low, high, {flow({0, 0, low}), flow({0, 0, high})}};
+    model.walls = boundary::testing::planes(2, low, high, flow({0, 0, low}), flow({0, 0, high}));
 
     auto all = coupling::testing::sheared(size, jitter, model.walls, flow);
     for (auto& p : all) p.viscosity = (p.x - centre).norm() < radius ? lambda : 1;

@@ -132,7 +132,7 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_GE(inside, 88);
     EXPECT_LE(inside, 136);
     EXPECT_NEAR(static_cast<double>(left), 0.5 * static_cast<double>(inside), 8);
-    scene.putBack = 3;
+    scene.movedBack = 3;
     rows = observation->observe(scene, {});
     EXPECT_EQ(value(*observation, rows, "changedSide"), static_cast<double>(inside));
     EXPECT_EQ(value(*observation, rows, "guardMoves"), 3.0 * Communicator().size());
@@ -157,7 +157,7 @@ TEST(Conservation, BudgetOfWorkAndState) {
     EXPECT_EQ(begin("{type: conservation, every: 10 steps}", scene)->tables().size(), 1u) << "no budget is kept";
     scene.budget.kept = true;
     const double ranks = Communicator().size();
-    scene.budget.total.fill(7e-15);
+    std::fill(scene.budget.total.begin(), scene.budget.total.end(), 7e-15);
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
     const auto now = [&](const std::unique_ptr<Observation>& o, const std::string& header) {
         return value(*o, o->observe(scene, {}), header, 1);
@@ -189,7 +189,7 @@ TEST(Conservation, BudgetOfWorkAndState) {
     addTotal(Budget::ofWalls, walls), addTotal(Budget::viscous, 1.9 * stored);
     addTotal(Budget::kinetic, kinetic + 0.06 * stored), addTotal(Budget::elastic, elastic + 0.03 * stored);
     addTotal(Budget::compression, compression + 0.01 * stored);
-    addTotal(Budget::lowerWall + 1, 1e-3 * moving), addTotal(Budget::upperWall + 1, 0.8e-3 * moving);
+    addTotal(Budget::wall(0) + 1, 1e-3 * moving), addTotal(Budget::wall(1) + 1, 0.8e-3 * moving);
     const double close = 1e-9 * stored;
     EXPECT_NEAR(now(observation, "workOfWalls_J"), walls, close);
     EXPECT_NEAR(now(observation, "stored_J"), elastic, close);

@@ -7,6 +7,7 @@
 #include "io/temporaryFolder.hpp"
 #include "observers/cells.hpp"
 #include "observers/observers.hpp"
+#include "support/planeWalls.hpp"
 
 namespace corpuscle::observers::testing {
 
@@ -34,6 +35,7 @@ inline Scene sampleScene(const SampleOptions& o) {
     Scene scene;
     scene.spacing = dx;
     scene.fluidBox = {-0.5 * o.size, 0.5 * o.size, {true, true, !o.walls}};
+    scene.fluidVolume = scene.fluidBox.volume();
     particles::Box box = scene.fluidBox;
     const int layers = o.walls ? 3 : 0;
     box.low[2] -= layers * dx;
@@ -42,8 +44,10 @@ inline Scene sampleScene(const SampleOptions& o) {
     scene.flow.shearRate = o.shearRate;
     if (o.walls) {
         const double speed = 0.5 * o.shearRate * o.size[2];
-        scene.flow.walls = {2, scene.fluidBox.low[2], scene.fluidBox.high[2], {Vec3(-speed, 0, 0), Vec3(speed, 0, 0)}};
+        scene.flow.walls = boundary::testing::planes(2, scene.fluidBox.low[2], scene.fluidBox.high[2],
+                                                     Vec3(-speed, 0, 0), Vec3(speed, 0, 0), o.size[0] * o.size[1]);
     }
+    scene.budget = sph::Budget(scene.flow.walls.count());
     const bool withCells = !o.cells.empty();
     scene.system = std::make_unique<particles::ParticleSystem>(
         MPI_COMM_WORLD, box, particles::ParticleStore::Optional{withCells, false, withCells, withCells}, 3 * dx,
@@ -86,7 +90,7 @@ inline Scene sampleScene(const SampleOptions& o) {
                 for (int c = 0; c < counts[2]; ++c) {
                     const Vec3 x = box.low + dx * Vec3(a + 0.5, b + 0.5, c + 0.5);
                     const bool wall = c < layers || c >= counts[2] - layers;
-                    const Vec3 u = wall ? scene.flow.walls.velocity[x[2] > 0] : Vec3(o.shearRate * x[2], 0, 0);
+                    const Vec3 u = wall ? scene.flow.walls.nearest(x).velocity : Vec3(o.shearRate * x[2], 0, 0);
                     add(x, wall ? particles::Kind::wall : particles::Kind::fluid, u, wall ? 0 : sides.side(x), -1);
                 }
         for (const coupling::Cell& cell : scene.cells)

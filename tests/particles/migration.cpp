@@ -95,7 +95,7 @@ TEST(Migration, keepsEveryFieldBitForBitAndLosesNobody) {
         });
         // Everybody moves on by a third of the box, so most change rank.
         for (std::size_t i = 0; i < store.size(); ++i)
-            store.setPosition(i, p.box.wrap(store.position(i) + Vec3(3, 2.7, 2.3)));
+            store.setPosition(i, p.box.periodicity().wrap(store.position(i) + Vec3(3, 2.7, 2.3)));
     }
 }
 

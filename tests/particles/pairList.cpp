@@ -138,7 +138,7 @@ TEST_P(Pairs, theListHoldsWhileNothingHasMovedMoreThanHalfTheSkin) {
         ParticleStore& s = system.store();
         // Continuous paths between builds: the image nearest to where the particle is.
         for (std::size_t i = 0; i < s.size(); ++i)
-            s.setPosition(i, s.position(i) + c.box.minimumImage(p.position[s.id[i]] - s.position(i)));
+            s.setPosition(i, s.position(i) + c.box.periodicity().shortest(p.position[s.id[i]] - s.position(i)));
         if (system.mustRebuild()) system.rebuild();
         expectComplete(system, p);
     }

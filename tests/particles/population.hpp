@@ -21,7 +21,7 @@ struct Population {
         std::uniform_real_distribution<double> unit(0, 1);
         for (int i = 0; i < count; ++i) {
             const Vec3 share(unit(random), unit(random), unit(random));
-            position.push_back(box.wrap(box.low + share.cwiseProduct(box.size())));
+            position.push_back(box.periodicity().wrap(box.low + share.cwiseProduct(box.size())));
             wall.push_back(position.back()[2] < box.low[2] + layer || position.back()[2] >= box.high[2] - layer);
         }
     }

@@ -3,6 +3,7 @@
 
 #include "numerics.hpp"
 #include "schemes/cost.hpp"
+#include "support/planeWalls.hpp"
 
 namespace corpuscle::schemes {
 namespace {
@@ -114,7 +115,7 @@ TEST(Choice, predictedLimits) {
     EXPECT_NEAR(limits.all[0].seconds, 0.5 / (s.kernel->viscousRate(3) * 1e6), 1e-12 * limits.all[0].seconds);
     EXPECT_NEAR(limits.all[1].seconds, 0.25 * 1.5e-6 / 0.101, 1e-12 * limits.all[1].seconds);
     EXPECT_EQ(limits.binding().name, "viscous");
-    n.facts.flow.walls.axis = 2;
+    n.facts.flow.walls = boundary::testing::planes(2, 0, 1);
     const NumericsSettings implicit = n.settled("implicit");
     EXPECT_DOUBLE_EQ(implicit.scheme->limits(n.facts, implicit, 0).binding().seconds, 5e-4);
 }

@@ -71,7 +71,7 @@ class Injection {
         const Vec3 middle = coupling::middleOf(scene.cells.at(0));
         Vec3 way = Vec3::Zero(), stretch = Vec3::Ones();
         if (kind_ == "cells") way = 0.5 * (coupling::middleOf(scene.cells.at(1)) - middle);
-        if (kind_ == "wall") way[2] = scene.model().walls.high - middle[2];
+        if (kind_ == "wall") way[2] = scene.fluidBox.high[2] - middle[2];
         if (kind_ == "image") stretch = Vec3(1.3, 0.88, 0.88);
         for (Vec3& x : scene.cells[0].membrane.position) x = middle + way + stretch.cwiseProduct(x - middle);
     }

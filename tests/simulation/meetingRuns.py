@@ -105,7 +105,7 @@ def test_during(folder):
                 "system/mesh.yaml": "domain: {size: [8 um, 8 um, 8 um], periodic: [true, true, false]}\ncells: [" + sphere("a", 3.2, 0, 0, 0) + "]\n"}
     short = make(folder / "short", IMPLICIT_CASE, **injected)
     ready(short)
-    for kind, words in (("wall", "the cell 'a' crosses the wall along z at ("), ("image", "the cell 'a' touches or crosses its own periodic image at (")):
+    for kind, words in (("wall", "the cell 'a' crosses the upper wall at ("), ("image", "the cell 'a' touches or crosses its own periodic image at (")):
         for ranks in (1, 2):
             copy = folder / f"{kind}{ranks}"
             shutil.copytree(short, copy)

@@ -44,7 +44,7 @@ TEST(RestartPolicies, StandWhereTheyWereDecided) {
              {"system/mesh.yaml: fill.seed", AtRestart::fixed},
              {"constant/flow.yaml: shear.Ca", AtRestart::noted},
              {"constant/flow.yaml: poiseuille.bodyForce", AtRestart::noted},
-             {"constant/flow.yaml: shear.walls.normal", AtRestart::fixed},
+             {"constant/flow.yaml: shear.walls.planes.normal", AtRestart::fixed},
              {"constant/membranes.yaml: <name>.bonds.harmonic.k", AtRestart::noted},
              {"constant/membranes.yaml: <name>.interior.viscosityRatio", AtRestart::fixed},
              {"constant/bodies.yaml: <name>.motion", AtRestart::noted},

@@ -334,7 +334,7 @@ def test_budget(folder):
         assert abs(given - taken - last["residual_J"]) < 1e-12 * given and abs(parts - last["residual_J"]) < 1e-9 * given, last
         assert last["residualShare"] < allowed and abs(last["massChange"]) < 1e-13 and abs(last["volumeChange"]) < 2e-3, last
         drift = math.hypot(*(last[f"momentumDrift_{k}_Ns"] for k in "xyz"))
-        exchanged = sum(math.hypot(*(last[f"impulseOf{wall}Wall_{k}_Ns"] for k in "xyz")) for wall in ("Lower", "Upper"))
+        exchanged = sum(math.hypot(*(last[f"impulseOfWall_{wall}_{k}_Ns"] for k in "xyz")) for wall in ("lower", "upper"))
         assert drift < (2e-3 if "mplicit" in name else 1e-3) * exchanged, (name, drift / exchanged)
         other = table(folder / f"{name}2", "balance", "budget.csv")[-1]
         for key in ("workOfWalls_J", "dissipated_J", "stored_J", "residual_J", "kineticEnergy_J"):

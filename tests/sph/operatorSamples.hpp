@@ -73,10 +73,10 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         if (c.layers) fluid.lowestLayer = 0.5;  // of the viscosities of lattice()
         all = lattice(c.size, 0.25, 5);
         if (c.walls) {
-            fluid.walls = {2, layers, c.size[2] - layers, {Vec3::Zero(), Vec3::Zero()}};
-            for (Particle& p : all) p.wall = p.x[2] < fluid.walls.low || p.x[2] > fluid.walls.high;
+            fluid.walls = boundary::testing::planes(2, layers, c.size[2] - layers);
+            for (Particle& p : all) p.wall = fluid.walls.distance(p.x) < 0;
             Particle& pushed = all[8];  // a fluid particle, behind a surface
-            pushed.wall = false, pushed.x[2] = fluid.walls.high + 0.3;
+            pushed.wall = false, pushed.x[2] = c.size[2] - layers + 0.3;
         }
         findPairs();
         findMoments();

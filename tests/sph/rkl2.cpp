@@ -146,7 +146,7 @@ TEST(Rkl2, isStableToTheLimitAndNotBeyond) {
 TEST(Rkl2, wallsFeelTheFluidAndKeepTheirVelocity) {
     const Index3 n{4, 4, 14};
     FluidModel fluid = model("wendlandC2");
-    fluid.walls = {2, 3, 11, {Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0)}};
+    fluid.walls = boundary::testing::planes(2, 3, 11, Vec3(-0.01, 0, 0), Vec3(0.01, 0, 0));
     std::vector<Particle> all = lattice(n, 0);
     for (Particle& p : all) {
         p.density = 1, p.wall = p.x[2] < 3 || p.x[2] > 11;
@@ -164,5 +164,5 @@ TEST(Rkl2, wallsFeelTheFluidAndKeepTheirVelocity) {
         const bool wall = s.kindOf(i) == Kind::wall;
         EXPECT_NEAR(s.u[i], wall ? std::copysign(0.01, s.z[i] - 7) : 0.0025 * (s.z[i] - 7), wall ? 0 : 2e-4);
     }
-    EXPECT_NEAR(sumOverRanks(forces.wallForce(1)[0]), -0.7 * 0.0025 * 16, 0.03 * 0.7 * 0.0025 * 16);
+    EXPECT_NEAR(sumOverRanks(forces.wallForces()[1][0]), -0.7 * 0.0025 * 16, 0.03 * 0.7 * 0.0025 * 16);
 }

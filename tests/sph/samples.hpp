@@ -9,6 +9,7 @@
 
 #include "core/registry.hpp"
 #include "sph/fluidForces.hpp"
+#include "support/planeWalls.hpp"
 
 namespace corpuscle::sph::testing {
 
@@ -98,11 +99,10 @@ inline double kernelDerivative(const std::string& kernel, double r, double H) {
     return -5 * sum / (120 * pi * std::pow(h, 4));
 }
 
-// What the viscosity between two particles is multiplied by at plane walls across z (wallPlanes.hpp).
-inline double wallFactor(const Walls& walls, const Vec3& a, const Vec3& b) {
+// What the viscosity between two particles is multiplied by at walls (noSlip.hpp).
+inline double wallFactor(const boundary::Walls& walls, const Vec3& a, const Vec3& b) {
     if (!walls.exist()) return 1;
-    const auto gap = [&](const Vec3& p) { return std::min(p[2] - walls.low, walls.high - p[2]); };
-    const double ga = gap(a), gb = gap(b), least = 0.25;
+    const double ga = walls.distance(a), gb = walls.distance(b), least = 0.25;
     double value = 1;
     if (gb < 0) value += -gb / std::max(ga, least);
     if (ga < 0) value += -ga / std::max(gb, least);

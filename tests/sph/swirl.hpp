@@ -20,7 +20,7 @@ inline std::vector<double> state(const ParticleSystem& system) {
     std::vector<double> all(7 * particleCount, 0.0);
     const ParticleStore& s = system.store();
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const Vec3 x = system.box().wrap(s.position(i));
+        const Vec3 x = system.periodicity().wrap(s.position(i));
         double* out = all.data() + 7 * s.id[i];
         for (int k = 0; k < 3; ++k) out[k] = x[k];
         out[3] = s.u[i], out[4] = s.v[i], out[5] = s.w[i], out[6] = s.density[i];

@@ -22,7 +22,7 @@ double denseRate(const std::vector<Particle>& all, const Box& box, const Kernel&
     Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) {
-            const double r = box.minimumImage(all[i].x - all[j].x).norm();
+            const double r = box.periodicity().shortest(all[i].x - all[j].x).norm();
             if (i == j || r >= H) continue;
             const double weight = 2 * slope(kernel, r, H) / (all[i].density * all[j].density);
             L(i, i) += weight;

@@ -10,7 +10,6 @@ namespace corpuscle::sph {
 struct ModelNameFlow : Flow {
     double speed = 0;
     static const Schema<ModelNameFlow>& schema();
-    int wallAxis() const override { return -1; }
     FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const override;
 };
 

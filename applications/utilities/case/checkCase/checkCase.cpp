@@ -106,7 +106,7 @@ void reportCase(Report& report, const simulation::Case& input) {
     std::vector<std::vector<std::string>> rows;
     std::string periodic;
     for (int k = 0; k < 3; ++k)
-        if (k != input.flowModel->wallAxis()) periodic += (periodic.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
+        if (!input.hasWallsAcross(k)) periodic += (periodic.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
     rows.push_back(
         {"flow",
          fmt::format(

@@ -14,9 +14,9 @@
 #include "geometry/latticeFill.hpp"
 #include "geometry/sidesByRays.hpp"
 #include "neighbours.hpp"
-#include "particles/period.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/sceneBuilder.hpp"
+#include "simulation/size.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -97,7 +97,7 @@ bool checkBodies(Application& app, const Case& input, const std::vector<Triangle
 // The number of lattice points is that of the fluid, of the bodies, and of the fluid that the nodes displace.
 void checkLattice(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, std::size_t fluid,
                   std::size_t walls, std::size_t bodies, ordered_json& json, Faults& faults) {
-    long count[3], lattice = 1, layer = 1;
+    long count[3];
     double nodeVolume = 0;
     std::size_t nodes = 0;
     for (const TriangleMesh& mesh : meshes) {
@@ -106,12 +106,15 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
             for (const double volume : simulation::nodeVolumes(mesh.vertexAreas(), input.spacing()))
                 nodeVolume += volume;
     }
-    for (int k = 0; k < 3; ++k) {
-        lattice *= count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
-        if (k != input.flowModel->wallAxis()) layer *= count[k];
-    }
-    const long displaced = std::lround(nodeVolume / input.particleVolume()),
-               wantedWalls = 2 * layer * input.wallLayers();
+    for (int k = 0; k < 3; ++k) count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
+    const simulation::ParticleEstimate whole = simulation::estimateLattice(input);
+    const long lattice = whole.fluid, wantedWalls = whole.walls;
+    // Plane walls leave whole layers; of others the lattice may miss or take a part of a layer along the surface.
+    long slack = 0;
+    if (!input.planesAcross())
+        for (const boundary::Wall& wall : input.flow.walls)
+            slack += std::lround(0.25 * wall.surface->area() * input.spacing() / input.particleVolume());
+    const long displaced = std::lround(nodeVolume / input.particleVolume());
     app.log().table({"lattice", "number", ""},
                     {{"points", std::to_string(lattice), fmt::format("{} x {} x {}", count[0], count[1], count[2])},
                      {"fluid particles", std::to_string(fluid), ""},
@@ -120,12 +123,12 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
                      {"wall particles", std::to_string(walls), fmt::format("{} layers each", input.wallLayers())}});
     json["lattice"] = {{"points", lattice}, {"fluid", fluid},   {"displaced", displaced},
                        {"walls", walls},    {"bodies", bodies}, {"nodes", nodes}};
-    if (static_cast<long>(fluid + bodies) + displaced != lattice)
+    if (std::abs(static_cast<long>(fluid + bodies) + displaced - lattice) > slack)
         faults.push_back(
             fmt::format("0/fluid.vtp has {} particles, but the lattice less what bodies hold and nodes displace {}: "
                         "run particleFill again",
                         fluid, lattice - displaced - static_cast<long>(bodies)));
-    if (static_cast<long>(walls) != wantedWalls)
+    if (std::abs(static_cast<long>(walls) - wantedWalls) > slack)
         faults.push_back(fmt::format("0/walls.vtp has {} particles, but the case needs {}: run particleFill again",
                                      walls, wantedWalls));
 }
@@ -148,10 +151,11 @@ struct Wrong {
 void checkSides(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
                 const std::vector<Vec3>& ofBodies, ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
-    const geometry::Period period = particles::periodOf(box);
-    const auto out = std::count_if(fluid.points.begin(), fluid.points.end(),
-                                   [&](const Vec3& x) { return particles::distanceSquared(x, box.low, box.high) > 0; });
-    if (out > 0) faults.push_back(fmt::format("{} fluid particles lie outside the box", out));
+    const Periodicity period = box.periodicity();
+    const auto out = std::count_if(fluid.points.begin(), fluid.points.end(), [&](const Vec3& x) {
+        return particles::distanceSquared(x, box.low, box.high) > 0 || input.flow.walls.distance(x) < 0;
+    });
+    if (out > 0) faults.push_back(fmt::format("{} fluid particles lie outside the box or behind a wall", out));
     const std::vector<geometry::RaySide> rays = geometry::sidesByRays(fluid.points, meshes, box.low, box.high, period);
     const auto& written = fluid.point.integer("side");
     Wrong wrong, differ, twice;

@@ -5,14 +5,13 @@
 #include <numbers>
 
 #include "geometry/periodicSurface.hpp"
-#include "particles/period.hpp"
 
 namespace corpuscle::utilities {
 
 std::vector<int> bodyOfEach(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& bodies,
                             const std::vector<Vec3>& points) {
     std::vector<int> taken(points.size(), 0);
-    const geometry::Period period = particles::periodOf(input.fluidBox());
+    const Periodicity period = input.fluidBox().periodicity();
     const double reach = std::numbers::sqrt3 * input.spacing();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const geometry::PeriodicSurface surface(bodies[b], reach, period);

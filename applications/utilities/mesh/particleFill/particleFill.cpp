@@ -23,7 +23,6 @@
 #include "bodyFill.hpp"
 #include "coupling/noFlux.hpp"
 #include "geometry/latticeFill.hpp"
-#include "particles/period.hpp"
 #include "relaxation.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/memoryLimit.hpp"
@@ -41,7 +40,7 @@ struct Filling {
     std::vector<int> side;  // of the fluid
     std::vector<int> body;  // of the bodies' particles: number, 1 and up
     double nodeVolume = 0;  // of all membranes [m^3]
-    std::size_t nodes = 0, carved = 0, putBack = 0, heldOff = 0;
+    std::size_t nodes = 0, carved = 0, movedBack = 0, heldOff = 0;
     double longestMove = 0;  // of the relaxation [m]
     utilities::Evenness before, after;
 };
@@ -57,7 +56,7 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
         std::vector<Vec3> points;
         points.reserve(from.size());
         for (const int i : from) points.push_back(f.fluid[static_cast<std::size_t>(i)]);
-        for (const int k : geometry::carve(points, nodes, count, particles::periodOf(input.fluidBox())))
+        for (const int k : geometry::carve(points, nodes, count, input.fluidBox().periodicity()))
             kept[static_cast<std::size_t>(from[static_cast<std::size_t>(k)])] = 0;
     };
     std::vector<Vec3> nodes;
@@ -101,15 +100,21 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
     box.spacing = input.spacing();
     box.jitter = *input.mesh.fill.jitter;
     box.seed = static_cast<std::uint64_t>(input.mesh.fill.seed);
-    if (const int axis = input.flowModel->wallAxis(); axis >= 0) {
-        box.wallNormal = axis;
-        box.wallLayers = input.wallLayers();
+    if (const boundary::Walls& walls = input.flow.walls; walls.exist()) {
+        for (int k = 0; k < 3; ++k)
+            if (input.hasWallsAcross(k)) box.layers[static_cast<std::size_t>(k)] = input.wallLayers();
+        box.kindOf = [&walls, depth = input.wallDepth().maxCoeff()](const Vec3& x) {
+            const double distance = walls.distance(x);
+            return distance > 0        ? geometry::PointKind::fluid
+                   : distance > -depth ? geometry::PointKind::wall
+                                       : geometry::PointKind::nothing;
+        };
     }
     const geometry::Lattice lattice = geometry::fillLattice(box);
     Filling f;
     for (std::size_t i = 0; i < lattice.points.size(); ++i)
         if (lattice.kinds[i] == geometry::PointKind::fluid)
-            f.fluid.push_back(input.particleBox().wrap(lattice.points[i]));
+            f.fluid.push_back(input.particleBox().periodicity().wrap(lattice.points[i]));
         else
             f.walls.push_back(lattice.points[i]);
 
@@ -120,13 +125,13 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
             f.nodes += cell.nodes.size();
         }
     f.carved = static_cast<std::size_t>(std::lround(f.nodeVolume / input.particleVolume()));
-    f.side = geometry::tagSides(f.fluid, cells, particles::periodOf(input.fluidBox()));
+    f.side = geometry::tagSides(f.fluid, cells, input.fluidBox().periodicity());
     fillBodies(input, bodies, f);
     if (input.numerics.isImmersed()) {
         f.heldOff =
             geometry::holdOff(f.fluid, f.side, cells, coupling::NoFlux::leastDistanceInSpacings * input.spacing(),
-                              particles::periodOf(input.fluidBox()));
-        for (Vec3& x : f.fluid) x = input.particleBox().wrap(x);
+                              input.fluidBox().periodicity());
+        for (Vec3& x : f.fluid) x = input.particleBox().periodicity().wrap(x);
     } else {
         takeOut(input, cells, f);
     }
@@ -146,15 +151,16 @@ void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& ce
     std::vector<Vec3> places;
     places.reserve(moved.size());
     for (const auto& [i, x] : moved) places.push_back(x);
-    const std::vector<int> side = geometry::tagSides(places, cells, particles::periodOf(input.fluidBox()));
+    const std::vector<int> side = geometry::tagSides(places, cells, input.fluidBox().periodicity());
     const particles::Box fluidBox = input.fluidBox();
     for (std::size_t k = 0; k < moved.size(); ++k) {
         const auto& [i, x] = moved[k];
-        if (side[k] != f.side[i] || particles::distanceSquared(x, fluidBox.low, fluidBox.high) > 0) {
-            ++f.putBack;
+        if (side[k] != f.side[i] || particles::distanceSquared(x, fluidBox.low, fluidBox.high) > 0 ||
+            input.flow.walls.distance(x) <= 0) {
+            ++f.movedBack;
             continue;
         }
-        f.longestMove = std::max(f.longestMove, fluidBox.minimumImage(x - f.fluid[i]).norm());
+        f.longestMove = std::max(f.longestMove, fluidBox.periodicity().shortest(x - f.fluid[i]).norm());
         f.fluid[i] = x;
     }
 }
@@ -200,12 +206,12 @@ void write(const Case& input, const Filling& f) {
         std::filesystem::remove(simulation::startFile(input, "walls"));
         return;
     }
-    const sph::Walls& walls = input.flow.walls;
+    const boundary::Walls& walls = input.flow.walls;
     simulation::writeStart(
         input, "walls",
         withState(
             input, f.walls, std::vector<int>(f.walls.size(), 0), static_cast<std::int64_t>(f.fluid.size()),
-            [&](const Vec3& x) { return walls.velocity[walls.isUpper(x)]; }, [](const Vec3&) { return 0.0; }));
+            [&](const Vec3& x) { return walls.nearest(x).velocityAt(x); }, [](const Vec3&) { return 0.0; }));
 }
 
 double peakMemory() {  // of this program so far [MiB]
@@ -262,8 +268,8 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
               text(f.after.near)},
              {"beyond, up to H_s farther", std::to_string(f.before.beyond.count), text(f.before.beyond),
               text(f.after.beyond)}});
-        log.info("relaxation: moved at most {:.3f} dx; {} particles put back that would have changed side",
-                 f.longestMove / input.spacing(), f.putBack);
+        log.info("relaxation: moved at most {:.3f} dx; {} particles moved back that would have changed side",
+                 f.longestMove / input.spacing(), f.movedBack);
         const auto spread = [](const utilities::Spread& s) {
             return nlohmann::ordered_json{{"mean", s.mean}, {"deviation", s.deviation}};
         };
@@ -271,7 +277,7 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
                          {"nearAfter", spread(f.after.near)},
                          {"beyondBefore", spread(f.before.beyond)},
                          {"beyondAfter", spread(f.after.beyond)}};
-        json["putBack"] = f.putBack;
+        json["movedBack"] = f.movedBack;
     }
     json["seconds"] = seconds;
     json["memory_MiB"] = peakMemory();

@@ -5,7 +5,6 @@
 
 #include "../cellMeshes.hpp"
 #include "geometry/periodicSurface.hpp"
-#include "particles/period.hpp"
 #include "particles/sumOverPairs.hpp"
 #include "simulation/sceneBuilder.hpp"
 
@@ -20,7 +19,7 @@ constexpr double strength = 0.02, largestInSpacings = 0.1;
 
 // Of each point to the nearest membrane, infinity beyond `reach`; periodic images included.
 std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach,
-                              const geometry::Period& period) {
+                              const Periodicity& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
     for (const TriangleMesh& cell : cells) {
         const geometry::TriangleTree grid(cell, reach);
@@ -54,7 +53,7 @@ Relaxation::Relaxation(const simulation::Case& input, MPI_Comm comm, const std::
       system_(comm, input.particleBox(), {.mass = true}, input.support(), input.skin(), input.spacing()) {
     const double near = reachInSpacings * input.spacing(), beyond = near + input.support(),
                  rim = beyond + input.support();
-    const Vec3 period = particles::periodOf(input.particleBox());
+    const Periodicity period = input.particleBox().periodicity();
     const std::vector<double> fluidDistance = distances(fluid, cells, rim, period),
                               wallDistance = distances(walls, cells, rim, period);
     for (std::size_t i = 0; i < fluid.size(); ++i)
@@ -135,7 +134,8 @@ std::vector<std::pair<std::size_t, Vec3>> Relaxation::moved() const {
     const particles::ParticleStore& s = system_.store();
     for (std::size_t i = 0; i < s.size(); ++i)
         if (zoneOf(i) == Zone::near)
-            places.emplace_back(fluidIndex_[static_cast<std::size_t>(s.id[i])], system_.box().wrap(s.position(i)));
+            places.emplace_back(fluidIndex_[static_cast<std::size_t>(s.id[i])],
+                                system_.periodicity().wrap(s.position(i)));
     return places;
 }
 

@@ -105,7 +105,7 @@ void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
     Vec3 mean = Vec3::Zero();
     for (const Vec3& x : surface.points) mean += x;
     mean /= static_cast<double>(surface.points.size());
-    const Vec3 shift = box.wrap(mean) - mean;
+    const Vec3 shift = box.periodicity().wrap(mean) - mean;
     for (Vec3& x : surface.points) x += shift;
 }
 

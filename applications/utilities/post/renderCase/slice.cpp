@@ -67,7 +67,7 @@ class NearPlane {
         rows_ = 1 + static_cast<int>((box.size()[plane.second()] + 2 * h) / h);
         squares_.resize(static_cast<std::size_t>(columns_) * rows_);
         for (std::size_t i = 0; i < fluid.points.size(); ++i)
-            add(box.wrap(fluid.points[i]), static_cast<int>(i), box, 0);
+            add(box.periodicity().wrap(fluid.points[i]), static_cast<int>(i), box, 0);
     }
 
     template <class Visit>

@@ -1,24 +1,30 @@
-// Two parallel plane walls as a pair law sees them: n.x = middle +- half, lengths as in the records.
+// No slip at walls, as a pair law sees it.
 //
 // The particles behind a wall's surface take the velocity that continues the profile linearly, so that it vanishes
 // (relative to the wall) on the surface (Morris, Fox, Zhu, J. Comput. Phys. 136 (1997) 214): their pairs with the fluid
 // are multiplied by
 //     beta = min(betaMax, 1 + depth_wall/distance_fluid)
+// A particle's gap, the distance from its nearest wall, is a field of its record: above 0 in the fluid, below 0 behind
+// the surface, in supports.
 #pragma once
+#include <algorithm>
+
 #include "particles/simd.hpp"
 
 namespace corpuscle::sph {
 
-struct WallPlanes {
-    double normal[3] = {0, 0, 0}, middle = 0, half = 0;  // half is far away where there are none
-    double smallestDistance = 0, betaMax = 1;            // bounds of beta's quotient
+struct NoSlip {
+    static constexpr double nowhere = 1e6;  // gap where there are no walls, in supports
+    // In supports, of a distance in metres.
+    static double gap(double distance, double support) { return std::min(distance / support, nowhere); }
 
-    // Distance from the nearer wall's surface: above 0 in the fluid, below 0 behind it.
-    template <class T>
-    CORPUSCLE_INLINE T gap(const T* x) const {
-        const T height = x[0] * T(normal[0]) + x[1] * T(normal[1]) + x[2] * T(normal[2]) - T(middle);
-        return T(half) - particles::max(height, T(0) - height);
-    }
+    // Bounds of beta's quotient: a fluid particle that has come very close to a wall counts as this far away, in
+    // supports.
+    double smallestDistance = 1, betaMax = 10;
+
+    // spacing, support: dx, H_s [m].
+    static NoSlip of(double spacing, double support) { return {0.25 * spacing / support, 10}; }
+
     template <class V, class J>
     CORPUSCLE_INLINE V beta(const V& gapI, const J& gapJ) const {
         using particles::max;

@@ -1,0 +1,34 @@
+// All walls of a scene. Where they stand is said by a WallShape, how they move by the flow.
+#pragma once
+#include <vector>
+
+#include "boundary/wall.hpp"
+
+namespace corpuscle::boundary {
+
+class Walls {
+  public:
+    // A wall at rest, with the next number.
+    void add(std::string name, std::shared_ptr<const Surface> surface);
+    void setVelocity(int number, const Vec3& velocity) {
+        walls_.at(static_cast<std::size_t>(number)).velocity = velocity;
+    }
+
+    bool exist() const { return !walls_.empty(); }
+    std::size_t count() const { return walls_.size(); }
+    const Wall& operator[](std::size_t number) const { return walls_[number]; }
+    auto begin() const { return walls_.begin(); }
+    auto end() const { return walls_.end(); }
+
+    // The wall of least distance, the first of several. There must be one.
+    const Wall& nearest(const Vec3& x) const;
+    // From the nearest wall [m]; infinite where there are no walls.
+    double distance(const Vec3& x) const;
+    // The same of many points.
+    void findDistances(const Points& points, std::vector<double>& distance) const;
+
+  private:
+    std::vector<Wall> walls_;
+};
+
+}  // namespace corpuscle::boundary

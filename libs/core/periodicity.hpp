@@ -1,0 +1,143 @@
+// The periodic images of a box: what is at x with velocity u is, for all whole n, also at
+//     x + sum_k n_k (L_k e_k + offset_k)   with velocity   u + sum_k n_k slide_k
+// L_k: edge of the box along axis k where it is periodic. offset and slide are 0 but where images slide past each
+// other, across one axis at most (a sheared box, whose planes move against each other).
+//
+// A surface that crosses a periodic face is kept whole: its nodes are contiguous and may lie outside the box. Which
+// image of a point belongs to it is for the surface itself to say: every image that falls into its bounds is tested. An
+// image chosen by its distance from one point of the surface, its centroid or middle, is another one wherever the
+// surface reaches further than half a period from there.
+#pragma once
+#include <array>
+#include <cmath>
+
+#include "core/vec.hpp"
+
+namespace corpuscle {
+
+class Periodicity {
+  public:
+    struct Image {
+        Vec3 shift = Vec3::Zero();  // of places [m]
+        Vec3 slide = Vec3::Zero();  // of velocities [m/s]
+    };
+
+    Periodicity() = default;  // along no axis
+    Periodicity(const Vec3& low, const Vec3& high, const std::array<bool, 3>& along);
+    // Of a box around the origin with these edges [m], 0 along an axis that is not periodic.
+    static Periodicity centred(const Vec3& lengths) {
+        return {-0.5 * lengths, 0.5 * lengths, {lengths[0] > 0, lengths[1] > 0, lengths[2] > 0}};
+    }
+
+    bool isAlong(int k) const { return length_[k] > 0; }
+    const Vec3& lengths() const { return length_; }  // L [m], 0 along an axis that is not periodic
+
+    // Images across the faces of this axis lie off by `offset` [m] at present, and move by `velocity` [m/s]; both
+    // without a component along the axis.
+    void slide(int axis, const Vec3& offset, const Vec3& velocity);
+    bool slides() const { return sliding_ >= 0; }
+
+    Image image(const Index3& n) const {
+        Image image{Vec3(n[0], n[1], n[2]).cwiseProduct(length_), Vec3::Zero()};
+        if (slides()) {
+            const double periods = n[static_cast<std::size_t>(sliding_)];
+            image.shift += periods * offset_, image.slide = periods * slide_;
+        }
+        return image;
+    }
+
+    // The image of x inside the box, along periodic axes only; the bits of x where that is the one.
+    Vec3 wrap(Vec3 x) const {
+        wrap(x, [](double) {});
+        return x;
+    }
+    // With its velocity u.
+    void wrap(Vec3& x, Vec3& u) const {
+        wrap(x, [&](double periods) { u += periods * slide_; });
+    }
+    // The coordinate of x along one axis, inside the box. Nothing that slides.
+    double wrap(double x, int k) const {
+        const double low = low_[k], high = high_[k];
+        if (!isAlong(k) || (x >= low && x < high)) return x;
+        x -= length_[k] * std::floor((x - low) / length_[k]);
+        return x < high ? x : low;  // rounding may land on the upper face
+    }
+
+    // The image of x that is nearest to `to`; the bits of x where it is x itself. Where the box slides, nearest along
+    // the sliding axis, and then along the others.
+    Vec3 nearest(Vec3 x, const Vec3& to) const {
+        inOrder([&](int k) {
+            const double periods = std::nearbyint((to[k] - x[k]) / length_[k]);
+            if (periods == 0) return;
+            x[k] += periods * length_[k];
+            if (k == sliding_) x += periods * offset_;
+        });
+        return x;
+    }
+    // The shortest image of a difference of places.
+    Vec3 shortest(Vec3 d) const {
+        inOrder([&](int k) {
+            const double periods = std::nearbyint(d[k] / length_[k]);
+            d[k] -= length_[k] * periods;
+            if (k == sliding_) d -= periods * offset_;
+        });
+        return d;
+    }
+
+    // f(image) for each image of x in the cuboid [low, high], x itself included where it lies there.
+    template <class F>
+    void forImagesWithin(const Vec3& x, const Vec3& low, const Vec3& high, F&& f) const {
+        if (!slides()) return forPlainImages(x, low, high, length_, f);
+        const int k = sliding_;
+        Vec3 others = length_;
+        others[k] = 0;
+        const double first = std::ceil((low[k] - x[k]) / length_[k]), last = std::floor((high[k] - x[k]) / length_[k]);
+        for (double n = first; n <= last; ++n) {
+            Vec3 image = x + n * offset_;
+            image[k] += n * length_[k];
+            forPlainImages(image, low, high, others, f);
+        }
+    }
+
+  private:
+    // f(k) for the periodic axes, the sliding one first: what moves along the others is known only after it.
+    template <class F>
+    void inOrder(F&& f) const {
+        if (slides()) f(sliding_);
+        for (int k = 0; k < 3; ++k)
+            if (isAlong(k) && k != sliding_) f(k);
+    }
+    template <class F>
+    void wrap(Vec3& x, F&& slid) const {
+        if (slides()) {
+            const int k = sliding_;
+            const double periods = std::floor((x[k] - low_[k]) / length_[k]);
+            if (periods != 0) x -= periods * offset_, slid(-periods);
+        }
+        for (int k = 0; k < 3; ++k) x[k] = wrap(x[k], k);
+    }
+    template <class F>
+    static void forPlainImages(const Vec3& x, const Vec3& low, const Vec3& high, const Vec3& length, F& f) {
+        Vec3 first = Vec3::Zero();  // in periods
+        Index3 count{1, 1, 1};
+        for (int k = 0; k < 3; ++k) {
+            if (!(length[k] > 0)) {
+                if (!(x[k] >= low[k] && x[k] <= high[k])) return;
+                continue;
+            }
+            first[k] = std::ceil((low[k] - x[k]) / length[k]);
+            const double images = std::floor((high[k] - x[k]) / length[k]) - first[k] + 1;
+            if (!(images >= 1)) return;
+            count[static_cast<std::size_t>(k)] = static_cast<int>(images);
+        }
+        for (int a = 0; a < count[0]; ++a)
+            for (int b = 0; b < count[1]; ++b)
+                for (int c = 0; c < count[2]; ++c) f(Vec3(x + (first + Vec3(a, b, c)).cwiseProduct(length)));
+    }
+
+    Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero(), length_ = Vec3::Zero();
+    int sliding_ = -1;  // axis; -1: nothing slides
+    Vec3 offset_ = Vec3::Zero(), slide_ = Vec3::Zero();
+};
+
+}  // namespace corpuscle
