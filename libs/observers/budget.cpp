@@ -18,8 +18,7 @@ namespace {
 
 Budget::Values summed(const Scene& scene) {
     const Budget::Values& own = scene.budget.total;
-    const std::vector<double> all = Communicator(scene.system->comm()).sum(std::vector<double>(own.begin(), own.end()));
-    return all;
+    return Communicator(scene.system->comm()).sum(own);
 }
 
 void add(std::vector<double>& row, const Vec3& v) { row.insert(row.end(), v.data(), v.data() + 3); }

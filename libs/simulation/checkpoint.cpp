@@ -69,7 +69,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
         file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.movedBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
-    if (scene.budget.kept) file.writeReplicated("budget", gathered(scene.budget, comm));
+    if (scene.budget.kept) file.writeReplicated("budgetByWall", gathered(scene.budget, comm));
     scene.store().forEachField([&](std::string_view name, const auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
@@ -135,7 +135,11 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
                               file.has(damage) ? file.template readReplicated<double>(damage) : std::vector<double>{});
     }
     if (scene.budget.kept && file.has("budget"))
-        restoreBudget(scene.budget, file.template readReplicated<double>("budget"), file.sameRanks(),
+        throw Failure(ExitCode::io, where +
+                                        " holds the budget of an earlier version, which counted the forces of walls "
+                                        "otherwise; start from firstTime");
+    if (scene.budget.kept && file.has("budgetByWall"))
+        restoreBudget(scene.budget, file.template readReplicated<double>("budgetByWall"), file.sameRanks(),
                       scene.system->decomposition().rank());
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())
