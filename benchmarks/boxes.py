@@ -74,7 +74,7 @@ def describe(name, case, tutorial, cell, step, perRadius, box, strain, *settings
         result = f"{min(values):.4f} to {max(values):.4f}, turns at " + " ".join(f"{mine:.2f}" for mine, _ in turns)
         within = worst(row["D12_inertia"] - at(reference, row["strain"], "D12_inertia") for row in shape if row["strain"] <= reference[-1]["strain"])
         error = f"{abs(within):.4f}, " + " ".join(f"{100 * (mine / theirs - 1):+.2f}" for mine, theirs in turns) + " %"
-    volume = abs(worst(row[f"{cell}_volumeChange"] for row in balance))
+    volume = abs(worst(row["volumeChange"] for row in balance))
     density = abs(worst(row["density_mean"] / balance[0]["density_mean"] - 1 for row in balance))
     crossed = max(row["changedSide"] for row in balance) + balance[-1]["guardMoves"]
     stress = [row["effectiveViscosity"] for row in series(case, "wall", "wallStress.csv") if row["strain"] > strain - 1]

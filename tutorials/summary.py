@@ -80,7 +80,7 @@ def summary(case):
     balance = series(case, "balance", "conservation.csv")
     extremes = {f"{name}_{word}": extreme(pick, (row[name] for row in shape)) for name in ("D12_extent", "D12_inertia")
                 for word, pick in (("min", min), ("max", max))}
-    drift = lambda end: extreme(lambda values: max(values, key=abs), (row[key] for row in balance for key in row if key.endswith(end)))
+    drift = lambda key: extreme(lambda values: max(values, key=abs), (row[key] for row in balance))
     return {
         "Ca": float(f"{run['groups']['Ca']:.6g}"),
         "strain": shape[-1]["strain"],
@@ -88,8 +88,8 @@ def summary(case):
         "angleTurned_deg": math.degrees(shape[-1]["angleTurned_rad"]),
         "axisTurned_deg": axisTurned(shape)[-1],
         "fullTurn_strain": strainOfTurn(shape),
-        "areaDrift": drift("_areaChange"),
-        "volumeDrift": drift("_volumeChange"),
+        "areaDrift": drift("areaChange"),
+        "volumeDrift": drift("volumeChange"),
         "guardMoves": balance[-1]["guardMoves"],
         "changedSide": extreme(max, (row["changedSide"] for row in balance)),
         "wallClock_s": run["wallClock_s"] or math.nan,

@@ -176,12 +176,8 @@ def deviator(row):
     return complex(row["D12_inertia"] * math.cos(2 * row["inclination_rad"]), row["D12_inertia"] * math.sin(2 * row["inclination_rad"]))
 
 
-def cellKey(row, ending):
-    return next((key for key in row if key.endswith(ending)), None)
-
-
 def late(curve, end):
-    """Mean effective viscosity over the second half of the strains to `end`, between looks along straight lines, so that it does not hang on where these fall."""
+    """Mean effective viscosity over the second half of the strains to `end`, between looks along straight lines, so that it does not depend on where these fall."""
     strains = [0.5 * end, *(row["strain"] for row in curve if 0.5 * end < row["strain"] < end), end]
     values = [suite.at(curve, strain, "effectiveViscosity") for strain in strains]
     return sum(0.5 * (a + b) * (t - s) for s, t, a, b in zip(strains, strains[1:], values, values[1:])) / (0.5 * end)
@@ -206,8 +202,8 @@ def judge(run, left, twin):
     off = [(row["strain"], max(1 - row["density_min"], row["density_max"] - 1)) for row in balance]
     most = max([DENSITY, *(2 * max(1 - row["density_min"], row["density_max"] - 1) for row in theirs["balance"] if finite(row))]) if theirs else DENSITY
     look("densityOff", off, most, "density off")
-    if balance and cellKey(balance[0], "_volumeChange") and not run.axis == "rupture":
-        look("volumeDrift", [(row["strain"], row[cellKey(row, "_volumeChange")]) for row in balance], VOLUME, "volume drifts")
+    if balance and "volumeChange" in balance[0] and not run.axis == "rupture":
+        look("volumeDrift", [(row["strain"], row["volumeChange"]) for row in balance], VOLUME, "volume drifts")
     if balance and "changedSide" in balance[0]:
         figures["changedSide"] = max(row["changedSide"] for row in balance) + balance[-1]["guardMoves"]
         if "dual" not in run.scheme and run.axis != "rupture":  # an open cell has no sides
@@ -220,8 +216,7 @@ def judge(run, left, twin):
             scale = max(row["D12_inertia"] for row in theirs["deformation"])
             pairs = [(row["strain"], abs(deviator(row) - suite.at(theirs["deformation"], row["strain"], deviator)) / scale) for row in shape]
             look("shapeError", pairs, SHAPE + SHAPE_FLOOR / scale, "shape off")
-            area = cellKey(balance[0], "_areaChange")
-            look("areaError", [(row["strain"], row[area] - suite.at(theirs["balance"], row["strain"], area)) for row in balance], AREA, "area off")
+            look("areaError", [(row["strain"], row["areaChange"] - suite.at(theirs["balance"], row["strain"], "areaChange")) for row in balance], AREA, "area off")
         look("energy", [(row["strain"], row["kineticEnergy_J"] / suite.at(theirs["balance"], row["strain"], "kineticEnergy_J") - 1) for row in balance],
              ENERGY, "kinetic energy off")
         if left["code"] == 0 and wall:

@@ -21,7 +21,7 @@ std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long nu
         if (!cell.membrane.canRupture()) continue;
         std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
         if (broken.empty()) continue;
-        const bool counts = scene.budget.kept && scene.system->decomposition().rank() == 0;
+        const bool counts = scene.budget.kept && cell.isOwnedBy(scene.system->decomposition().rank());
         const double before = counts ? cell.membrane.energy() : 0;
         cell.membrane.breakBonds(broken);
         if (counts) scene.budget.total[sph::Budget::released] += before - cell.membrane.energy();

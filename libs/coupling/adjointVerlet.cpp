@@ -27,7 +27,7 @@ class Verlet final : public AdjointVerlet {
           options_(options),
           operators_(scene.model(), *scene.system, options.form),
           transport_(scene, options.shifting) {
-        if (scene.cells.empty()) return;
+        if (!scene.cells.exist()) return;
         immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
         noFlux_ = std::make_unique<NoFlux>(scene.cells, scene.spacing);
     }
@@ -103,13 +103,16 @@ class Verlet final : public AdjointVerlet {
         if (keeps) findRates();
         if (!immersed_) return;
         immersed_->place(*scene_.system, operators_.volumes());
-        noFlux_->find(*scene_.system, immersed_->touched());
+        noFlux_->find(*scene_.system, *immersed_);
         Immersed::Vectors f = immersed_->force();
         double viscous = 0;
         if (immersed_->isViscous()) {
             const Immersed::Vectors nodes = nodeVelocities(), elastic = keeps ? f : Immersed::Vectors();
             immersed_->addViscousForces(nodes, f);
-            for (std::size_t m = 0; m < elastic.size(); ++m) viscous += nodes[m].dot(f[m] - elastic[m]);
+            if (keeps)
+                viscous =
+                    immersed_->layout().sumOverOwned(scene_.cells, scene_.system->decomposition().rank(),
+                                                     [&](std::size_t m) { return nodes[m].dot(f[m] - elastic[m]); });
         }
         immersed_->spread(std::move(f), operators_.force());
         if (keeps) addMembraneRates(viscous);
@@ -131,9 +134,8 @@ class Verlet final : public AdjointVerlet {
         rates_[sph::Budget::compression] = compression;
         rates_[sph::Budget::viscous] = -fluidPower_ - compression;
     }
-    // viscous: power of the membranes' viscosity, the same on all ranks.
-    void addMembraneRates(double viscous) {
-        const double own = scene_.system->decomposition().rank() == 0 ? viscous : 0;
+    // own: power of the membranes' viscosity, of the cells that this rank owns.
+    void addMembraneRates(double own) {
         rates_[sph::Budget::inMembranes] = -own;
         rates_[sph::Budget::elastic] = own - (power() - fluidPower_);
     }
@@ -210,10 +212,10 @@ class Verlet final : public AdjointVerlet {
     // multiplied to be K P S field_.
     double springForces(const Immersed::Vectors& rest) {
         Immersed::Vectors displacement = nodeVelocities();
-        double longest = 0, bond = 0;
+        double longest = 0;
         for (const Vec3& d : displacement) longest = std::max(longest, d.norm());
-        for (const Cell& cell : scene_.cells) bond = std::max(bond, cell.membrane.network().meanBondLength());
-        const double scale = longest > 0 ? probeInBonds * bond / longest : 1;
+        longest = Communicator(scene_.system->comm()).max(longest);
+        const double scale = longest > 0 ? probeInBonds * scene_.cells.meanBondLength() / longest : 1;
         for (Vec3& d : displacement) d *= scale;
         Immersed::Vectors f = immersed_->forceAt(displacement);
         for (std::size_t m = 0; m < f.size(); ++m) f[m] -= rest[m];

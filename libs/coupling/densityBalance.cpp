@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/communicator.hpp"
+
 namespace corpuscle::coupling {
 
 using particles::Kind;
@@ -17,33 +19,31 @@ struct Region {
 static_assert(sizeof(Region) == 2 * sizeof(double));
 }  // namespace
 
-void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<Cell>& cells) {
+void DensityBalance::apply(particles::ParticleSystem& system, const Cells& cells) {
     particles::ParticleStore& s = system.store();
+    const Communicator ranks(system.comm());
     const auto n = static_cast<std::size_t>(system.owned());
-    std::vector<double> volume(cells.size(), -1);  // every holder has the same
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        if (cells[c].held) volume[c] = cells[c].membrane.network().isOpen() ? 0 : cells[c].membrane.volume();
-    MPI_Allreduce(MPI_IN_PLACE, volume.data(), static_cast<int>(volume.size()), MPI_DOUBLE, MPI_MAX, system.comm());
-    std::vector<char> closed(cells.size());
-    std::transform(volume.begin(), volume.end(), closed.begin(), [](double v) { return v > 0; });
+    const std::size_t held = cells.heldCount();
+    std::vector<double> volume(held, 0);  // of closed cells
+    for (std::size_t c = 0; c < held; ++c)
+        if (!cells[c].membrane.network().isOpen()) volume[c] = cells[c].membrane.volume();
 
-    // Region 0 is the outside and all open cells. A node counts half to either side of its membrane.
-    const auto regionOfCell = [&](std::size_t number) { return number > 0 && closed[number - 1] ? number : 0; };
-    const auto regionOf = [&](std::size_t i) {
-        return regionOfCell(s.optional().side ? static_cast<std::size_t>(s.side[i]) : 0);
+    // Region 0 is the outside and all open cells, then those that this rank holds: who has a particle in a closed cell
+    // holds that cell. A node counts half to either side of its membrane.
+    const auto regionOfCell = [&](int number) -> std::size_t {
+        const std::size_t index = number > 0 ? cells.indexOf(number) : Cells::notHeld;
+        return index != Cells::notHeld && volume[index] > 0 ? index + 1 : 0;
     };
-    const auto cellOfNode = [&](std::int64_t node) {
-        const auto next = std::upper_bound(cells.begin(), cells.end(), node,
-                                           [](std::int64_t n, const Cell& c) { return n < c.firstNode; });
-        return static_cast<std::size_t>(next - cells.begin());
+    const auto regionOf = [&](std::size_t i) {
+        return regionOfCell(s.optional().side ? static_cast<int>(s.side[i]) : 0);
     };
     const auto sidesOf = [&](std::size_t i) {  // the two regions of a particle, the same one for fluid
         const bool node = s.kindOf(i) == Kind::membrane;
-        return node ? std::array{regionOfCell(cellOfNode(s.node[i])), std::size_t(0)}
+        return node ? std::array{regionOfCell(cells.cellOfNode(s.node[i]).first), std::size_t(0)}
                     : std::array{regionOf(i), regionOf(i)};
     };
     const auto massOf = [&](std::size_t i) { return s.optional().mass ? s.mass[i] : mass_; };
-    std::vector<Region> regions(cells.size() + 1);
+    std::vector<Region> regions(held + 1);
     for (std::size_t i = 0; i < n; ++i) {
         if (particles::isBoundary(s.kindOf(i))) continue;
         for (const std::size_t r : sidesOf(i)) {
@@ -51,21 +51,28 @@ void DensityBalance::apply(particles::ParticleSystem& system, const std::vector<
             regions[r].mass += 0.5 * massOf(i);
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, regions.data(), static_cast<int>(2 * regions.size()), MPI_DOUBLE, MPI_SUM,
-                  system.comm());
+    sums_.plan(
+        cells, system.comm(), [](const Cell&) { return 1; }, std::vector<char>(held, 1));
+    sums_.addUp({reinterpret_cast<double*>(regions.data() + 1), 2 * held}, 2);
+    double closed = 0, closedAtStart = 0;  // volumes of the cells that this rank owns, rigid bodies in them included
+    for (std::size_t c = 0; c < held; ++c)
+        if (volume[c] > 0 && cells[c].isOwnedBy(ranks.rank()))
+            closed += volume[c], closedAtStart += cells[c].initialVolume;
+    const std::vector<double> all =
+        ranks.sum(std::vector<double>{regions[0].space, regions[0].mass, closed, closedAtStart});
+    regions[0] = {all[0], all[1]};
 
-    double outside = fluidVolume_, outsideAtStart = fluidVolume_;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        if (closed[c]) outside -= volume[c], outsideAtStart -= cells[c].initialVolume;  // rigid bodies inside included
     std::vector<double> factor(regions.size(), 1.0);
+    double largest = 0;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-        if (regions[r].space <= 0 || (r > 0 && !closed[r - 1])) continue;
+        if (regions[r].space <= 0 || (r > 0 && !(volume[r - 1] > 0))) continue;
         const double solid = r == 0 ? 0 : cells[r - 1].solidVolume;
-        const double change =
-            r == 0 ? outside / outsideAtStart : (volume[r - 1] - solid) / (cells[r - 1].initialVolume - solid);
+        const double change = r == 0 ? (fluidVolume_ - all[2]) / (fluidVolume_ - all[3])
+                                     : (volume[r - 1] - solid) / (cells[r - 1].initialVolume - solid);
         factor[r] = regions[r].space / (change * regions[r].mass / density_);
-        largest_ = std::max(largest_, std::abs(factor[r] - 1));
+        largest = std::max(largest, std::abs(factor[r] - 1));
     }
+    largest_ = std::max(largest_, ranks.max(largest));
     for (std::size_t i = 0; i < n; ++i) {
         if (particles::isBoundary(s.kindOf(i))) continue;
         const auto [one, other] = sidesOf(i);

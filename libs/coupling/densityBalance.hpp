@@ -16,8 +16,7 @@
 #pragma once
 #include <vector>
 
-#include "coupling/cell.hpp"
-#include "particles/particleSystem.hpp"
+#include "coupling/holderSums.hpp"
 
 namespace corpuscle::coupling {
 
@@ -29,13 +28,14 @@ class DensityBalance {
         : fluidVolume_(fluidVolume), density_(density), mass_(mass) {}
 
     // Collective.
-    void apply(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+    void apply(particles::ParticleSystem& system, const Cells& cells);
 
     // Largest |factor - 1| of any application so far, the same on all ranks.
     double largest() const { return largest_; }
 
   private:
     double fluidVolume_, density_, mass_, largest_ = 0;
+    HolderSums sums_;
 };
 
 }  // namespace corpuscle::coupling

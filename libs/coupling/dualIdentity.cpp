@@ -43,22 +43,17 @@ double largestEigenvalue(const Cell& cell, int iterations, F&& stiffness) {
 
 }  // namespace
 
-DualIdentity::DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals)
-    : cells_(cells),
-      guard_(spacing),
-      balance_(balance),
-      margin_(LeakageGuard::reachInSpacings * spacing),
-      intervals_(intervals) {}
+DualIdentity::DualIdentity(Cells& cells, double spacing, const DensityBalance& balance, Intervals intervals)
+    : cells_(cells), guard_(spacing), balance_(balance), intervals_(intervals) {}
 
 void DualIdentity::moved(ParticleSystem& system, double extrapolation, bool rebuilt) {
-    if (rebuilt) exchange_.plan(system, cells_, margin_ + system.skin());
+    if (rebuilt) exchange_.plan(system, cells_);
     exchange_.gather(system, cells_, extrapolation);
     if (rebuilt) guard_.findCandidates(system, cells_);
 }
 
 void DualIdentity::addAccelerations(ParticleSystem& system) {
-    for (Cell& cell : cells_)
-        if (cell.held) cell.membrane.computeForces();
+    for (Cell& cell : cells_) cell.membrane.computeForces();
     auto& s = system.store();
     for (const NodeExchange::OwnedNode& n : exchange_.owned()) {
         const Vec3 a = cells_[static_cast<std::size_t>(n.cell)].membrane.force[static_cast<std::size_t>(n.node)] /
@@ -70,10 +65,10 @@ void DualIdentity::addAccelerations(ParticleSystem& system) {
 }
 
 void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& forces, sph::Budget::Values& rates) const {
-    std::vector<Vectors> viscous(cells_.size());  // of held cells
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
+    std::vector<Vectors> viscous(cells_.heldCount());
+    for (std::size_t c = 0; c < cells_.heldCount(); ++c) {
         const membrane::Membrane& m = cells_[c].membrane;
-        if (!cells_[c].held || !m.isViscous()) continue;
+        if (!m.isViscous()) continue;
         viscous[c] = none(m.position);
         m.addViscousForces(m.velocity, viscous[c]);
     }
@@ -92,9 +87,9 @@ void DualIdentity::addRates(const ParticleSystem&, const sph::FluidForces& force
 std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double dt, sph::Budget* budget) {
     ++steps_;
     std::vector<RuptureEvent> events;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
+    for (std::size_t c = 0; c < cells_.heldCount(); ++c) {
         membrane::Membrane& membrane = cells_[c].membrane;
-        if (!cells_[c].held || !membrane.canRupture()) continue;
+        if (!membrane.canRupture()) continue;
         std::vector<membrane::BrokenBond> broken = membrane.findBroken(dt);
         if (broken.empty()) continue;
         if (intervals_.guard > 0) guard_.movedBack(system, cells_[c], c);
@@ -115,7 +110,6 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
 double DualIdentity::springRate2(const ParticleSystem& system, int iterations) const {
     double largest = 0;
     for (const Cell& cell : cells_) {
-        if (!cell.held) continue;
         const membrane::Membrane& m = cell.membrane;
         const double step = 1e-4 * m.network().meanBondLength();
         Vectors x = m.position, restForce = none(x), f = restForce;
@@ -134,7 +128,7 @@ double DualIdentity::springRate2(const ParticleSystem& system, int iterations) c
 double DualIdentity::membraneRate(const ParticleSystem& system, int iterations) const {
     double largest = 0;
     for (const Cell& cell : cells_) {
-        if (!cell.held || !cell.membrane.isViscous()) continue;
+        if (!cell.membrane.isViscous()) continue;
         Vectors f = none(cell.membrane.position);
         largest = std::max(largest, largestEigenvalue(cell, iterations, [&](const Vectors& mode) -> const Vectors& {
                                std::fill(f.begin(), f.end(), Vec3::Zero());

@@ -30,7 +30,10 @@ class DualIdentity : public sph::Load {
     struct Intervals {
         long guard = 10, densityBalance = 10;
     };
-    DualIdentity(std::vector<Cell>& cells, double spacing, const DensityBalance& balance, Intervals intervals);
+    // How far from its brick a rank must know the nodes of membranes [m].
+    static double margin(double spacing, double skin) { return LeakageGuard::reachInSpacings * spacing + skin; }
+
+    DualIdentity(Cells& cells, double spacing, const DensityBalance& balance, Intervals intervals);
 
     void moved(particles::ParticleSystem& system, double extrapolation, bool rebuilt) override;
     void addAccelerations(particles::ParticleSystem& system) override;
@@ -54,11 +57,10 @@ class DualIdentity : public sph::Load {
     double membraneRate(const particles::ParticleSystem& system, int iterations) const;
 
   private:
-    std::vector<Cell>& cells_;
+    Cells& cells_;
     NodeExchange exchange_;
     LeakageGuard guard_;
     DensityBalance balance_;
-    double margin_;
     Intervals intervals_;
     long steps_ = 0;
 };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "geometry/boundsIndex.hpp"
 #include "geometry/periodicSurface.hpp"
 
 namespace corpuscle::coupling {
@@ -16,39 +18,39 @@ constexpr double restoredDistanceInSpacings = 0.1;
 constexpr std::size_t longestReport = 1000;
 }  // namespace
 
-geometry::TriangleTree& LeakageGuard::grid(const Cell& cell, std::size_t index) {
-    const double reach = reachInSpacings * spacing_;
-    if (!grids_[index])
-        grids_[index] = std::make_unique<geometry::TriangleTree>(
-            geometry::TriangleMesh{cell.membrane.position, cell.membrane.network().triangles()}, reach);
-    else
-        grids_[index]->update(cell.membrane.position);
-    return *grids_[index];
-}
-
-void LeakageGuard::findCandidates(const ParticleSystem& system, const std::vector<Cell>& cells) {
-    grids_.resize(cells.size());
-    candidates_.assign(cells.size(), {});
+void LeakageGuard::findCandidates(const ParticleSystem& system, const Cells& cells) {
+    surfaces_.keepHeld(cells);
+    candidates_.assign(cells.heldCount(), {});
+    std::vector<geometry::Bounds> bounds(cells.heldCount());
+    std::vector<std::optional<geometry::NearestImages>> surfaces(cells.heldCount());
+    for (std::size_t c = 0; c < cells.heldCount(); ++c) {
+        const membrane::Membrane& m = cells[c].membrane;
+        if (m.network().isOpen()) continue;
+        surfaces[c].emplace(surfaces_.of(cells[c]), m.position, system.periodicity());
+        bounds[c] = geometry::SurfaceView{&m.position, &m.network().triangles()}.bounds();
+    }
+    const particles::Box& box = system.box();
+    const geometry::BoundsIndex index(bounds, box.low, box.high, system.periodicity(), reachInSpacings * spacing_);
     const ParticleStore& s = system.store();
-    const Periodicity& period = system.periodicity();
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (!cells[c].held || cells[c].membrane.network().isOpen()) continue;
-        const geometry::NearestImages surface(grid(cells[c], c), cells[c].membrane.position, period);
-        for (int i = 0; i < system.owned(); ++i)
-            if (s.kindOf(i) == Kind::fluid && surface.nearest(s.position(i))) candidates_[c].push_back(i);
+    for (int i = 0; i < system.owned(); ++i) {
+        if (s.kindOf(static_cast<std::size_t>(i)) != Kind::fluid) continue;
+        const Vec3 x = s.position(static_cast<std::size_t>(i));
+        for (const int c : index.near(x))
+            if (surfaces[static_cast<std::size_t>(c)]->nearest(x))
+                candidates_[static_cast<std::size_t>(c)].push_back(i);
     }
 }
 
-void LeakageGuard::movedBack(ParticleSystem& system, const std::vector<Cell>& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c) movedBack(system, cells[c], c);
+void LeakageGuard::movedBack(ParticleSystem& system, const Cells& cells) {
+    for (std::size_t c = 0; c < cells.heldCount(); ++c) movedBack(system, cells[c], c);
 }
 
 void LeakageGuard::movedBack(ParticleSystem& system, const Cell& cell, std::size_t index) {
-    if (!cell.held || cell.membrane.network().isOpen() || candidates_[index].empty()) return;
+    if (cell.membrane.network().isOpen() || candidates_[index].empty()) return;
     ParticleStore& s = system.store();
-    const geometry::NearestImages surface(grid(cell, index), cell.membrane.position, system.periodicity());
+    const geometry::NearestImages images(surfaces_.of(cell), cell.membrane.position, system.periodicity());
     for (const int i : candidates_[index]) {
-        const auto [at, x] = surface.nearest(s.position(i));
+        const auto [at, x] = images.nearest(s.position(i));
         if (!at) continue;
         const double own = s.side[i] == cell.membrane.cell ? -1 : 1;  // sign of the distance on the particle's own side
         if (own * at.distance >= 0) continue;

@@ -6,11 +6,9 @@
 // cell is left alone; at the step at which it is going to break it is looked at once more, so that what is outside
 // later went through a hole.
 #pragma once
-#include <memory>
 #include <vector>
 
-#include "coupling/cell.hpp"
-#include "geometry/triangleTree.hpp"
+#include "coupling/surfaceTrees.hpp"
 #include "particles/particleSystem.hpp"
 
 namespace corpuscle::coupling {
@@ -26,12 +24,12 @@ class LeakageGuard {
   public:
     static constexpr double reachInSpacings = 1.0;
 
-    explicit LeakageGuard(double spacing) : spacing_(spacing) {}
+    explicit LeakageGuard(double spacing) : spacing_(spacing), surfaces_(reachInSpacings * spacing) {}
 
-    void findCandidates(const particles::ParticleSystem& system, const std::vector<Cell>& cells);
-    void movedBack(particles::ParticleSystem& system, const std::vector<Cell>& cells);
+    void findCandidates(const particles::ParticleSystem& system, const Cells& cells);
+    void movedBack(particles::ParticleSystem& system, const Cells& cells);
     void movedBack(particles::ParticleSystem& system, const Cell& cell,
-                   std::size_t index);  // of one cell, by its index
+                   std::size_t index);  // of one held cell, by its index
 
     // This rank's moves since the start of the run, and the last of them since the last call.
     long moves() const { return moves_; }
@@ -40,12 +38,10 @@ class LeakageGuard {
     void restore(long moves) { moves_ = moves; }
 
   private:
-    geometry::TriangleTree& grid(const Cell& cell, std::size_t index);
-
     double spacing_, deepest_ = 0;
     long moves_ = 0;
-    std::vector<std::unique_ptr<geometry::TriangleTree>> grids_;
-    std::vector<std::vector<int>> candidates_;  // [cell]: particles
+    SurfaceTrees surfaces_;
+    std::vector<std::vector<int>> candidates_;  // particles, of each held cell
     std::vector<GuardMove> report_;
 };
 

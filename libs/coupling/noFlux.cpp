@@ -12,24 +12,11 @@ using particles::Kind;
 using particles::ParticleSystem;
 
 namespace {
-constexpr double reachInSpacings = 1;
-
 // Sign of the distance on the particle's side.
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
     return s.side[static_cast<std::size_t>(particle)] == cell.membrane.cell ? -1 : 1;
 }
 }  // namespace
-
-geometry::TriangleTree& NoFlux::surface(std::size_t c) {
-    const membrane::Membrane& m = cells_[c].membrane;
-    grids_.resize(cells_.size());
-    if (!grids_[c])
-        grids_[c] = std::make_unique<geometry::TriangleTree>(
-            geometry::TriangleMesh{m.position, m.network().triangles()}, reachInSpacings * spacing_);
-    else
-        grids_[c]->update(m.position);
-    return *grids_[c];
-}
 
 Vec3 NoFlux::normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const {
     if (std::abs(at.distance) > 1e-6 * spacing_) return (x - at.point) / at.distance;
@@ -47,20 +34,22 @@ Vec3 NoFlux::velocity(const Near& near) const {
     return v;
 }
 
-void NoFlux::find(const ParticleSystem& system, const std::vector<int>& candidates) {
-    const particles::ParticleStore& s = system.store();
-    const Periodicity& period = system.periodicity();
+void NoFlux::forgetOthers() {
     near_.clear();
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        if (cells_[c].membrane.network().isOpen()) continue;
-        const geometry::NearestImages images(surface(c), cells_[c].membrane.position, period);
-        for (const int i : candidates) {
-            if (s.kindOf(static_cast<std::size_t>(i)) != Kind::fluid) continue;
-            const auto [at, x] = images.nearest(s.position(static_cast<std::size_t>(i)));
-            if (!at) continue;
-            const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
-            near_.push_back({i, c, at, sideOf(s, i, cells_[c]), chi * chi, normal(cells_[c], at, x)});
-        }
+    surfaces_.keepHeld(cells_);
+}
+
+void NoFlux::find(const ParticleSystem& system, std::size_t c, const std::vector<int>& candidates) {
+    const particles::ParticleStore& s = system.store();
+    const Cell& cell = cells_[c];
+    if (candidates.empty()) return;
+    const geometry::NearestImages images(surfaces_.of(cell), cell.membrane.position, system.periodicity());
+    for (const int i : candidates) {
+        if (s.kindOf(static_cast<std::size_t>(i)) != Kind::fluid) continue;
+        const auto [at, x] = images.nearest(s.position(static_cast<std::size_t>(i)));
+        if (!at) continue;
+        const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
+        near_.push_back({i, c, at, sideOf(s, i, cell), chi * chi, normal(cell, at, x)});
     }
 }
 
@@ -71,7 +60,7 @@ void NoFlux::keepSides(ParticleSystem& system) {
     for (std::size_t k = 0; k < near_.size();) {  // near_ is ordered by cells
         const std::size_t c = near_[k].cell;
         const Cell& cell = cells_[c];
-        const geometry::NearestImages images(surface(c), cell.membrane.position, period);
+        const geometry::NearestImages images(surfaces_.of(cell), cell.membrane.position, period);
         for (; k < near_.size() && near_[k].cell == c; ++k) {
             const auto i = static_cast<std::size_t>(near_[k].particle);
             const double own = near_[k].side;

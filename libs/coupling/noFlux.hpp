@@ -7,11 +7,10 @@
 // beyond it, goes to that distance; those that were beyond it are counted. In the interior of the fluid nothing is
 // done, and an opened cell is left alone.
 #pragma once
-#include <memory>
 #include <vector>
 
-#include "coupling/cell.hpp"
-#include "geometry/triangleTree.hpp"
+#include "coupling/immersed.hpp"
+#include "coupling/surfaceTrees.hpp"
 #include "particles/particleSystem.hpp"
 
 namespace corpuscle::coupling {
@@ -20,13 +19,21 @@ class NoFlux {
   public:
     static constexpr double imageMarginInSpacings =
         2;  // that a case must leave between a cell and its image: twice the reach
-    static constexpr double leastDistanceInSpacings = 0.05;
+    static constexpr double leastDistanceInSpacings = 0.05, reachInSpacings = 1;
 
-    NoFlux(std::vector<Cell>& cells, double spacing) : cells_(cells), spacing_(spacing) {}
+    NoFlux(Cells& cells, double spacing) : cells_(cells), spacing_(spacing), surfaces_(reachInSpacings * spacing) {}
 
-    // Which of `candidates`, particles of this rank, are near a membrane now: near the image of it that is nearest to
-    // them.
-    void find(const particles::ParticleSystem& system, const std::vector<int>& candidates);
+    // Which particles of this rank are near a membrane now: near the image of it that is nearest to them.
+    // candidates(cell): those that may be, of a held cell by its index.
+    template <class Candidates>
+    void findAmong(const particles::ParticleSystem& system, Candidates&& candidates) {
+        forgetOthers();
+        for (std::size_t c = 0; c < cells_.heldCount(); ++c)
+            if (!cells_[c].membrane.network().isOpen()) find(system, c, candidates(c));
+    }
+    void find(const particles::ParticleSystem& system, const Immersed& immersed) {
+        findAmong(system, [&](std::size_t cell) -> const std::vector<int>& { return immersed.touchedBy(cell); });
+    }
     // Those that were found, with the velocity that nodes have now.
     template <class F>
     void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
@@ -47,14 +54,15 @@ class NoFlux {
         double side, chi;
         Vec3 normal;
     };
-    geometry::TriangleTree& surface(std::size_t cell);
+    void forgetOthers();  // than the cells that are held, and what was found
+    void find(const particles::ParticleSystem& system, std::size_t cell, const std::vector<int>& candidates);
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
 
-    std::vector<Cell>& cells_;
+    Cells& cells_;
     double spacing_, deepest_ = 0;
     long crossings_ = 0;
-    std::vector<std::unique_ptr<geometry::TriangleTree>> grids_;
+    SurfaceTrees surfaces_;
     std::vector<Near> near_;
 };
 

@@ -3,34 +3,30 @@
 #pragma once
 #include <vector>
 
-#include "coupling/cell.hpp"
-#include "particles/particleSystem.hpp"
+#include "coupling/cells.hpp"
 
 namespace corpuscle::coupling {
 
 class NodeExchange {
   public:
-    // Who holds which cell now, who owns which node. Hands the state of a cell to ranks that newly hold it. Collective.
-    void plan(particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
+    // Who owns which node, and who holds its cell, now that lists have been built. Collective.
+    void plan(particles::ParticleSystem& system, Cells& cells);
 
     // Positions (unwrapped) and velocities, `extrapolation` seconds on by the present acceleration, of all nodes of
     // held cells. Collective.
-    void gather(const particles::ParticleSystem& system, std::vector<Cell>& cells, double extrapolation);
+    void gather(const particles::ParticleSystem& system, Cells& cells, double extrapolation);
 
     struct OwnedNode {
         int particle;  // in the store
-        int cell, node;
+        int cell;      // index among those that this rank holds
+        int node;
     };
     const std::vector<OwnedNode>& owned() const { return owned_; }
 
   private:
-    void findHolders(const particles::ParticleSystem& system, std::vector<Cell>& cells, double margin);
-    void handOver(const particles::ParticleSystem& system, std::vector<Cell>& cells,
-                  const std::vector<std::vector<char>>& before);
     static void place(const Periodicity& periodicity, Cell& cell, int node, const Vec3& position, const Vec3& velocity);
 
     std::vector<OwnedNode> owned_;
-    std::vector<std::vector<char>> holds_;  // [cell][rank]
     struct Channel {
         int rank;
         std::vector<int> send;                     // entries of owned_

@@ -20,9 +20,9 @@ struct Scene {
     std::unique_ptr<bodies::Bodies> bodies;    // none unless the case has rigid bodies
     std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
     std::unique_ptr<sph::Shifting> shifting;   // none unless the case names it
-    std::vector<Cell> cells;                   // empty for a fluid alone
+    Cells cells;                               // none for a fluid alone
     std::unique_ptr<DualIdentity> coupling;    // none without cells
-    std::vector<RuptureEvent> broken;          // at the last step
+    std::vector<RuptureEvent> broken;          // at the last step, of the cells that this rank holds
     sph::Budget budget;                        // of energy and momentum; not kept unless an observer asks for it
     long movedBack =
         0;  // fluid particles of this rank that had crossed a membrane and were moved back, since the start

@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "geometry/boundsIndex.hpp"
 #include "geometry/periodicSurface.hpp"
 
 namespace corpuscle::geometry {
@@ -127,9 +128,10 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
 std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
                           const Periodicity& period) {
     std::vector<int> side(points.size(), 0);
+    const auto near = pointsNear(points, meshes, 0, period);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const InsideTest test(meshes[m]);
-        for (std::size_t i = 0; i < points.size(); ++i) {
+        for (const std::size_t i : near[m]) {
             if (!test.inside(points[i], period)) continue;
             if (side[i] != 0)
                 throw Failure(
@@ -145,11 +147,12 @@ std::vector<int> tagSides(const std::vector<Vec3>& points, const std::vector<Tri
 std::size_t holdOff(std::vector<Vec3>& points, const std::vector<int>& side, const std::vector<TriangleMesh>& meshes,
                     double least, const Periodicity& period) {
     std::size_t moved = 0;
+    const auto near = pointsNear(points, meshes, 2 * least, period);
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const TriangleMesh& mesh = meshes[m];
         const TriangleTree grid(mesh, least);
         const NearestImages surface(grid, mesh.nodes, period);
-        for (std::size_t i = 0; i < points.size(); ++i) {
+        for (const std::size_t i : near[m]) {
             const auto [at, x] = surface.nearest(points[i]);
             const double own = side[i] == static_cast<int>(m) + 1 ? -1 : 1;
             if (!at || own * at.distance >= least) continue;

@@ -34,6 +34,7 @@ std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vec
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         Vec3 from = meshes[m].nodes.front(), to = from;
         for (const Vec3& x : meshes[m].nodes) from = from.cwiseMin(x), to = to.cwiseMax(x);
+        const double slack = 1e-9 * ((to - from).norm() + (high - low).norm());
         double first[3]{}, last[3]{};  // periods by which the surface is moved so that its bounds meet the box
         for (int k = 0; k < 3; ++k)
             if (period.isAlong(k)) {
@@ -46,7 +47,10 @@ std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vec
                     const Vec3 periods(first[0] + a, first[1] + b, first[2] + c);
                     const Surface surface = surfaceOf(meshes[m], periods.cwiseProduct(period.lengths()));
                     const CGAL::Side_of_triangle_mesh<Surface, Kernel> side(surface);
+                    const Vec3 by = periods.cwiseProduct(period.lengths());
                     for (std::size_t i = 0; i < points.size(); ++i) {
+                        const Vec3 x = points[i] - by;  // to the surface as it stands; rounding stays below the slack
+                        if (((x - from).array() < -slack).any() || ((x - to).array() > slack).any()) continue;
                         const CGAL::Bounded_side found = side({points[i].x(), points[i].y(), points[i].z()});
                         if (found == CGAL::ON_UNBOUNDED_SIDE) continue;
                         RaySide& of = sides[i];

@@ -33,8 +33,8 @@ double disturbanceOf(System<Real>& system, const typename System<Real>::Field& v
         setVector(disturbance, i, w);
         setVector(undisturbed, i, flow);
     }
-    sum = Communicator(scene.system->comm()).sum(sum);
-    return std::abs(sum + system.power(undisturbed, disturbance));
+    sum += system.power(undisturbed, disturbance);
+    return std::abs(Communicator(scene.system->comm()).sum(sum));
 }
 
 double leastDisturbance(const coupling::Scene& scene) {

@@ -23,10 +23,10 @@ using particles::vectorAt;
 namespace {
 
 std::unique_ptr<Immersed> immersedIn(Scene& scene) {
-    return scene.cells.empty() ? nullptr : std::make_unique<Immersed>(scene.cells, scene.spacing);
+    return !scene.cells.exist() ? nullptr : std::make_unique<Immersed>(scene.cells, scene.spacing);
 }
 std::unique_ptr<coupling::NoFlux> noFluxIn(Scene& scene) {
-    return scene.cells.empty() ? nullptr : std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
+    return !scene.cells.exist() ? nullptr : std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
 }
 
 template <class Real>
@@ -88,7 +88,8 @@ class Step final : public ImplicitStep {
             movement_.takeBack(time.begin());
             return false;
         }
-        const double bondRate = immersed_ ? largestBondRate(scene_.cells, system_.membranes()->velocities()) : 0;
+        const double bondRate =
+            immersed_ ? largestOfRanks(largestBondRate(*immersed_, system_.membranes()->velocities())) : 0;
         allowed_ = allowedSteps(options_.settings, scene_.flow.rate, {dt, planned, isBackward()},
                                 hasAcceleration() ? unevenness() * difference() : 0, bondRate);
         finish();
@@ -131,7 +132,7 @@ class Step final : public ImplicitStep {
             }
             for (std::size_t k = 0; k < velocity_.size(); ++k) velocity_[k] += correction_[k];
             if (scene_.budget.kept) budget_.addLeft(residual_, refinement == 0);
-            if (fault_ = system_.refusal(velocity_, system_.time().dt); !fault_.empty()) return false;
+            if (fault_ = system_.whyNot(velocity_, system_.time().dt); !fault_.empty()) return false;
             if (system_.isLinear()) return true;
             const double enough = linearisation * linearisation * std::max(reference, c.energy);
             if (refinement == mostRefinements || findDefect() <= enough) return true;
@@ -168,11 +169,13 @@ class Step final : public ImplicitStep {
         if (!immersed_ && !freeBodies) return differenceOfFluid(h) / scene_.flow.length;
         double largest = 0;
         if (immersed_)
-            largest = largestDifference(scene_.cells, system_.membranes()->velocities(),
-                                        h > 0 ? system_.membranes()->extrapolated() : immersed_->velocities());
+            largest = largestOfRanks(
+                largestDifference(*immersed_, system_.membranes()->velocities(),
+                                  h > 0 ? system_.membranes()->extrapolated() : immersed_->velocities()));
         if (freeBodies) largest = std::max(largest, rigid->largestDifference(h, velocity_));
         return largest;
     }
+    double largestOfRanks(double value) const { return Communicator(scene_.system->comm()).max(value); }
     double differenceOfFluid(double h) const {  // root mean square
         const ParticleStore& s = scene_.store();
         double square = 0, count = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "core/communicator.hpp"
 #include "implicit/stepControl.hpp"
 
 namespace corpuscle::implicit {
@@ -42,9 +43,9 @@ void MembraneTerm<Real>::addProduct(const Field& v, Forces& forces) {
 }
 
 template <class Real>
-std::string MembraneTerm<Real>::refusal(const Field& v, double dt) {
+std::string MembraneTerm<Real>::whyNot(const Field& v, double dt) {
     nodes_ = immersed_.interpolate(v.data());
-    const double change = largestBondRate(immersed_.cells(), nodes_) * dt;
+    const double change = Communicator(system_.comm()).max(largestBondRate(immersed_, nodes_)) * dt;
     if (change <= settings_.bondStrain) return {};
     return fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);
 }
@@ -72,9 +73,7 @@ double MembraneTerm<Real>::power(const Field& v, const Field& w) {
     const Vectors disturbance = immersed_.interpolate(w.data());
     Vectors f = load_;
     immersed_.addResistance(reach_.total(), immersed_.interpolate(v.data()), f);
-    double sum = 0;
-    for (std::size_t m = 0; m < f.size(); ++m) sum += disturbance[m].dot(f[m]);
-    return sum;
+    return immersed_.ownDot(disturbance, f);
 }
 
 template <class Real>
@@ -82,10 +81,8 @@ void MembraneTerm<Real>::addRates(sph::Budget::Values& rates) const {
     Vectors elastic = load_, viscous(nodes_.size(), Vec3::Zero());
     immersed_.addStiffness(-reach_.total(), nodes_, elastic);
     immersed_.addDamping(nodes_, viscous);
-    for (std::size_t m = 0; m < nodes_.size(); ++m) {
-        rates[sph::Budget::elastic] -= nodes_[m].dot(elastic[m]);
-        rates[sph::Budget::inMembranes] -= nodes_[m].dot(viscous[m]);
-    }
+    rates[sph::Budget::elastic] -= immersed_.ownDot(nodes_, elastic);
+    rates[sph::Budget::inMembranes] -= immersed_.ownDot(nodes_, viscous);
 }
 
 template class MembraneTerm<double>;

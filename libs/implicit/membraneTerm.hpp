@@ -35,17 +35,18 @@ class MembraneTerm final : public Term<Real> {
     void addFirstForces(const Field& v0, Forces& forces) override;
     void addForces(const Field& v, Forces& forces) override;
     void addProduct(const Field& v, Forces& forces) override;
-    std::string refusal(const Field& v, double dt) override;  // a bond would change by more than the settings allow
+    std::string whyNot(const Field& v, double dt) override;  // a bond would change by more than the settings allow
     bool isLinear() const override { return false; }
     void addDefect(Forces& forces) override;
     void takeDefect() override;
     double power(const Field& v, const Field& w) override;
 
-    // What the velocity last given does for the budget, the same on all ranks: power against elasticity and against
-    // viscosity.
+    // What the velocity last given does for the budget, of the cells that this rank owns: power against elasticity and
+    // against viscosity.
     void addRates(sph::Budget::Values& rates) const;
 
-    // Of all nodes, for the velocity last given to addFirstForces, addForces or refusal.
+    // Of the nodes of the cells that this rank holds, for the velocity last given to addFirstForces, addForces or
+    // whyNot.
     const Vectors& velocities() const { return nodes_; }
     // For that given to addFirstForces.
     const Vectors& extrapolated() const { return extrapolated_; }

@@ -35,7 +35,7 @@ void Movement<Real>::takeBack(double seconds) {
 
 template <class Real>
 void Movement<Real>::findNear() {
-    if (noFlux_) noFlux_->find(*system_.scene().system, system_.immersed()->touched());
+    if (noFlux_) noFlux_->find(*system_.scene().system, *system_.immersed());
 }
 
 template <class Real>

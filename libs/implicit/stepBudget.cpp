@@ -42,7 +42,7 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
         rates[Budget::ofSolver] += v.dot(left);
     }
     if (rigid) power += rigid->addRates(time.c1, time.c2, velocity, rates);
-    if (system_.membranes() && scene.system->decomposition().rank() == 0) system_.membranes()->addRates(rates);
+    if (system_.membranes()) system_.membranes()->addRates(rates);
     rates[Budget::viscous] = -power - rates[Budget::compression] - rates[Budget::elastic] - rates[Budget::inMembranes];
     scene.budget.add(time.dt, rates);
 }

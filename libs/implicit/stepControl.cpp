@@ -5,7 +5,6 @@
 
 namespace corpuscle::implicit {
 
-using coupling::Cell;
 using coupling::Immersed;
 
 namespace {
@@ -16,23 +15,25 @@ bool isStrict(const ImplicitSettings& settings) { return settings.error < Implic
 
 }  // namespace
 
-double largestDifference(const std::vector<Cell>& cells, const Immersed::Vectors& a, const Immersed::Vectors& b) {
+double largestDifference(const Immersed& immersed, const Immersed::Vectors& a, const Immersed::Vectors& b) {
     double largest = 0;
-    for (const Cell& cell : cells) {
-        const double radius = radiusOfSphere(cell.initialVolume);
-        const auto first = static_cast<std::size_t>(cell.firstNode);
-        for (std::size_t m = first; m < first + static_cast<std::size_t>(cell.nodeCount()); ++m)
+    const coupling::NodeLayout& layout = immersed.layout();
+    for (std::size_t c = 0; c < layout.cells(); ++c) {
+        const double radius = radiusOfSphere(immersed.cells()[c].initialVolume);
+        for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
             largest = std::max(largest, (a[m] - b[m]).norm() / radius);
     }
     return largest;
 }
 
-double largestBondRate(const std::vector<Cell>& cells, const Immersed::Vectors& velocity) {
+double largestBondRate(const Immersed& immersed, const Immersed::Vectors& velocity) {
     double largest = 0;
-    for (const Cell& cell : cells) {
-        const std::vector<Vec3>& x = cell.membrane.position;
-        const auto first = static_cast<std::size_t>(cell.firstNode);
-        for (const membrane::Bond& bond : cell.membrane.network().bonds()) {
+    const coupling::NodeLayout& layout = immersed.layout();
+    for (std::size_t c = 0; c < layout.cells(); ++c) {
+        const membrane::Membrane& membrane = immersed.cells()[c].membrane;
+        const std::vector<Vec3>& x = membrane.position;
+        const std::size_t first = layout.first(c);
+        for (const membrane::Bond& bond : membrane.network().bonds()) {
             const auto a = static_cast<std::size_t>(bond.node[0]), b = static_cast<std::size_t>(bond.node[1]);
             const Vec3 d = x[b] - x[a];
             largest = std::max(largest, std::abs(d.dot(velocity[first + b] - velocity[first + a])) / d.squaredNorm());

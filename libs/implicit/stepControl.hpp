@@ -44,11 +44,11 @@ struct LastStep {
 AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
                           double bondRate);
 
-// Largest difference of two velocities of all nodes, in radii of their cell [1/s].
-double largestDifference(const std::vector<coupling::Cell>& cells, const coupling::Immersed::Vectors& a,
+// Of the cells that this rank holds: the largest difference of two velocities of nodes, in radii of their cell [1/s].
+double largestDifference(const coupling::Immersed& immersed, const coupling::Immersed::Vectors& a,
                          const coupling::Immersed::Vectors& b);
 
-// Largest rate at which a bond's length changes, over its length [1/s].
-double largestBondRate(const std::vector<coupling::Cell>& cells, const coupling::Immersed::Vectors& velocity);
+// Likewise the largest rate at which a bond's length changes, over its length [1/s].
+double largestBondRate(const coupling::Immersed& immersed, const coupling::Immersed::Vectors& velocity);
 
 }  // namespace corpuscle::implicit

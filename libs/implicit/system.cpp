@@ -80,9 +80,9 @@ void System<Real>::takeDefect(Field& residual) {
 }
 
 template <class Real>
-std::string System<Real>::refusal(const Field& v, double dt) {
+std::string System<Real>::whyNot(const Field& v, double dt) {
     for (Term<Real>* term : terms_)
-        if (std::string why = term->refusal(v, dt); !why.empty()) return why;
+        if (std::string why = term->whyNot(v, dt); !why.empty()) return why;
     return {};
 }
 

@@ -7,7 +7,7 @@
 // Rows of walls are prescribed: the preconditioner gives nothing there, and the residual has the whole force on them,
 // linear in the velocity as all else. Rows of rigid bodies stand behind the particles (rigidUnknowns.hpp).
 //
-// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of others' particles
+// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of ghosts
 // hold what their ranks have, to rounding.
 #pragma once
 #include <memory>
@@ -54,13 +54,13 @@ class System {
     void takeDefect(Field& residual);
     bool isLinear() const { return isLinear_; }
     // Why a step of dt with the velocity found is too long; empty: it is not. Collective.
-    std::string refusal(const Field& v, double dt);
+    std::string whyNot(const Field& v, double dt);
 
     // The terms' forces at the velocity found, of own particles, and force and torque on bodies. Collective.
     void findForcesOnBodies(const Field& v);
     // Of what was found last [N].
     Vec3 force(std::size_t i) const { return particles::vectorAt(forces_, i); }
-    // w.(load - A v) of the terms outside the fluid's budget [W]. Collective.
+    // w.(load - A v) of the terms outside the fluid's budget, this rank's share [W]. Collective.
     double power(const Field& v, const Field& w);
 
     // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms),

@@ -49,14 +49,14 @@ class Term {
 
     // Of the velocity found: why a step of dt with it is too long; empty where it is not. The same on all ranks.
     // Collective.
-    virtual std::string refusal(const Field&, double /*dt*/) { return {}; }
+    virtual std::string whyNot(const Field&, double /*dt*/) { return {}; }
     // Terms that are not linear, after addFirstForces: forces += defect; what is solved for then belongs to the load.
     // Collective.
     virtual bool isLinear() const { return true; }
     virtual void addDefect(Forces&) {}
     virtual void takeDefect() {}
-    // w.(load - A v) [W] where it is not in the fluid's budget: energy that the flow v gives to the disturbance w. The
-    // same on all ranks.
+    // w.(load - A v) [W] where it is not in the fluid's budget: energy that the flow v gives to the disturbance w. Of
+    // this rank's share; collective.
     virtual double power(const Field& /*v*/, const Field& /*w*/) { return 0; }
 };
 

@@ -13,8 +13,11 @@ namespace corpuscle::io {
 
 class MemoryCheckpoint {
   public:
-    void writeDistributed(const std::string& name, std::span<const double> values) { keep(name, values); }
-    void writeDistributed(const std::string& name, std::span<const std::int64_t> values) { keep(name, values); }
+    // The number of components is for files.
+    void writeDistributed(const std::string& name, std::span<const double> values, int = 1) { keep(name, values); }
+    void writeDistributed(const std::string& name, std::span<const std::int64_t> values, int = 1) {
+        keep(name, values);
+    }
     void writeReplicated(const std::string& name, std::span<const double> values) { keep(name, values); }
     void writeReplicated(const std::string& name, std::span<const std::int64_t> values) { keep(name, values); }
     void attribute(const std::string& name, double value) {
@@ -26,7 +29,7 @@ class MemoryCheckpoint {
 
     // Throw std::out_of_range for a name that was not written, std::bad_variant_access for another type.
     template <class T>
-    const std::vector<T>& readDistributed(const std::string& name) const {
+    const std::vector<T>& readDistributed(const std::string& name, int = 1) const {
         return std::get<std::vector<T>>(values_.at(name));
     }
     template <class T>

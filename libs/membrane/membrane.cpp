@@ -8,40 +8,59 @@
 
 namespace corpuscle::membrane {
 
-Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::vector<Index3> triangles,
-                   const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree)
+MembraneType::MembraneType(std::vector<Vec3> stressFree, std::vector<Index3> triangles,
+                           const MembraneSettings& settings, double radius)
+    : network_(std::move(stressFree), std::move(triangles)),
+      laws_(settings),
+      scale_{laws_.moduli(network_.meanBondLength()).shear, radius} {
+    if (laws_.bonds) {
+        terms_.push_back(laws_.bonds->makeTerm(network_));
+    }
+    if (laws_.triangles) {
+        terms_.push_back(laws_.triangles->makeTerm(network_));
+    }
+    if (laws_.angles) {
+        terms_.push_back(laws_.angles->makeTerm(network_));
+    }
+    if (laws_.bending) {
+        terms_.push_back(laws_.bending->makeTerm(network_, scale_));
+    }
+    const AreaConstraint area = laws_.area.value_or(AreaConstraint{});
+    for (auto& term : area.makeTerms(network_)) {
+        terms_.push_back(std::move(term));
+    }
+    if (laws_.volume) {
+        terms_.push_back(laws_.volume->makeTerm(network_, area.restArea(network_)));
+    }
+}
+
+Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::shared_ptr<MembraneType> type)
     : name(std::move(nameOfCell)),
       cell(cellNumber),
       position(nodes),
       velocity(nodes.size(), Vec3::Zero()),
       force(nodes.size(), Vec3::Zero()),
       initialPosition_(std::move(nodes)),
-      network_(std::make_unique<Network>(stressFree.empty() ? initialPosition_ : std::move(stressFree),
-                                         std::move(triangles))),
-      laws_(settings),
-      scale_{laws_.moduli(network_->meanBondLength()).shear, radius} {
-    if (settings.bonds) {
-        terms_.push_back(settings.bonds->makeTerm(*network_));
+      type_(std::move(type)) {
+    if (canRupture() && laws().rupture->keepsDamage()) {
+        damage_.assign(network().triangles().size(), 0.0);
     }
-    if (settings.triangles) {
-        terms_.push_back(settings.triangles->makeTerm(*network_));
+}
+
+Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::vector<Index3> triangles,
+                   const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree)
+    : Membrane(std::move(nameOfCell), cellNumber, nodes,
+               std::make_shared<MembraneType>(stressFree.empty() ? nodes : std::move(stressFree), std::move(triangles),
+                                              settings, radius)) {}
+
+// Made anew from what does not change, since some terms read rest values off the living elements.
+Network& Membrane::ownNetwork() {
+    if (type_.use_count() > 1) {
+        const std::vector<char> alive = network().aliveBonds();
+        type_ = std::make_shared<MembraneType>(network().stressFree(), network().triangles(), laws(), scale().radius);
+        type_->network_.restore(alive);
     }
-    if (settings.angles) {
-        terms_.push_back(settings.angles->makeTerm(*network_));
-    }
-    if (settings.bending) {
-        terms_.push_back(settings.bending->makeTerm(*network_, scale_));
-    }
-    const AreaConstraint area = settings.area.value_or(AreaConstraint{});
-    for (auto& term : area.makeTerms(*network_)) {
-        terms_.push_back(std::move(term));
-    }
-    if (settings.volume) {
-        terms_.push_back(settings.volume->makeTerm(*network_, area.restArea(*network_)));
-    }
-    if (canRupture() && laws_.rupture->keepsDamage()) {
-        damage_.assign(network_->triangles().size(), 0.0);
-    }
+    return type_->network_;
 }
 
 void Membrane::computeForces() {
@@ -53,45 +72,46 @@ void Membrane::computeForces() {
 }
 
 void Membrane::addElasticForces(std::span<const Vec3> x, std::span<Vec3> f) const {
-    for (const auto& term : terms_) {
+    for (const auto& term : type_->terms()) {
         term->addForces(x, f);
     }
 }
 
 void Membrane::addViscousForces(std::span<const Vec3> v, std::span<Vec3> f) const {
-    laws_.viscosity->addForces(*network_, {position, velocity}, v, f);
+    laws().viscosity->addForces(network(), {position, velocity}, v, f);
 }
 
 double Membrane::energy() const {
     double sum = 0;
-    for (const auto& term : terms_) {
+    for (const auto& term : type_->terms()) {
         sum += term->energy(position);
     }
     return sum;
 }
 
 void Membrane::addStiffness(Definiteness definiteness, Stiffness& stiffness) const {
-    for (const auto& term : terms_) {
+    for (const auto& term : type_->terms()) {
         term->addStiffness(position, definiteness, stiffness);
     }
 }
 
 void Membrane::addDamping(Stiffness& damping) const {
     if (isViscous()) {
-        laws_.viscosity->addDamping(*network_, {position, velocity}, damping);
+        laws().viscosity->addDamping(network(), {position, velocity}, damping);
     }
 }
 
 double Membrane::maxStiffness() const {
     double sum = 0;
-    for (const auto& term : terms_) {
+    for (const auto& term : type_->terms()) {
         sum += term->maxStiffness(position);
     }
     return sum;
 }
 
 std::vector<BrokenBond> Membrane::findBroken(double dt) {
-    return canRupture() ? laws_.rupture->select({*network_, laws_, position, dt, damage_}) : std::vector<BrokenBond>{};
+    return canRupture() ? laws().rupture->select({network(), laws(), position, dt, damage_})
+                        : std::vector<BrokenBond>{};
 }
 
 void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
@@ -99,7 +119,7 @@ void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
     std::vector<int> numbers;
     numbers.reserve(broken.size());
     for (const BrokenBond& bond : broken) numbers.push_back(bond.bond);
-    network_->breakBonds(numbers);
+    ownNetwork().breakBonds(numbers);
 }
 
 void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {
@@ -108,7 +128,9 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
                                         " triangles of membrane " + name + ", which has " +
                                         std::to_string(damage_.size()) + "; start from firstTime");
     }
-    network_->restore(std::move(aliveBonds));
+    if (aliveBonds != network().aliveBonds()) {
+        ownNetwork().restore(std::move(aliveBonds));
+    };
     // Between a law that keeps damage and one that does not, the membrane goes on undamaged.
     if (damage.empty() || damage_.empty()) {
         std::fill(damage_.begin(), damage_.end(), 0.0);
@@ -119,8 +141,8 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
 
 double Membrane::area() const {
     double sum = 0;
-    for (const int t : network_->wholeTriangles()) {
-        sum += areaVector(position, network_->triangles()[t]).norm();
+    for (const int t : network().wholeTriangles()) {
+        sum += areaVector(position, network().triangles()[t]).norm();
     }
     return sum;
 }
@@ -128,18 +150,18 @@ double Membrane::area() const {
 double Membrane::volume() const {
     const Vec3 origin = position.front();
     double sum = 0;
-    for (const int t : network_->wholeTriangles()) {
-        const Index3& corner = network_->triangles()[t];
+    for (const int t : network().wholeTriangles()) {
+        const Index3& corner = network().triangles()[t];
         sum += tetrahedron(position[corner[0]], position[corner[1]], position[corner[2]], origin);
     }
-    if (network_->brokenTriangles() > 0) {
-        for (const auto& rim : network_->rims()) {
+    if (network().brokenTriangles() > 0) {
+        for (const auto& rim : network().rims()) {
             sum += fanVolume(position, rim, origin);
         }
     }
     return sum;
 }
 
-std::vector<double> Membrane::vertexAreas() const { return membrane::vertexAreas(*network_, position); }
+std::vector<double> Membrane::vertexAreas() const { return membrane::vertexAreas(network(), position); }
 
 }  // namespace corpuscle::membrane

@@ -23,7 +23,7 @@ class Stiffness {
 // element's matrix put to zero, so that the sum is positive semi-definite, as conjugate gradients and Newton's descent
 // need. partwise: semi-definite too, in a tenth of the time: of each element what is so in closed form, the curvature
 // of the law and the stiffness of positive tension; the rest is left out. For the implicit step, which asks for it at
-// every step and whose accuracy does not hang on it.
+// every step and whose accuracy does not depend on it.
 enum class Definiteness { exact, semiDefinite, partwise };
 
 // The matrix nearest to it, in the Frobenius norm, without negative eigenvalues.

@@ -41,7 +41,7 @@ struct BodyObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Subject& subject) const override {
+    std::string whyNot(const Subject& subject) const override {
         if (subject.bodies) return {};
         return "this observer looks at rigid bodies, and the case has none; remove it, or add bodies to "
                "system/mesh.yaml";

@@ -61,9 +61,9 @@ BudgetTable::Content BudgetTable::contentOf(const Scene& scene) {
     std::copy_n(momentum.data(), 3, c.momentum), std::copy_n(angular.data(), 3, c.angular);
     const auto own = std::bit_cast<Numbers>(c);
     c = contentFrom(ranks.sum(std::vector<double>(own.begin(), own.end())));
-    if (!scene.cells.empty())
-        for (const auto& cell : ofEachCell(
-                 scene, 1, [](const coupling::Cell&held, std::size_t, double*out) { *out = held.membrane.energy(); }))
+    if (scene.cells.exist())
+        for (const auto& cell :
+             ofEachCell(scene, 1, [](const coupling::Cell&held, double*out) { *out = held.membrane.energy(); }))
             c.elastic += cell[0];
     return c;
 }
@@ -205,7 +205,7 @@ Summary BudgetTable::summary(const Scene& scene) const {
                     b.driftShare, b.mass, b.volume));
     if (!parts_.cells.empty()) {
         double worst = 0;
-        for (const auto& cell : ofEachCell(scene, 1, [](const coupling::Cell&held, std::size_t, double*out) {
+        for (const auto& cell : ofEachCell(scene, 1, [](const coupling::Cell&held, double*out) {
                  *out = held.membrane.volume() / held.initialVolume - 1;
              }))
             worst = std::abs(cell[0]) > std::abs(worst) ? cell[0] : worst;

@@ -10,28 +10,36 @@ namespace corpuscle::observers {
 using coupling::Cell;
 using coupling::Scene;
 
-std::vector<int> sourceRanks(const Scene& scene) {
-    const Communicator ranks(scene.system->comm());
-    std::vector<double> lowest;
-    for (const Cell& cell : scene.cells) lowest.push_back(cell.held ? ranks.rank() : ranks.size());
-    std::vector<int> sources;
-    for (const double rank : ranks.min(std::move(lowest))) sources.push_back(static_cast<int>(rank));
-    return sources;
-}
-
 std::vector<std::vector<double>> ofEachCell(const Scene& scene, std::size_t count,
-                                            const std::function<void(const Cell&, std::size_t, double* out)>& work) {
+                                            const std::function<void(const Cell&, double* out)>& work) {
     const Communicator ranks(scene.system->comm());
-    const std::vector<int> sources = sourceRanks(scene);
-    std::vector<double> all(count * scene.cells.size(), 0.0);  // the sum adds zeros to each number: exact
-    for (std::size_t c = 0; c < scene.cells.size(); ++c)
-        if (sources[c] == ranks.rank()) work(scene.cells[c], c, all.data() + c * count);
+    std::vector<double> all(count * scene.cells.count(), 0.0);  // the sum adds zeros to each number: exact
+    for (const Cell& cell : scene.cells)
+        if (cell.isOwnedBy(ranks.rank()))
+            work(cell, all.data() + count * (static_cast<std::size_t>(cell.membrane.cell) - 1));
     all = ranks.sum(std::move(all));
     std::vector<std::vector<double>> result;
-    for (std::size_t c = 0; c < scene.cells.size(); ++c)
+    result.reserve(scene.cells.count());
+    for (std::size_t c = 0; c < scene.cells.count(); ++c)
         result.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(c * count),
                             all.begin() + static_cast<std::ptrdiff_t>((c + 1) * count));
     return result;
+}
+
+std::vector<Row> rowsByType(const Scene& scene, std::size_t first, const std::vector<std::vector<double>>& ofCells) {
+    std::vector<Row> rows;
+    rows.reserve(ofCells.size());
+    for (std::size_t c = 0; c < ofCells.size(); ++c) {
+        const int number = static_cast<int>(c) + 1;
+        Row& row = rows.emplace_back(Row{first + scene.cells.typeOf(number), {static_cast<double>(number)}});
+        row.values.insert(row.values.end(), ofCells[c].begin(), ofCells[c].end());
+    }
+    return rows;
+}
+
+std::vector<io::Column> cellTable(std::vector<io::Column> columns) {
+    columns.insert(columns.begin(), {"cell", "", "number of the cell, 1 and up, through all types"});
+    return columns;
 }
 
 std::vector<double> gatherNumbers(const Scene& scene, const std::vector<double>& own) {
@@ -75,23 +83,31 @@ geometry::TriangleMesh closedSurface(const Cell& cell) {
     return mesh;
 }
 
-TrueSides::TrueSides(const Scene& scene)
-    : scene_(scene), period_(scene.system->periodicity()), surfaces_(scene.cells.size()) {
-    for (std::size_t c = 0; c < scene.cells.size(); ++c) {
-        if (!scene.cells[c].held) continue;
+TrueSides::TrueSides(const Scene& scene) : scene_(scene), period_(scene.system->periodicity()) {
+    std::vector<geometry::Bounds> bounds(scene.cells.heldCount());
+    surfaces_.resize(bounds.size());
+    for (std::size_t c = 0; c < bounds.size(); ++c) {
         const geometry::TriangleMesh mesh = closedSurface(scene.cells[c]);
         if (mesh.nodes.empty()) continue;
         surfaces_[c].emplace(mesh);
+        bounds[c] = geometry::SurfaceView{&mesh.nodes, &mesh.triangles}.bounds();
     }
+    const particles::Box& box = scene.system->box();
+    index_ = geometry::BoundsIndex(bounds, box.low, box.high, period_);
 }
 
-bool TrueSides::inside(std::size_t cell, const Vec3& x) const {
-    return surfaces_[cell] && surfaces_[cell]->inside(x, period_);
+bool TrueSides::isInHeld(std::size_t index, const Vec3& x) const {
+    return surfaces_[index] && surfaces_[index]->inside(x, period_);
+}
+
+bool TrueSides::inside(int cell, const Vec3& x) const {
+    const std::size_t index = scene_.cells.indexOf(cell);
+    return index != coupling::Cells::notHeld && isInHeld(index, x);
 }
 
 int TrueSides::side(const Vec3& x) const {
-    for (std::size_t c = 0; c < surfaces_.size(); ++c)
-        if (inside(c, x)) return scene_.cells[c].membrane.cell;
+    for (const int c : index_.near(x))
+        if (isInHeld(static_cast<std::size_t>(c), x)) return scene_.cells[static_cast<std::size_t>(c)].membrane.cell;
     return 0;
 }
 

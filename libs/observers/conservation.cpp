@@ -1,5 +1,5 @@
-// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, and the budget of energy and
-// momentum, budget.csv.
+// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, a table of area and volume for
+// each type of cell, and the budget of energy and momentum, budget.csv.
 //
 // budget.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is
 // by geometry (cells.hpp); leak is changedSide and guardMoves together. A torn cell's volume is that with its holes
@@ -9,6 +9,7 @@
 // the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's
 // membrane keeps its area within 4 % before it fails (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976: 2-4 %).
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/communicator.hpp"
@@ -28,9 +29,11 @@ class ConservationObservation : public Observation {
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         std::vector<double> row = ofParticles(scene);
-        if (!scene.cells.empty()) addCells(scene, row);
+        std::vector<std::vector<double>> ofCells;
+        if (scene.cells.exist()) ofCells = addCells(scene, row);
         std::vector<Row> rows{{0, std::move(row)}};
-        if (book_) rows.push_back({1, book_->row(scene)});
+        for (Row& cell : rowsByType(scene, 1, ofCells)) rows.push_back(std::move(cell));
+        if (book_) rows.push_back({1 + scene.cells.types().size(), book_->row(scene)});
         return rows;
     }
 
@@ -85,7 +88,8 @@ class ConservationObservation : public Observation {
                 sums[6]};
     }
 
-    static void addCells(const Scene& scene, std::vector<double>& row) {
+    // Adds what is of all cells; returns area and volume of each.
+    static std::vector<std::vector<double>> addCells(const Scene& scene, std::vector<double>& row) {
         const Communicator ranks(scene.system->comm());
         const particles::ParticleStore& s = scene.store();
         const TrueSides sides(scene);
@@ -93,18 +97,23 @@ class ConservationObservation : public Observation {
         for (std::size_t i = 0; i < s.size(); ++i)
             if (s.kindOf(i) == particles::Kind::fluid && sides.side(s.position(i)) != s.side[i]) ++changed;
 
-        const auto measured = ofEachCell(scene, 5, [](const coupling::Cell& cell, std::size_t, double* out) {
+        auto measured = ofEachCell(scene, 5, [](const coupling::Cell& cell, double* out) {
             out[0] = cell.membrane.area();
             out[1] = out[0] / cell.initialArea - 1;
             out[2] = cell.membrane.volume();
             out[3] = out[2] / cell.initialVolume - 1;
             out[4] = cell.membrane.energy();
         });
-        double energy = 0;
-        for (const auto& cell : measured) energy += cell[4];
-        row.insert(row.end(),
-                   {energy, static_cast<double>(ranks.sum(changed)), static_cast<double>(ranks.sum(scene.movedBack))});
-        for (const auto& cell : measured) row.insert(row.end(), cell.begin(), cell.begin() + 4);
+        double energy = 0, area = 0, volume = 0;
+        const auto larger = [](double one, double other) { return std::abs(one) < std::abs(other) ? other : one; };
+        for (std::vector<double>& cell : measured) {
+            energy += cell[4];
+            area = larger(area, cell[1]), volume = larger(volume, cell[3]);
+            cell.resize(4);
+        }
+        row.insert(row.end(), {energy, static_cast<double>(ranks.sum(changed)),
+                               static_cast<double>(ranks.sum(scene.movedBack)), area, volume});
+        return measured;
     }
 
     std::optional<BudgetTable> book_;
@@ -122,13 +131,17 @@ std::vector<io::Column> columnsOf(const SceneParts& parts) {
         columns.insert(columns.end(),
                        {{"membraneEnergy", "J", "elastic energy of all membranes"},
                         {"changedSide", "", "fluid particles that are not on the side of the membranes they belong to"},
-                        {"guardMoves", "", "particles moved back to their side of a membrane since the start"}});
-    for (const std::string& cell : parts.cells)
-        columns.insert(columns.end(), {{cell + "_area", "m2", "area of the whole triangles"},
-                                       {cell + "_areaChange", "", "A/A(t = 0) - 1"},
-                                       {cell + "_volume", "m3", "enclosed volume, holes closed by fans"},
-                                       {cell + "_volumeChange", "", "V/V(t = 0) - 1"}});
+                        {"guardMoves", "", "particles moved back to their side of a membrane since the start"},
+                        {"areaChange", "", "A/A(t = 0) - 1 of the cell in which it is greatest in size"},
+                        {"volumeChange", "", "V/V(t = 0) - 1 of the cell in which it is greatest in size"}});
     return columns;
+}
+
+std::vector<io::Column> columnsOfCells() {
+    return {{"area", "m2", "area of the whole triangles"},
+            {"areaChange", "", "A/A(t = 0) - 1"},
+            {"volume", "m3", "enclosed volume, holes closed by fans"},
+            {"volumeChange", "", "V/V(t = 0) - 1"}};
 }
 
 struct ConservationObserver : Observer {
@@ -141,6 +154,7 @@ struct ConservationObserver : Observer {
     bool wantsBudget() const override { return true; }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<Table> all{{"conservation", columnsOf(parts)}};
+        for (const std::string& type : parts.cells) all.push_back({type, cellTable(columnsOfCells())});
         if (parts.budget) all.push_back({"budget", BudgetTable::columns(parts)});
         return all;
     }

@@ -24,18 +24,17 @@ Interior total(const std::vector<Interior>& cells) {
 
 std::vector<Interior> interiors(const coupling::Scene& scene) {
     const particles::ParticleStore& s = scene.store();
-    const auto broken = ofEachCell(scene, 1, [](const coupling::Cell& cell, std::size_t, double* out) {
-        *out = cell.membrane.network().brokenTriangles();
-    });
+    const auto broken = ofEachCell(
+        scene, 1, [](const coupling::Cell& cell, double* out) { *out = cell.membrane.network().brokenTriangles(); });
     const TrueSides sides(scene);
-    std::vector<double> sums(numbers * scene.cells.size(), 0.0);
+    std::vector<double> sums(numbers * scene.cells.count(), 0.0);
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != particles::Kind::fluid || s.side[i] == 0) continue;
         const auto cell = static_cast<std::size_t>(s.side[i] - 1);
         double* const sum = sums.data() + numbers * cell;
         const double mass = scene.mass(i);
         sum[0] += mass;
-        if (sides.inside(cell, s.position(i))) continue;
+        if (sides.inside(static_cast<int>(s.side[i]), s.position(i))) continue;
         if (broken[cell][0] > 0) {
             sum[1] += 1;
             sum[2] += mass;
@@ -45,7 +44,7 @@ std::vector<Interior> interiors(const coupling::Scene& scene) {
     }
     sums = Communicator(scene.system->comm()).sum(std::move(sums));
     std::vector<Interior> all;
-    for (const double* n = sums.data(); all.size() < scene.cells.size(); n += numbers)
+    for (const double* n = sums.data(); all.size() < scene.cells.count(); n += numbers)
         all.push_back({n[0], n[1], n[2], n[3], n[4]});
     return all;
 }

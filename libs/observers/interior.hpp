@@ -22,7 +22,7 @@ struct Interior {
     double haemolysisIndex() const { return mass > 0 ? 100 * releasedMass / mass : 0; }  // per cent
 };
 
-// Of each cell, on every rank. Collective.
+// Of each cell of the scene, on every rank. Collective.
 std::vector<Interior> interiors(const coupling::Scene& scene);
 Interior total(const std::vector<Interior>& cells);
 

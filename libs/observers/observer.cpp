@@ -31,10 +31,10 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 
 SceneParts SceneParts::of(const Scene& scene) {
     SceneParts parts;
-    for (const coupling::Cell& cell : scene.cells) {
-        parts.cells.push_back(cell.membrane.name);
-        parts.viscousMembranes = parts.viscousMembranes || cell.membrane.isViscous();
-        parts.rupture = parts.rupture || cell.membrane.canRupture();
+    for (const coupling::CellType& type : scene.cells.types()) {
+        parts.cells.push_back(type.name);
+        parts.viscousMembranes = parts.viscousMembranes || type.settings.viscosity.has_value();
+        parts.rupture = parts.rupture || static_cast<bool>(type.settings.rupture);
     }
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all()) {

@@ -40,11 +40,11 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 
 // Of a scene, what decides which tables and columns there are.
 struct SceneParts {
-    std::vector<std::string> cells, bodies, walls;  // their names
+    std::vector<std::string> cells, bodies, walls;  // names of the types of cells, and of the others
     bool shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false, rupture = false,
          budget = false;
     static SceneParts of(const Scene& scene);
-    // Everything, with cells, bodies and walls "<cell>", "<body>" and "<wall>": for the documentation.
+    // Everything, with types of cells, bodies and walls "<cell>", "<body>" and "<wall>": for the documentation.
     static SceneParts all();
 };
 
@@ -104,7 +104,7 @@ class Observer : public ObserverSettings {
     static constexpr const char* familyName = "observer";
     virtual ~Observer() = default;
     // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
-    virtual std::string obstacle(const Subject&) const { return {}; }
+    virtual std::string whyNot(const Subject&) const { return {}; }
     // Whether the scene is to keep its budget of energy and momentum (sph/budget.hpp).
     virtual bool wantsBudget() const { return false; }
     // What it writes of a scene with these parts.
@@ -112,7 +112,7 @@ class Observer : public ObserverSettings {
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
 
   protected:
-    // obstacle() of an observer of cells, empty when there are some.
+    // whyNot() of an observer of cells, empty when there are some.
     static std::string needsCells(const Subject& subject);
 };
 

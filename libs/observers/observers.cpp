@@ -24,7 +24,7 @@ void ObserversSettings::check(const Node& dictionary, const Subject& subject, Pr
         const bool strainless = choice->every.kind == Interval::Kind::strain && subject.shearRate == 0;
         const std::string text =
             strainless ? "'every' is given in strain, but the flow has no shear rate; give it in s or in steps"
-                       : choice->obstacle(subject);
+                       : choice->whyNot(subject);
         if (!text.empty()) problems.add(dictionary.find(name)->place(), name, choice.name + ": " + text);
     }
 }

@@ -1,8 +1,8 @@
 // Observer `rupture`: when, where and how far the membranes break, and what they let out.
 //
-// <cell>.csv and case.csv (of all cells) have a row at each look. holes.csv has one for each rim at each look; its
-// number is not that of the same hole at the next look when holes come or merge. events.csv has one for each bond, at
-// the step at which it broke.
+// <cell>.csv, of each type of cell, has a row for each of its cells at each look, case.csv one for all of them.
+// holes.csv has one for each rim at each look; its number is not that of the same hole at the next look when holes come
+// or merge. events.csv has one for each bond, at the step at which it broke.
 //
 // Areas of holes are those of fans over their rims now; released fluid is interior.hpp's, tension diagnostics.hpp's,
 // damage damage.hpp's. The first break is that of the most stretched bond of its step; places on the stress-free cell
@@ -96,13 +96,13 @@ std::vector<io::Column> eventColumns() {
 class RuptureObservation : public Observation {
   public:
     RuptureObservation(std::vector<Table> tables, const Scene& scene)
-        : Observation(std::move(tables)), first_(scene.cells.size()) {}
+        : Observation(std::move(tables)), first_(scene.cells.count()) {}
 
     bool watchesSteps() const override { return true; }
 
     std::vector<Row> afterStep(const Scene& scene, const Time& time) override {
         std::vector<Row> rows = eventsOf(scene);
-        std::vector<double> greatest(scene.cells.size(), 0.0);  // stretch at this step
+        std::vector<double> greatest(scene.cells.count(), 0.0);  // stretch at this step
         for (const Row& row : rows) {
             const auto& v = row.values;
             const auto cell = static_cast<std::size_t>(v[0]) - 1;
@@ -115,22 +115,22 @@ class RuptureObservation : public Observation {
 
     bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
-        const std::size_t cells = scene.cells.size();
+        const std::size_t types = scene.cells.types().size();
         const std::vector<Interior> interior = interiors(scene);
         const std::vector<Losses> lost = losses(scene);
-        std::vector<Row> rows;
-        for (std::size_t c = 0; c < cells; ++c) {
+        std::vector<std::vector<double>> ofCells;
+        for (std::size_t c = 0; c < scene.cells.count(); ++c) {
             const Interior& in = interior[c];
             const Losses& d = lost[c];
-            rows.push_back(
-                {c,
-                 {d.bonds, d.triangles, d.holes, d.holeArea, d.holeRestArea, in.released, in.leaked, in.releasedVolume,
-                  in.haemolysisIndex(), d.bondStrain, d.arealStrain, d.tension, d.damage}});
-            append(rows.back().values, first_[c].numbers());
+            ofCells.push_back({d.bonds, d.triangles, d.holes, d.holeArea, d.holeRestArea, in.released, in.leaked,
+                               in.releasedVolume, in.haemolysisIndex(), d.bondStrain, d.arealStrain, d.tension,
+                               d.damage});
+            append(ofCells.back(), first_[c].numbers());
         }
-        for (auto& hole : holesOf(scene)) rows.push_back({cells + 1, std::move(hole)});
+        std::vector<Row> rows = rowsByType(scene, 0, ofCells);
+        for (auto& hole : holesOf(scene)) rows.push_back({types + 1, std::move(hole)});
         const Interior all = total(interior);
-        rows.push_back({cells + 2,
+        rows.push_back({types + 2,
                         {static_cast<double>(brokenOf(lost)), all.released, all.leaked, all.releasedVolume,
                          all.haemolysisIndex()}});
         return rows;
@@ -142,8 +142,8 @@ class RuptureObservation : public Observation {
         const std::vector<Losses> lost = losses(scene);
         const Interior all = total(interior);
         Summary summary;
-        for (std::size_t c = 0; c < scene.cells.size(); ++c) {
-            const std::string& name = scene.cells[c].membrane.name;
+        for (std::size_t c = 0; c < scene.cells.count(); ++c) {
+            const std::string name = scene.cells.nameOf(static_cast<int>(c) + 1);
             summary.figures["cells"][name] = figures(interior[c], lost[c], first_[c]);
             if (first_[c].happened() && summary.lines.size() < mostLines)
                 summary.lines.push_back(fmt::format("{}: {}", name, sentence(interior[c], lost[c], first_[c])));
@@ -163,7 +163,7 @@ class RuptureObservation : public Observation {
             broken == 0 ? fmt::format("no membrane broke; greatest strain now: bond {:.4g}, area {:.4g}",
                                       greatest(lost, &Losses::bondStrain), greatest(lost, &Losses::arealStrain))
                         : fmt::format("{} of {} cells broke, first at strain {:.6g}; haemolysis index {:.4g} %", broken,
-                                      scene.cells.size(), first->strain, all.haemolysisIndex()));
+                                      scene.cells.count(), first->strain, all.haemolysisIndex()));
         return summary;
     }
 
@@ -192,33 +192,35 @@ class RuptureObservation : public Observation {
     static std::vector<Row> eventsOf(const Scene& scene) {
         const Communicator ranks(scene.system->comm());
         if (!ranks.anyTrue(!scene.broken.empty())) return {};
-        const std::vector<int> sources = sourceRanks(scene);  // all holders of a cell know of its events
         std::vector<double> own;
-        for (const coupling::RuptureEvent& event : scene.broken) {
-            const auto cell = static_cast<std::size_t>(event.cell) - 1;
-            if (sources[cell] != ranks.rank()) continue;
-            const membrane::Network& network = scene.cells[cell].membrane.network();
+        for (const coupling::RuptureEvent& event : scene.broken) {  // all holders of a cell know of its events
+            const coupling::Cell* const cell = scene.cells.find(event.cell);
+            if (!cell || !cell->isOwnedBy(ranks.rank())) continue;
+            const membrane::Network& network = cell->membrane.network();
+            const coupling::CellType& type = scene.cells.types()[cell->type];
+            geometry::Place place = type.places[static_cast<std::size_t>(event.cell - type.firstCell)];
+            place.scale = 1;  // the network has it already
             for (const membrane::BrokenBond& bond : event.bonds) {
                 const auto [a, b] = network.allBonds()[static_cast<std::size_t>(bond.bond)].node;
-                const Vec3 rest = 0.5 * (network.stressFree()[static_cast<std::size_t>(a)] +
-                                         network.stressFree()[static_cast<std::size_t>(b)]);
+                const Vec3 rest = place.of({0.5 * (network.stressFree()[static_cast<std::size_t>(a)] +
+                                                   network.stressFree()[static_cast<std::size_t>(b)])})[0];
                 append(own, {static_cast<double>(event.cell), static_cast<double>(bond.bond), static_cast<double>(a),
                              static_cast<double>(b), bond.stretch, bond.place[0], bond.place[1], bond.place[2], rest[0],
                              rest[1], rest[2]});
             }
         }
         std::vector<Row> rows;
-        for (auto& event : table(scene, own, eventNumbers)) rows.push_back({scene.cells.size(), std::move(event)});
+        for (auto& event : table(scene, own, eventNumbers))
+            rows.push_back({scene.cells.types().size(), std::move(event)});
         return rows;
     }
 
     static std::vector<std::vector<double>> holesOf(const Scene& scene) {
-        const std::vector<int> sources = sourceRanks(scene);
         const int rank = Communicator(scene.system->comm()).rank();
         std::vector<double> own;
-        for (std::size_t c = 0; c < scene.cells.size(); ++c) {
-            const membrane::Membrane& m = scene.cells[c].membrane;
-            if (sources[c] != rank || m.network().brokenTriangles() == 0) continue;
+        for (const coupling::Cell& cell : scene.cells) {
+            const membrane::Membrane& m = cell.membrane;
+            if (!cell.isOwnedBy(rank) || m.network().brokenTriangles() == 0) continue;
             double number = 0;
             for (const std::vector<int>& rim : m.network().rims()) {
                 const Vec3 middle = membrane::meanPoint(m.position, rim);
@@ -241,7 +243,7 @@ class RuptureObservation : public Observation {
         return rows;
     }
 
-    std::vector<FirstBreak> first_;  // of each cell
+    std::vector<FirstBreak> first_;  // of each cell of the scene
 };
 
 struct RuptureObserver : Observer {
@@ -251,12 +253,12 @@ struct RuptureObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Subject& subject) const override { return needsCells(subject); }
+    std::string whyNot(const Subject& subject) const override { return needsCells(subject); }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<io::Column> ofAll{{"cellsBroken", "", "cells with a broken bond"}};
         append(ofAll, releaseColumns("all cells'"));
         std::vector<Table> all;
-        for (const std::string& cell : parts.cells) all.push_back({cell, cellColumns()});
+        for (const std::string& type : parts.cells) all.push_back({type, cellTable(cellColumns())});
         all.push_back({"events", eventColumns()});
         all.push_back({"holes", holeColumns()});
         all.push_back({"case", ofAll});

@@ -48,7 +48,7 @@ std::vector<double> FirstBreak::numbers() const {
 FirstBreak FirstBreak::of(const double* n) { return {n[0], n[1], n[2], Vec3(n + 3), Vec3(n + 6)}; }
 
 std::vector<Losses> losses(const coupling::Scene& scene) {
-    const auto numbers = ofEachCell(scene, members.size(), [](const coupling::Cell& cell, std::size_t, double* out) {
+    const auto numbers = ofEachCell(scene, members.size(), [](const coupling::Cell& cell, double* out) {
         const Losses lost = lossesOf(cell);
         for (const auto member : members) *out++ = lost.*member;
     });

@@ -1,5 +1,5 @@
-// Observer `shape`: deformation, orientation and rotation of each cell; one file per cell (sectionShape.hpp has the
-// definitions).
+// Observer `shape`: deformation, orientation and rotation of each cell; one file for each type of cell, with a row for
+// each of its cells at each look (sectionShape.hpp has the definitions).
 //
 // angleTurned grows without jumps: 2 pi is a whole tumble of a rigid cell, or a whole turn of a tank-treading membrane.
 // treadPhase is how far the membrane is ahead of the shape: the angle of one node, which at rest is nearest to the main
@@ -47,36 +47,35 @@ int markerNode(const std::vector<Vec3>& nodes, const std::vector<Index3>& triang
 class ShapeObservation : public Observation {
   public:
     ShapeObservation(std::vector<Table> tables, const Scene& scene)
-        : Observation(std::move(tables)), angles_(scene.cells.size()) {
+        : Observation(std::move(tables)), angles_(scene.cells.count()) {
         plane_.gradient = scene.flow.gradient;
-        for (const coupling::Cell& cell : scene.cells) {
-            markers_.push_back(
-                markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_));
-        }
+        for (const auto& marker : ofEachCell(scene, 1, [&](const coupling::Cell&cell, double*out) {
+                 *out = markerNode(cell.membrane.initialPosition(), cell.membrane.network().triangles(), plane_);
+             }))
+            markers_.push_back(static_cast<std::size_t>(marker[0]));
     }
 
     bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
-        const auto measured = ofEachCell(scene, 11, [&](const coupling::Cell& cell, std::size_t c, double* out) {
+        auto measured = ofEachCell(scene, 11, [&](const coupling::Cell& cell, double* out) {
             const std::vector<Vec3>& x = cell.membrane.position;
             const SectionShape s = sectionShape(closedSurface(cell), plane_);
             const double turned = materialRotation(cell.membrane.initialPosition(), x, plane_);
-            const double phase = flowAngle(x[markers_[c]] - s.centroid, plane_) + s.inclination;
+            const std::size_t marker = markers_[static_cast<std::size_t>(cell.membrane.cell) - 1];
+            const double phase = flowAngle(x[marker] - s.centroid, plane_) + s.inclination;
             const double values[] = {s.D12_extent, s.D12_inertia, s.inclination, turned,        phase,        s.length,
                                      s.height,     s.width,       s.centroid[0], s.centroid[1], s.centroid[2]};
             std::copy(std::begin(values), std::end(values), out);
         });
-        std::vector<Row> rows;
         for (std::size_t c = 0; c < measured.size(); ++c) {
-            rows.push_back({c, measured[c]});
             Angles& angles = angles_[c];
-            double &turned = rows.back().values[3], &phase = rows.back().values[4];
+            double &turned = measured[c][3], &phase = measured[c][4];
             turned = followed(angles.turned, turned, 2 * std::numbers::pi);
             phase = followed(angles.phase, phase, std::numbers::pi);  // the main axis has no direction
             if (std::isfinite(turned)) angles.turned = turned;
             if (std::isfinite(phase)) angles.phase = phase;
         }
-        return rows;
+        return rowsByType(scene, 0, measured);
     }
 
     std::vector<double> state() const override {
@@ -95,7 +94,7 @@ class ShapeObservation : public Observation {
         double turned = 0, phase = 0;  // at the last look
     };
     ShearPlane plane_;
-    std::vector<int> markers_;
+    std::vector<std::size_t> markers_;  // of each cell of the scene
     std::vector<Angles> angles_;
 };
 
@@ -106,7 +105,7 @@ struct ShapeObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Subject& subject) const override {
+    std::string whyNot(const Subject& subject) const override {
         const double strain = every.kind == Interval::Kind::strain ? every.value
                               : every.kind == Interval::Kind::time ? every.value * subject.shearRate
                                                                    : 0;
@@ -128,7 +127,7 @@ struct ShapeObserver : Observer {
         addVector(columns, "centroid", "m",
                   "coordinate of the centroid of the enclosed volume, not wrapped into the box");
         std::vector<Table> all;
-        for (const std::string& cell : parts.cells) all.push_back({cell, columns});
+        for (const std::string& type : parts.cells) all.push_back({type, cellTable(columns)});
         return all;
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {

@@ -43,7 +43,7 @@ struct WallStressObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    std::string obstacle(const Subject& subject) const override {
+    std::string whyNot(const Subject& subject) const override {
         if (subject.planeWalls) return {};
         return "this observer looks at plane walls, and the flow has none; remove it, or choose a flow with plane "
                "walls in constant/flow.yaml";

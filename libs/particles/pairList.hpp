@@ -7,7 +7,7 @@
 // are listed by every block that meets them. Last come images of the block's own particles, which get no reaction. The
 // block's own particles are not listed: they meet anyway. A block of nothing but wall particles lists no wall
 // particles: walls do not act on walls. What lies within the support at the time of the build comes first, what only
-// the skin adds after it. Blocks are grouped by what they need: those without ghosts can be worked on while the halo is
+// the skin adds after it. Blocks are grouped by what they need: those without ghosts can be processed while the halo is
 // under way, and those that meet a wall need the wall's form of a law.
 #pragma once
 #include <vector>

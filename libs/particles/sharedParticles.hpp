@@ -5,7 +5,7 @@
 // its own and those of others. Where values at all of these are at hand, an application needs one message to each
 // neighbour: what its pairs gave to the particles that both know, both ways, added up in the order of ranks, so that
 // all who know a particle have the same bits (the interface sums of domain decomposition, as in spectral elements).
-// Vectors that are made of such sums stay right at others' particles without further messages.
+// Vectors that are made of such sums stay right at particles owned by other ranks without further messages.
 //
 // Arrays have entries: 0 .. owned - 1 are the rank's own particles, then each particle of other ranks once, however
 // many images of it are ghosts.
@@ -27,7 +27,7 @@ class SharedParticles {
     std::size_t entries() const { return owned_ + others_; }
     // Of a ghost: that of the own particle of which it is an image, or that of another rank's.
     std::size_t entry(int ghost) const { return entry_[static_cast<std::size_t>(ghost)]; }
-    // One ghost of each of others' particles, entry owned() + k having the k-th.
+    // One ghost of each particle owned by another rank, entry owned() + k having the k-th.
     const std::vector<int>& ghostOf() const { return ghostOf_; }
 
     const std::vector<std::size_t>& shared() const { return shared_; }  // all entries that other ranks have too
@@ -66,7 +66,7 @@ class SharedParticles {
     int rank_ = 0;
     std::size_t owned_ = 0, others_ = 0;
     std::vector<std::size_t> entry_;   // of ghosts
-    std::vector<int> ghostOf_;         // of others' particles
+    std::vector<int> ghostOf_;         // of particles owned by other ranks
     std::vector<std::size_t> index_;   // entries of each message
     std::vector<std::size_t> shared_;  // entries of all of them, each once
     std::vector<Message> messages_;    // in the order of ranks

@@ -20,7 +20,7 @@ NumericsSettings settled(const NumericsSettings& written, const CaseFacts& facts
     return n;
 }
 
-std::string obstacle(const NumericsSettings& written, const CaseFacts& facts, const std::string& integrator) {
+std::string whyNot(const NumericsSettings& written, const CaseFacts& facts, const std::string& integrator) {
     const NumericsSettings named = settled(written, facts, integrator);
     Problems problems;
     named.scheme->check(facts, named, problems);
@@ -39,7 +39,7 @@ namespace {
 void checkAutomatic(const NumericsSettings& written, const CaseFacts& facts, Problems& problems) {
     std::string all;
     for (const std::string& name : Registry<Scheme>::instance().names()) {
-        const std::string why = obstacle(written, facts, name);
+        const std::string why = whyNot(written, facts, name);
         if (why.empty()) return;
         all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name, why);
     }

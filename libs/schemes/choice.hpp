@@ -22,6 +22,6 @@ void check(const NumericsSettings& settled, const NumericsSettings& written, con
            Problems& problems);
 
 // Why the case cannot be stepped with an integrator, in words; empty where it can.
-std::string obstacle(const NumericsSettings& written, const CaseFacts& facts, const std::string& integrator);
+std::string whyNot(const NumericsSettings& written, const CaseFacts& facts, const std::string& integrator);
 
 }  // namespace corpuscle::schemes

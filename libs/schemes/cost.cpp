@@ -32,12 +32,12 @@ std::vector<IntegratorCost> predictCosts(const NumericsSettings& written, const 
     for (const std::string& name : Registry<Scheme>::instance().names()) {
         IntegratorCost& cost = costs.emplace_back();
         cost.name = name;
-        cost.obstacle = obstacle(written, facts, name);
+        cost.whyNot = whyNot(written, facts, name);
         const NumericsSettings named = settled(written, facts, name);
         cost.limits = named.scheme->limits(facts, named, 0.5 * facts.duration);
         countPasses(facts, named, cost);
         cost.cost = cost.passes / facts.duration / (facts.flow.shearRate > 0 ? facts.flow.shearRate : 1);
-        if (cost.obstacle.empty()) cost.obstacle = named.scheme->unfit(facts, named);
+        if (cost.whyNot.empty()) cost.whyNot = named.scheme->unfit(facts, named);
     }
     return costs;
 }
@@ -45,7 +45,7 @@ std::vector<IntegratorCost> predictCosts(const NumericsSettings& written, const 
 std::string cheapest(const std::vector<IntegratorCost>& costs) {
     const IntegratorCost* least = nullptr;
     for (const IntegratorCost& cost : costs)
-        if (cost.obstacle.empty() && (!least || cost.cost < least->cost)) least = &cost;
+        if (cost.whyNot.empty() && (!least || cost.cost < least->cost)) least = &cost;
     return least ? least->name : "";
 }
 
@@ -63,8 +63,8 @@ std::vector<std::vector<std::string>> costRows(const std::vector<IntegratorCost>
     std::vector<std::vector<std::string>> rows;
     for (const IntegratorCost& cost : costs) {
         std::string note = cost.name != integrator ? "" : isChosen ? "taken" : "named by the case";
-        if (!note.empty() && !cost.obstacle.empty()) note += ": ";
-        note += cost.obstacle;
+        if (!note.empty() && !cost.whyNot.empty()) note += ": ";
+        note += cost.whyNot;
         rows.push_back({cost.name, formatQuantity(cost.step().seconds, unit::second), cost.step().name,
                         fmt::format("{:.3g}", cost.passes / cost.steps), fmt::format("{:.3g}", cost.cost), note});
     }

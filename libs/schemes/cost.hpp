@@ -22,7 +22,7 @@ namespace corpuscle::schemes {
 
 struct IntegratorCost {
     std::string name;
-    std::string obstacle;          // why the case cannot use it; empty: it can
+    std::string whyNot;            // why the case cannot use it; empty: it can
     sph::StepLimits limits;        // of the step, half-way through the run
     double steps = 0, passes = 0;  // of the whole run
     double cost = 0;               // passes per unit of strain, or per second

@@ -18,7 +18,7 @@ class VelocityVerletStepper final : public ExplicitStepper {
         : ExplicitStepper(scene, numerics, stepsPerEstimate) {
         std::vector<sph::Load*> loads;
         scene.coupling.reset();
-        if (!scene.cells.empty()) {
+        if (scene.cells.exist()) {
             scene.coupling = std::make_unique<coupling::DualIdentity>(
                 scene.cells, scene.spacing, densityBalance(scene),
                 coupling::DualIdentity::Intervals{numerics.guard, numerics.balanceInterval()});

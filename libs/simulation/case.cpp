@@ -1,5 +1,7 @@
 #include "simulation/case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +9,7 @@
 #include "schemes/cost.hpp"
 #include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
+#include "simulation/placesTable.hpp"
 #include "simulation/readyCell.hpp"
 
 namespace corpuscle::simulation {
@@ -178,7 +181,22 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
     problems.throwIfAny();
 }
 
+// Where the cells of each type are put.
+void findPlaces(Case& c, Problems& problems) {
+    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
+        CellTypeSettings& cell = c.mesh.cells[i];
+        if (!cell.isPlacedByList()) continue;
+        cell.placed.clear();
+        for (const PlaceSettings& place : cell.places) cell.placed.push_back({place.centre, place.axis, place.scale});
+        if (cell.table)
+            cell.placed = readPlaces(c.directory, *cell.table, {"system/mesh.yaml", 0, 0},
+                                     fmt::format("cells[{}].table", i), problems);
+    }
+    c.throwIfAny(problems);
+}
+
 void prepareSurfaces(Case& c, Problems& problems) {
+    findPlaces(c, problems);
     const auto resolve = [&](SurfaceSettings& surface) { surface.edge = surface.edgeLength.metres(c.spacing()); };
     std::for_each(c.mesh.cells.begin(), c.mesh.cells.end(), resolve);
     std::for_each(c.mesh.bodies.begin(), c.mesh.bodies.end(), resolve);
@@ -318,6 +336,26 @@ sph::FluidModel Case::fluidModel() const {
 
 particles::Precision Case::precision() const {
     return numerics.precision == "mixed" ? particles::Precision::mixed : particles::Precision::full;
+}
+
+Case::CellPlace Case::cellAt(int cell) const {
+    auto left = static_cast<std::size_t>(cell) - 1;
+    std::size_t entry = 0;
+    for (; left >= mesh.cells[entry].placed.size(); ++entry) left -= mesh.cells[entry].placed.size();
+    return {entry, left};
+}
+
+std::string Case::nameOf(int cell) const {
+    const CellTypeSettings& entry = mesh.cells[cellAt(cell).entry];
+    return entry.placed.size() == 1 ? entry.name : fmt::format("{} {}", entry.name, cell);
+}
+
+std::string Case::keyOfPlace(int cell) const {
+    const auto [entry, place] = cellAt(cell);
+    const CellTypeSettings& settings = mesh.cells[entry];
+    if (settings.table) return fmt::format("cells[{}].table", entry);
+    return settings.places.empty() ? fmt::format("cells[{}].centre", entry)
+                                   : fmt::format("cells[{}].places[{}].centre", entry, place);
 }
 
 bool Case::varyingViscosity() const {

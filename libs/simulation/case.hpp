@@ -56,6 +56,13 @@ struct Case {
         return membranes.types.at(cell.type());
     }
     const bodies::BodySettings& bodyOf(const BodyPlaceSettings& place) const { return bodies.types.at(place.type()); }
+    // All cells of all entries, numbered from 1 through the entries and the places of each, as in the scene.
+    struct CellPlace {
+        std::size_t entry, place;
+    };
+    CellPlace cellAt(int cell) const;
+    std::string nameOf(int cell) const;      // of its entry, with the cell's own number where that has several
+    std::string keyOfPlace(int cell) const;  // of what says where it is: "cells[0].centre", "cells[0].places[3].centre"
     double densityOf(const BodyPlaceSettings& place) const { return bodyOf(place).density.value_or(flow.density); }
     bool varyingViscosity() const;
     // Of the fluid outside cells, by its layers [Pa s].

@@ -74,14 +74,20 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
                                  ": it would meet its own image within the kernel's reach; at least " +
                                  formatQuantity(least, unit::metre) + ", better five times its radius");
         }
-    if (!c.planesAcross()) return;  // whether it crosses walls of another shape its nodes tell (stateCheck.hpp)
+}
+
+// Whether walls of another shape are crossed the nodes tell (stateCheck.hpp).
+void checkBetweenPlanes(const Case& c, const geometry::Shape& shape, const std::string& kind,
+                        const geometry::Place& place, const std::string& key, Problems& problems) {
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    const Eigen::AlignedBox3d box = shape.box();
     const int wall = *c.planesAcross();
     // Extent across the walls, as that of the ellipsoid in the shape's box.
-    const Vec3 across = geometry::rotationFromZ(settings.axis).row(wall).transpose(), half = 0.5 * box.sizes(),
-               middle = box.center();
-    const double extent = std::abs(settings.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
+    const Vec3 across = place.scale * geometry::rotationFromZ(place.axis).row(wall).transpose(),
+               half = 0.5 * box.sizes(), middle = box.center();
+    const double extent = std::abs(place.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
     if (extent > 0.5 * c.mesh.domain.size[wall])
-        problems.add(mesh, key + ".centre",
+        problems.add(mesh, key,
                      "the " + kind + " reaches through the wall along " + axisName(wall) + ", to " +
                          formatQuantity(extent, unit::metre) + " from the middle, and the wall is at " +
                          formatQuantity(0.5 * c.mesh.domain.size[wall], unit::metre) +
@@ -90,24 +96,30 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
 
 // What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image
 // everywhere.
-void checkImmersed(const Case& c, const CellSettings& cell, const std::string& key, Problems& problems) {
+void checkImmersed(const Case& c, const CellTypeSettings& cell, const std::string& key, Problems& problems) {
     if (!wrongScale(c, cell).empty()) return;
     const Mark mesh{"system/mesh.yaml", 0, 0};
-    const double longest = largestEdgeInSpacings * c.spacing(),
-                 margin = coupling::NoFlux::imageMarginInSpacings * c.spacing();
-    if (cell.edge > longest)
+    const double longest = largestEdgeInSpacings * c.spacing(), edge = cell.largestScale() * cell.edge;
+    if (edge > longest)
         problems.add(
             mesh, key + ".edge",
-            "found " + formatQuantity(cell.edge, unit::metre) +
+            "found " + formatQuantity(edge, unit::metre) +
                 ", too coarse for 'coupling: immersed', which does not hold particles near the middle of large "
                 "triangles to their side; at most " +
                 formatQuantity(largestEdgeInSpacings, unit::none) + " dx, " + formatQuantity(longest, unit::metre));
-    const Vec3 half = 0.5 * cell.shape->box().sizes();
-    const Mat3 rotation = geometry::rotationFromZ(cell.axis);
+}
+
+// The same of one of its cells.
+void checkImmersedPlace(const Case& c, const CellTypeSettings& cell, const geometry::Place& place,
+                        const std::string& key, Problems& problems) {
+    const Mark mesh{"system/mesh.yaml", 0, 0};
+    const double margin = coupling::NoFlux::imageMarginInSpacings * c.spacing();
+    const Vec3 half = 0.5 * place.scale * cell.shape->box().sizes();
+    const Mat3 rotation = geometry::rotationFromZ(place.axis);
     for (int k = 0; k < 3; ++k) {
         const double length = 2 * Vec3(rotation.row(k).transpose()).cwiseProduct(half).norm();
         if (!c.mesh.domain.periodic[static_cast<std::size_t>(k)] || length <= c.mesh.domain.size[k] - margin) continue;
-        problems.add(mesh, key + ".shape",
+        problems.add(mesh, key,
                      "the cell is " + formatQuantity(length, unit::metre) + " long along " + axisName(k) +
                          ", where the box is periodic with " + formatQuantity(c.mesh.domain.size[k], unit::metre) +
                          ": with 'coupling: immersed' it must be shorter than the box by " +
@@ -211,9 +223,26 @@ void checkSurfaces(const Case& c, Problems& problems) {
                          {"constant/bodies.yaml", 0, 0}, problems);
         checkSurface(c, surface, problems);
     }
-    if (c.numerics.isImmersed())
-        for (std::size_t i = 0; i < c.mesh.cells.size(); ++i)
-            if (c.mesh.cells[i].shape) checkImmersed(c, c.mesh.cells[i], "cells[" + std::to_string(i) + "]", problems);
+    for (std::size_t i = 0; i < c.mesh.bodies.size(); ++i) {
+        const BodyPlaceSettings& body = c.mesh.bodies[i];
+        if (body.shape && c.planesAcross() && wrongScale(c, body).empty())
+            checkBetweenPlanes(c, *body.shape, "body", {body.centre, body.axis, 1}, fmt::format("bodies[{}].centre", i),
+                               problems);
+    }
+    int number = 0;  // of the cell
+    for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
+        const CellTypeSettings& cell = c.mesh.cells[i];
+        const bool isRight = cell.shape && wrongScale(c, cell).empty();
+        const std::string key = fmt::format("cells[{}]", i);
+        if (isRight && c.numerics.isImmersed()) checkImmersed(c, cell, key, problems);
+        for (const geometry::Place& place : cell.standing()) {
+            ++number;
+            const std::string ofPlace = c.keyOfPlace(number);
+            if (isRight && c.numerics.isImmersed())
+                checkImmersedPlace(c, cell, place, cell.isPlacedByList() ? ofPlace : key + ".shape", problems);
+            if (isRight && c.planesAcross()) checkBetweenPlanes(c, *cell.shape, "cell", place, ofPlace, problems);
+        }
+    }
 }
 
 void checkFirstBreak(const Case& c, Problems& problems) {

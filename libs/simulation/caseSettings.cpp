@@ -1,5 +1,7 @@
 #include "simulation/caseSettings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -128,6 +130,28 @@ const Schema<SurfaceSettings>& SurfaceSettings::schema() {
     return s;
 }
 
+const Schema<PlaceSettings>& PlaceSettings::schema() {
+    static const Schema<PlaceSettings> s =
+        Schema<PlaceSettings>("place", "where one cell of a type is put")
+            .vector("centre", &PlaceSettings::centre, unit::metre, "place of its centre")
+            .vector("axis", &PlaceSettings::axis, unit::none, "direction of its symmetry axis",
+                    {.fallback = "[0, 0, 1]"})
+            .quantity("scale", &PlaceSettings::scale, unit::none, "its size, in sizes of the shape",
+                      {.fallback = "1", .range = positive})
+            .check([](const PlaceSettings& place, const Node& node, Problems& problems) {
+                if (const Node* axis = node.find("axis"); axis && place.axis.norm() == 0)
+                    problems.add(axis->mark, axis->path,
+                                 "found the zero vector; a direction is needed, such as [0, 0, 1]");
+            });
+    return s;
+}
+
+double CellTypeSettings::largestScale() const {
+    double largest = 0;
+    for (const geometry::Place& place : placed) largest = std::max(largest, place.scale);
+    return largest;
+}
+
 const Schema<CellSettings>& CellSettings::schema() {
     static const Schema<CellSettings> s = [] {
         Schema<CellSettings> keys("cell", "one cell: its shape, place and mesh");
@@ -140,6 +164,30 @@ const Schema<CellSettings>& CellSettings::schema() {
             .exactlyOneOf({"shape", "cell"});
         return keys;
     }();
+    return s;
+}
+
+const Schema<CellTypeSettings>& CellTypeSettings::schema() {
+    static const Schema<CellTypeSettings> s =
+        Schema<CellTypeSettings>("cell", "one type of cell: its shape, mesh and place, or places")
+            .include<CellSettings>()
+            .list("places", &CellTypeSettings::places, "many cells of this type, in place of 'centre' and 'axis'",
+                  {.fallback = "[]"})
+            .text("table", &CellTypeSettings::table,
+                  "the same from a file, relative to the case: CSV with columns x_um, y_um, z_um and, where wanted, "
+                  "axis_x, axis_y, axis_z, scale; or VTP")
+            .check([](const CellTypeSettings& cell, const Node& node, Problems& problems) {
+                if (!cell.places.empty() && cell.table)
+                    problems.add(node.find("table")->place(), node.path + ".table",
+                                 "given beside 'places'; keep one of them");
+                if (!cell.isPlacedByList()) return;
+                const char* const list = cell.table ? "table" : "places";
+                for (const auto& [key, isUsual] : {std::pair("centre", cell.centre.isZero()),
+                                                   {"axis", cell.axis.normalized() == Vec3(Vec3::UnitZ())}})
+                    if (const Node* own = node.find(key); own && !isUsual)
+                        problems.add(own->place(), own->path,
+                                     fmt::format("given beside '{}', which says it for each cell; remove it", list));
+            });
     return s;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "bodies/bodySettings.hpp"
 #include "core/registry.hpp"
+#include "geometry/place.hpp"
 #include "geometry/shape.hpp"
 #include "membrane/membraneSettings.hpp"
 #include "schemes/numericsSettings.hpp"
@@ -59,11 +60,32 @@ struct SurfaceSettings {
     Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
     static const Schema<SurfaceSettings>& schema();
 };
+struct PlaceSettings {
+    Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
+    double scale = 1;
+    static const Schema<PlaceSettings>& schema();
+};
 struct CellSettings : SurfaceSettings {
     std::optional<std::string> cell;      // ready one (readyCell.hpp), whose values have been put here
     std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
     static const Schema<CellSettings>& schema();
     const std::string& type() const { return membrane ? *membrane : name; }
+};
+// One type of cell: a mesh and a membrane, placed once, or as often as `places` or `table` say.
+struct CellTypeSettings : CellSettings {
+    std::vector<PlaceSettings> places;
+    std::optional<std::string> table;  // file of places (placesTable.hpp)
+    static const Schema<CellTypeSettings>& schema();
+
+    // What follows. Its cells, each by where the mesh in 0/ is put: once and as it stands there where the entry itself
+    // says where its cell is.
+    std::vector<geometry::Place> placed{geometry::Place{}};
+    bool isPlacedByList() const { return !places.empty() || table; }
+    // Where the shape, around the origin with its axis along z, is put.
+    std::vector<geometry::Place> standing() const {
+        return isPlacedByList() ? placed : std::vector<geometry::Place>{{centre, axis, 1}};
+    }
+    double largestScale() const;
 };
 struct BodyPlaceSettings : SurfaceSettings {
     std::optional<std::string> body;  // entry of constant/bodies.yaml; empty: the one of the body's name
@@ -78,7 +100,7 @@ struct FillSettings {
 };
 struct MeshSettings {
     DomainSettings domain;
-    std::vector<CellSettings> cells;
+    std::vector<CellTypeSettings> cells;
     std::vector<BodyPlaceSettings> bodies;
     FillSettings fill;
     static const Schema<MeshSettings>& schema();

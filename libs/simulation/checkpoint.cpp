@@ -54,6 +54,74 @@ void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sam
     }
 }
 
+// Of each type of cell, datasets with as many rows as it has cells, each written by the cell's owner: its number, and
+// the reach by which its holders were found; places and velocities of its nodes; living bonds; damage.
+std::string groupOf(const coupling::CellType& type) { return "cells/" + type.name + "/"; }
+
+template <class File>
+void saveType(File& file, const Scene& scene, std::size_t type) {
+    const coupling::CellType& of = scene.cells.types()[type];
+    const std::string group = groupOf(of);
+    std::vector<double> reach, position, velocity, damage;
+    std::vector<std::int64_t> number, alive;
+    const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (const Cell& cell : scene.cells) {
+        if (cell.type != type || !cell.isOwnedBy(scene.system->decomposition().rank())) continue;
+        const membrane::Membrane& m = cell.membrane;
+        number.push_back(m.cell);
+        add(reach, flat({cell.reach.min(), cell.reach.max()}));
+        add(position, flat(m.position)), add(velocity, flat(m.velocity));
+        add(alive, m.network().aliveBonds()), add(damage, m.damage());
+    }
+    const auto count = [](std::size_t each) { return static_cast<int>(each); };
+    file.writeDistributed(group + "number", number, 1);
+    file.writeDistributed(group + "reach", reach, 6);
+    file.writeDistributed(group + "position", position, count(3 * of.nodes.size()));
+    file.writeDistributed(group + "velocity", velocity, count(3 * of.nodes.size()));
+    file.writeDistributed(group + "aliveBonds", alive, count(of.membrane->network().allBonds().size()));
+    if (of.settings.rupture && of.settings.rupture->keepsDamage())
+        file.writeDistributed(group + "damage", damage, count(of.triangles.size()));
+}
+
+// Adds this rank's cells of the type.
+template <class File>
+void loadType(File& file, const std::string& where, const Scene& scene, std::size_t type, std::vector<Cell>& cells) {
+    const coupling::CellType& of = scene.cells.types()[type];
+    const std::string group = groupOf(of);
+    if (!file.has(group + "number"))
+        throw Failure(ExitCode::io, where +
+                                        " holds the cells one by one, as an earlier version wrote them; start from "
+                                        "firstTime");
+    const auto numbers = [&](const char* name, std::size_t each) {
+        return file.template readDistributed<double>(group + name, static_cast<int>(each));
+    };
+    const std::size_t bonds = of.membrane->network().allBonds().size();
+    const auto number = file.template readDistributed<std::int64_t>(group + "number", 1);
+    const auto alive = file.template readDistributed<std::int64_t>(group + "aliveBonds", static_cast<int>(bonds));
+    const std::vector<Vec3> reach = vectors(numbers("reach", 6)),
+                            position = vectors(numbers("position", 3 * of.nodes.size())),
+                            velocity = vectors(numbers("velocity", 3 * of.nodes.size()));
+    const auto damage = file.has(group + "damage") ? numbers("damage", of.triangles.size()) : std::vector<double>{};
+    const auto part = [](const auto& all, std::size_t k, std::size_t each) {
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(k * each);
+        return std::pair(from, from + static_cast<std::ptrdiff_t>(each));
+    };
+    for (std::size_t k = 0; k < number.size(); ++k) {
+        Cell& cell = cells.emplace_back(scene.cells.make(static_cast<int>(number[k])));
+        cell.reach = {reach[2 * k], reach[2 * k + 1]};
+        const auto [x, xEnd] = part(position, k, of.nodes.size());
+        const auto [u, uEnd] = part(velocity, k, of.nodes.size());
+        const auto [bond, bondEnd] = part(alive, k, bonds);
+        cell.membrane.position.assign(x, xEnd), cell.membrane.velocity.assign(u, uEnd);
+        std::vector<double> ofTriangles;
+        if (!damage.empty()) {
+            const auto [d, dEnd] = part(damage, k, of.triangles.size());
+            ofTriangles.assign(d, dEnd);
+        }
+        cell.membrane.restore({bond, bondEnd}, std::move(ofTriangles));
+    }
+}
+
 // To a file, or to memory.
 template <class File>
 void save(File& file, const Case& input, const Scene& scene, const Time& time, const RunState& state) {
@@ -65,7 +133,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.writeReplicated(schemeName(input), state.integrator.scheme);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
-    if (!scene.cells.empty())
+    if (scene.cells.exist())
         file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.movedBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
     file.writeReplicated("observers", state.observers);
@@ -74,24 +142,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
     });
-    for (const Cell& cell : scene.cells) {
-        // Rank 0 writes; it need not be one that holds the cell.
-        const int source = lowestHolder(scene, cell);
-        std::vector<double> position = flat(cell.membrane.position), velocity = flat(cell.membrane.velocity);
-        const std::vector<char>& bonds = cell.membrane.network().aliveBonds();
-        std::vector<std::int64_t> alive(bonds.begin(), bonds.end());
-        MPI_Bcast(position.data(), static_cast<int>(position.size()), MPI_DOUBLE, source, comm);
-        MPI_Bcast(velocity.data(), static_cast<int>(velocity.size()), MPI_DOUBLE, source, comm);
-        MPI_Bcast(alive.data(), static_cast<int>(alive.size()), MPI_INT64_T, source, comm);
-        const std::string group = "cells/" + cell.membrane.name + "/";
-        file.writeReplicated(group + "position", position);
-        file.writeReplicated(group + "velocity", velocity);
-        file.writeReplicated(group + "aliveBonds", alive);
-        if (std::vector<double> damage = cell.membrane.damage(); !damage.empty()) {
-            MPI_Bcast(damage.data(), static_cast<int>(damage.size()), MPI_DOUBLE, source, comm);
-            file.writeReplicated(group + "damage", damage);
-        }
-    }
+    for (std::size_t type = 0; type < scene.cells.types().size(); ++type) saveType(file, scene, type);
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             file.writeReplicated("bodies/" + body.name + "/state", body.saved());
@@ -119,21 +170,9 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
         count = values.size();
     });
     s.resize(count);
-    for (Cell& cell : scene.cells) {
-        const std::string group = "cells/" + cell.membrane.name + "/";
-        cell.held = true;
-        cell.membrane.position = vectors(file.template readReplicated<double>(group + "position"));
-        cell.membrane.velocity = vectors(file.template readReplicated<double>(group + "velocity"));
-        const auto alive = file.template readReplicated<std::int64_t>(group + "aliveBonds");
-        if (cell.membrane.position.size() != cell.membrane.network().nodeCount() ||
-            alive.size() != cell.membrane.network().allBonds().size())
-            throw Failure(ExitCode::io, where + " and 0/" + cell.membrane.name +
-                                            ".vtp hold different meshes; the case was meshed "
-                                            "again after the checkpoint: start from firstTime");
-        const std::string damage = group + "damage";
-        cell.membrane.restore({alive.begin(), alive.end()},
-                              file.has(damage) ? file.template readReplicated<double>(damage) : std::vector<double>{});
-    }
+    std::vector<Cell> cells;
+    for (std::size_t type = 0; type < scene.cells.types().size(); ++type) loadType(file, where, scene, type, cells);
+    scene.cells.take(std::move(cells), scene.system->decomposition().rank());
     if (scene.budget.kept && file.has("budget"))
         throw Failure(ExitCode::io, where +
                                         " holds the budget of an earlier version, which counted the forces of walls "
@@ -145,7 +184,7 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.template readReplicated<double>("bodies/" + body.name + "/state"));
     if (scene.shifting) scene.shifting->restore(file.template attribute<std::int64_t>("shiftingSteps"));
-    if (!scene.cells.empty()) {
+    if (scene.cells.exist()) {
         const auto moves = file.template attribute<std::int64_t>("guardMoves");
         // The sum over ranks is what counts: rank 0 takes it up.
         scene.movedBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
@@ -155,6 +194,7 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
                              file.template attribute<std::int64_t>("rebuilds"));
     else
         scene.system->start();
+    scene.cells.resettle(*scene.system);
     return state;
 }
 

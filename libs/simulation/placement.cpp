@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "core/communicator.hpp"
 #include "geometry/insideTest.hpp"
 #include "geometry/triangleTree.hpp"
 
@@ -27,22 +28,28 @@ struct Deepest {
 
 class Clearance {
   public:
-    Clearance(const Case& input, const std::vector<Placed>& all)
-        : input_(input), all_(all), box_(input.fluidBox()), gap_(leastGapInSpacings * input.spacing()) {
+    using IsMine = std::function<bool(std::size_t, std::size_t)>;
+    Clearance(const Case& input, const std::vector<Placed>& all, IsMine isMine)
+        : input_(input),
+          all_(all),
+          isMine_(isMine ? std::move(isMine) : [](std::size_t, std::size_t) { return true; }),
+          box_(input.fluidBox()),
+          gap_(leastGapInSpacings * input.spacing()) {
         for (const Placed& one : all) bounds_.push_back(one.surface.bounds());
     }
 
     std::vector<Problem> problems() {
         for (std::size_t s = 0; s < all_.size(); ++s) inBox(s);
-        for (const ImagePair& pair : geometry::neighbours(bounds_, box_.periodicity(), gap_)) meet(pair);
+        for (const ImagePair& pair : geometry::neighbours(bounds_, box_.periodicity(), gap_))
+            if (isMine_(pair.first, pair.second)) meet(pair);
         return std::move(problems_);
     }
 
   private:
-    void add(const Placed& placed, const std::string& key, const std::string& text) {
+    void add(const std::string& key, const std::string& text) {
         Problem& problem = problems_.emplace_back();
         problem.mark.file = "system/mesh.yaml";
-        problem.key = placed.key + key;
+        problem.key = key;
         problem.message = text;
     }
 
@@ -53,14 +60,15 @@ class Clearance {
             if (box_.periodic[static_cast<std::size_t>(k)]) {
                 if (high[k] - low[k] > box_.size()[k]) {
                     bounds_[s].setEmpty();  // meets whatever there is
-                    add(all_[s], ".shape",
+                    if (!isMine_(s, s)) continue;
+                    add(all_[s].shapeKey,
                         fmt::format("the {} is {} long along {}, longer than the box, which is periodic with {}: it "
                                     "would meet its own image; make the box longer, or the {} smaller",
                                     all_[s].name, length(high[k] - low[k]), "xyz"[k], length(box_.size()[k]),
                                     all_[s].isBody ? "body" : "cell"));
                 }
-            } else if (low[k] < box_.low[k] || high[k] > box_.high[k]) {
-                add(all_[s], ".centre",
+            } else if ((low[k] < box_.low[k] || high[k] > box_.high[k]) && isMine_(s, s)) {
+                add(all_[s].place,
                     fmt::format("the {} reaches from {} to {} along {}, and the box from {} to {}: move it",
                                 all_[s].name, length(low[k]), length(high[k]), "xyz"[k], length(box_.low[k]),
                                 length(box_.high[k])));
@@ -74,9 +82,9 @@ class Clearance {
         const auto tell = [&](const std::string& text) {
             told_.insert({pair.first, pair.second});
             if (pair.first == pair.second)
-                add(one, ".shape", text + ": make the box longer");
+                add(one.shapeKey, text + ": make the box longer");
             else
-                add(other, ".centre",
+                add(other.place,
                     text +
                         ": nothing but fluid keeps cells and bodies apart (there is no contact law in this "
                         "version); move one of them away");
@@ -167,6 +175,7 @@ class Clearance {
 
     const Case& input_;
     const std::vector<Placed>& all_;
+    IsMine isMine_;
     particles::Box box_;
     double gap_;  // [m]
     std::vector<Bounds> bounds_;
@@ -176,17 +185,18 @@ class Clearance {
     std::map<std::size_t, std::unique_ptr<geometry::TriangleTree>> grid_;
 };
 
-Placed placed(const SurfaceSettings& settings, bool isBody, std::size_t number, const SurfaceView& surface) {
-    const char* const kind = isBody ? "body" : "cell";
-    return {fmt::format("{} '{}'", kind, settings.name), fmt::format("{}[{}]", isBody ? "bodies" : "cells", number),
-            isBody, surface};
+Placed placedCell(const Case& input, int number, const SurfaceView& surface) {
+    return {fmt::format("cell '{}'", input.nameOf(number)), fmt::format("cells[{}].shape", input.cellAt(number).entry),
+            input.keyOfPlace(number), false, surface};
+}
+Placed placedBody(const Case& input, std::size_t number, const SurfaceView& surface) {
+    const std::string key = fmt::format("bodies[{}]", number);
+    return {fmt::format("body '{}'", input.mesh.bodies[number].name), key + ".shape", key + ".centre", true, surface};
 }
 
-}  // namespace
-
-std::vector<Problem> misplaced(const Case& input, const std::vector<Placed>& all) {
+std::vector<Problem> withPlaces(const Case& input, const std::vector<Problem>& found) {
     Problems problems;
-    for (const Problem& p : Clearance(input, all).problems()) problems.add(p.mark, p.key, p.message);
+    for (const Problem& p : found) problems.add(p.mark, p.key, p.message);
     try {
         input.throwIfAny(problems);
     } catch (const CaseError& error) {  // with lines and columns now
@@ -195,25 +205,64 @@ std::vector<Problem> misplaced(const Case& input, const std::vector<Placed>& all
     return {};
 }
 
+// What each rank has found, on all of them.
+std::vector<Problem> ofAllRanks(const Communicator& ranks, const std::vector<Problem>& own) {
+    constexpr char between = '\x1e', after = '\x1f';
+    std::string text;
+    for (const Problem& p : own) text += fmt::format("{}{}{}{}", p.key, between, p.message, after);
+    std::string whole;
+    for (const std::string& part : ranks.gather(text)) whole += part;
+    whole = ranks.broadcast(whole);
+    std::vector<Problem> all;
+    for (std::size_t at = 0; at < whole.size();) {
+        const std::size_t middle = whole.find(between, at), end = whole.find(after, middle);
+        Problem& problem = all.emplace_back();
+        problem.mark.file = "system/mesh.yaml";
+        problem.key = whole.substr(at, middle - at);
+        problem.message = whole.substr(middle + 1, end - middle - 1);
+        at = end + 1;
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<Problem> misplaced(const Case& input, const std::vector<Placed>& all,
+                               const std::function<bool(std::size_t, std::size_t)>& isMine) {
+    return withPlaces(input, Clearance(input, all, isMine).problems());
+}
+
 std::vector<Placed> placedOf(const Case& input, const std::vector<geometry::TriangleMesh>& cells,
                              const std::vector<geometry::TriangleMesh>& bodies) {
     std::vector<Placed> all;
     for (std::size_t c = 0; c < cells.size(); ++c)
-        all.push_back(placed(input.mesh.cells[c], false, c, {&cells[c].nodes, &cells[c].triangles}));
+        all.push_back(placedCell(input, static_cast<int>(c) + 1, {&cells[c].nodes, &cells[c].triangles}));
     for (std::size_t b = 0; b < bodies.size(); ++b)
-        all.push_back(placed(input.mesh.bodies[b], true, b, {&bodies[b].nodes, &bodies[b].triangles}));
+        all.push_back(placedBody(input, b, {&bodies[b].nodes, &bodies[b].triangles}));
     return all;
 }
 
 void requireClear(const Case& input, const coupling::Scene& scene) {
-    std::vector<geometry::TriangleMesh> cells, bodies;
-    for (const coupling::Cell& cell : scene.cells)
-        cells.push_back({cell.membrane.position, cell.membrane.network().triangles()});
+    const Communicator ranks(scene.system->comm());
+    std::vector<Placed> all;
+    std::vector<std::vector<int>> holders;
+    for (const coupling::Cell& cell : scene.cells) {
+        const membrane::Membrane& m = cell.membrane;
+        all.push_back(placedCell(input, m.cell, {&m.position, &m.network().triangles()}));
+        holders.push_back(cell.holders);
+    }
+    std::vector<geometry::TriangleMesh> bodies;
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             bodies.push_back({body.nodes(), body.solid.surface.triangles});
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+        all.push_back(placedBody(input, b, {&bodies[b].nodes, &bodies[b].triangles}));
+    holders.resize(all.size());  // every rank knows all bodies
+    const std::vector<Problem> own = misplaced(input, all, [&](std::size_t i, std::size_t j) {
+        return coupling::lowestCommonHolder(holders[i], holders[j]) == ranks.rank();
+    });
     Problems problems;
-    for (const Problem& p : misplaced(input, placedOf(input, cells, bodies))) problems.add(p.mark, p.key, p.message);
+    for (const Problem& p : ofAllRanks(ranks, own)) problems.add(p.mark, p.key, p.message);
     input.throwIfAny(problems);
 }
 

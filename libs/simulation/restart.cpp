@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "simulation/placesTable.hpp"
+
 namespace corpuscle::simulation {
 
 namespace {
@@ -74,7 +76,11 @@ std::vector<Derived> derivedValues(const Case& input) {
 
 // Directions are compared as such.
 Node meshSettings(MeshSettings mesh) {
-    for (CellSettings& cell : mesh.cells) cell.axis.normalize();
+    for (CellTypeSettings& cell : mesh.cells) {
+        cell.axis.normalize();
+        for (PlaceSettings& place : cell.places) place.axis.normalize();
+        if (cell.table) *cell.table += " with " + describePlaces(cell.placed);
+    }
     for (BodyPlaceSettings& body : mesh.bodies) body.axis.normalize();
     return write(mesh);
 }
@@ -183,13 +189,12 @@ std::vector<std::pair<std::string, FieldInfo>> restartDictionaries() {
 
 void writeOrigin(io::CheckpointWriter& file, const Case& input, const coupling::Scene& scene) {
     file.writeReplicated(settingsName, packed(emit(settingsOf(input))));
-    for (const coupling::Cell& cell : scene.cells) {
-        const membrane::Network& network = cell.membrane.network();
-        const std::string group = "origin/" + cell.membrane.name + "/";
-        file.writeReplicated(group + "nodes", flat(cell.membrane.initialPosition()));
-        if (network.stressFree() != cell.membrane.initialPosition())
-            file.writeReplicated(group + "stressFree", flat(network.stressFree()));
-        file.writeReplicated(group + "triangles", flat(network.triangles()));
+    for (const coupling::CellType& type : scene.cells.types()) {
+        const std::string group = "origin/" + type.name + "/";
+        file.writeReplicated(group + "nodes", flat(type.nodes));
+        if (!type.stressFree.empty() && type.stressFree != type.nodes)
+            file.writeReplicated(group + "stressFree", flat(type.stressFree));
+        file.writeReplicated(group + "triangles", flat(type.triangles));
     }
     if (!scene.bodies) return;
     for (const bodies::Body& body : scene.bodies->all()) {
@@ -280,9 +285,8 @@ void compareMeshes(io::CheckpointReader& file, const std::filesystem::path& chec
         if (rest.size() != 3 * stressFree->size() || !(farthest(rest, *stressFree) <= slack * input.spacing()))
             refuse(name, "has, by 'stressFree' of constant/membranes.yaml, another stress-free shape");
     };
-    for (const coupling::Cell& cell : scene.cells)
-        compare(cell.membrane.name, cell.membrane.initialPosition(), cell.membrane.network().triangles(),
-                &cell.membrane.network().stressFree());
+    for (const coupling::CellType& type : scene.cells.types())
+        compare(type.name, type.nodes, type.triangles, &type.membrane->network().stressFree());
     if (scene.bodies)
         for (const bodies::Body& body : scene.bodies->all())
             compare(body.name, body.solid.surface.nodes, body.solid.surface.triangles, nullptr);

@@ -13,11 +13,6 @@ using coupling::Cell;
 using coupling::Scene;
 using particles::Kind;
 
-int lowestHolder(const Scene& scene, const Cell& cell) {
-    const Communicator ranks(scene.system->comm());
-    return static_cast<int>(ranks.min(static_cast<long>(cell.held ? ranks.rank() : ranks.size())));
-}
-
 namespace {
 // The entry at the time of a restart is that of the run before: the restarted one begins after it.
 double earliestOf(const Time& start) { return start.step == 0 ? start.t : start.t * (1 + 1e-8); }
@@ -28,10 +23,11 @@ ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& 
       fields_(input.control.write.fields),
       fluid_(scene.system->comm(), input.directory, "fluid", static_cast<int>(input.control.write.keep.value_or(0)),
              earliestOf(start)) {
-    for (const Cell& cell : scene.cells)
-        cells_.emplace_back(scene.system->comm(), input.directory, cell.membrane.name,
+    const std::vector<coupling::CellType>& types = scene.cells.types();
+    for (const coupling::CellType& type : types)
+        types_.emplace_back(scene.system->comm(), input.directory, type.name,
                             static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
-    if (std::any_of(scene.cells.begin(), scene.cells.end(), [](const Cell& c) { return c.membrane.canRupture(); }))
+    if (std::any_of(types.begin(), types.end(), [](const coupling::CellType& type) { return !!type.settings.rupture; }))
         holes_.emplace(scene.system->comm(), input.directory, "holes",
                        static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
     if (scene.bodies)
@@ -43,7 +39,7 @@ ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& 
 void ResultsWriter::goBack(const Ticker& ticker, const Time& time) {
     ticker_ = ticker;
     fluid_.goBack(time.t);
-    for (io::VtkSeries& series : cells_) series.goBack(time.t);
+    for (io::VtkSeries& series : types_) series.goBack(time.t);
     for (io::VtkSeries& series : bodies_) series.goBack(time.t);
     if (holes_) holes_->goBack(time.t);
 }
@@ -56,7 +52,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     };
     io::PolyData data;
     auto& id = data.point.integers["id"];
-    auto* side = wants("side") || !scene.cells.empty() ? &data.point.integers["side"] : nullptr;
+    auto* side = wants("side") || scene.cells.exist() ? &data.point.integers["side"] : nullptr;
     auto* velocity = wants("velocity") ? &data.point.vectors["velocity"] : nullptr;
     auto* density = wants("density") ? &data.point.scalars["density"] : nullptr;
     auto* pressure = wants("pressure") ? &data.point.scalars["pressure"] : nullptr;
@@ -111,16 +107,43 @@ io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     return data;
 }
 
-io::PolyData cellPiece(const Scene& scene, const Cell& cell, bool writer) {
-    if (writer) return membranePiece(cell.membrane, scene.spacing);
-    io::PolyData data;
-    for (const char* name : {"force", "velocity"}) data.point.vectors[name];
-    for (const char* name : {"stretch", "spacing"}) data.point.scalars[name];
-    for (const char* name : {"areaStrain", "tension1", "tension2"}) data.cell.scalars[name];
-    data.cell.integers["broken"], data.point.integers["id"];
-    if (cell.membrane.canRupture()) data.point.integers["hole"];
-    if (!cell.membrane.damage().empty()) data.cell.scalars["damage"];
-    return data;
+namespace {
+
+// Behind what there is already, which has the same arrays.
+void append(io::PolyData& all, const io::PolyData& one) {
+    const int first = static_cast<int>(all.points.size());
+    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+    for (const Index3& t : one.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    const auto join = [](auto& to, const auto& from) {
+        for (const auto& [name, values] : from) to[name].insert(to[name].end(), values.begin(), values.end());
+    };
+    join(all.point.scalars, one.point.scalars), join(all.cell.scalars, one.cell.scalars);
+    join(all.point.vectors, one.point.vectors), join(all.cell.vectors, one.cell.vectors);
+    join(all.point.integers, one.point.integers), join(all.cell.integers, one.cell.integers);
+}
+
+}  // namespace
+
+io::PolyData typePiece(const Scene& scene, std::size_t type) {
+    io::PolyData all;
+    for (const char* name : {"force", "velocity"}) all.point.vectors[name];
+    for (const char* name : {"stretch", "spacing"}) all.point.scalars[name];
+    for (const char* name : {"areaStrain", "tension1", "tension2"}) all.cell.scalars[name];
+    for (const char* name : {"id", "cell"}) all.point.integers[name];
+    for (const char* name : {"broken", "cell"}) all.cell.integers[name];
+    if (const auto& rupture = scene.cells.types()[type].settings.rupture) {
+        all.point.integers["hole"];
+        if (rupture->keepsDamage()) all.cell.scalars["damage"];
+    }
+    const int rank = scene.system->decomposition().rank();
+    for (const Cell& cell : scene.cells) {
+        if (cell.type != type || !cell.isOwnedBy(rank)) continue;
+        io::PolyData one = membranePiece(cell.membrane, scene.spacing);
+        one.point.integers["cell"].assign(one.points.size(), cell.membrane.cell);
+        one.cell.integers["cell"].assign(one.triangles.size(), cell.membrane.cell);
+        append(all, one);
+    }
+    return all;
 }
 
 void addRims(const membrane::Membrane& m, io::PolyData& data) {
@@ -159,12 +182,10 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
     fluid_.write(time.t, time.strain(), fluidPiece(scene));
     io::PolyData rims;
     rims.cell.integers = {{"cell", {}}, {"hole", {}}};
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        const Cell& cell = scene.cells[c];
-        const bool writer = lowestHolder(scene, cell) == rank;
-        cells_[c].write(time.t, time.strain(), cellPiece(scene, cell, writer));
-        if (writer && cell.membrane.network().brokenTriangles() > 0) addRims(cell.membrane, rims);
-    }
+    for (std::size_t type = 0; type < types_.size(); ++type)
+        types_[type].write(time.t, time.strain(), typePiece(scene, type));
+    for (const Cell& cell : scene.cells)
+        if (cell.isOwnedBy(rank) && cell.membrane.network().brokenTriangles() > 0) addRims(cell.membrane, rims);
     if (holes_) {
         holes_->start();
         if (Communicator(scene.system->comm()).anyTrue(!rims.lines.empty())) holes_->write(time.t, time.strain(), rims);
@@ -190,11 +211,9 @@ std::string writeFault(const Case& input, const Scene& scene, const Time& time, 
         velocity.push_back(s.velocity(i)), density.push_back(s.density[i]);
     }
     io::VtkSeries(comm, input.directory, "fault", 0, 0).write(time.t, time.strain(), near);
-    for (const Cell& cell : scene.cells) {
-        const bool writer = lowestHolder(scene, cell) == Communicator(comm).rank();
-        io::VtkSeries(comm, input.directory, "fault_" + cell.membrane.name, 0, 0)
-            .write(time.t, time.strain(), cellPiece(scene, cell, writer));
-    }
+    for (std::size_t type = 0; type < scene.cells.types().size(); ++type)
+        io::VtkSeries(comm, input.directory, "fault_" + scene.cells.types()[type].name, 0, 0)
+            .write(time.t, time.strain(), typePiece(scene, type));
     return "results/fault.pvd";
 }
 

@@ -1,5 +1,6 @@
 #include "simulation/sceneBuilder.hpp"
 
+#include "coupling/immersed.hpp"
 #include "geometry/periodicSurface.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/startFiles.hpp"
@@ -8,6 +9,8 @@
 namespace corpuscle::simulation {
 
 using coupling::Cell;
+using coupling::Cells;
+using coupling::CellType;
 using coupling::Scene;
 using particles::Kind;
 using particles::ParticleStore;
@@ -21,39 +24,44 @@ std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double s
 
 namespace {
 
-std::vector<Cell> readCells(const Case& input) {
-    std::vector<Cell> cells;
-    int firstNode = 0;
+std::vector<CellType> readTypes(const Case& input) {
+    std::vector<CellType> types;
     Problems problems;
-    for (const CellSettings& settings : input.mesh.cells) {
+    for (const CellTypeSettings& settings : input.mesh.cells) {
         io::PolyData file = readStart(input, settings.name);
         const geometry::TriangleMesh mesh{std::move(file.points), std::move(file.triangles)};
         const membrane::MembraneSettings& laws = input.membraneOf(settings);
-        const double a = settings.shape->radius();
-        Cell cell{.membrane = membrane::Membrane(
-                      settings.name, static_cast<int>(cells.size()) + 1, mesh.nodes, mesh.triangles, laws, a,
-                      stressFreeNodes(input.directory, settings.type(), laws, mesh, problems)),
-                  .type = settings.type(),
-                  .radius = a,
-                  .viscosityRatio = laws.interior.viscosityRatio,
-                  .firstNode = firstNode};
-        cell.initialArea = cell.membrane.area();
-        cell.initialVolume = cell.membrane.volume();
+        CellType type{.name = settings.name,
+                      .laws = settings.type(),
+                      .nodes = mesh.nodes,
+                      .triangles = mesh.triangles,
+                      .stressFree = stressFreeNodes(input.directory, settings.type(), laws, mesh, problems),
+                      .settings = laws,
+                      .radius = settings.shape->radius(),
+                      .viscosityRatio = laws.interior.viscosityRatio,
+                      .places = settings.placed};
         if (!input.numerics.isImmersed())
-            for (const double volume : nodeVolumes(cell.membrane.vertexAreas(), input.spacing()))
-                cell.nodeMass.push_back(input.flow.density * volume);
-        firstNode += cell.nodeCount();
-        cells.push_back(std::move(cell));
+            for (const double volume : nodeVolumes(mesh.vertexAreas(), input.spacing()))
+                type.nodeMass.push_back(input.flow.density * volume);
+        types.push_back(std::move(type));
     }
     input.throwIfAny(problems);
-    return cells;
+    return types;
 }
 
 // The number of the cell that a point at t = 0 is inside, 0: none.
 int cellAround(const Scene& scene, const Vec3& x) {
-    for (const Cell& cell : scene.cells) {
-        const geometry::TriangleMesh mesh{cell.membrane.position, cell.membrane.network().triangles()};
-        if (geometry::InsideTest(mesh).inside(x, scene.fluidBox.periodicity())) return cell.membrane.cell;
+    const Periodicity period = scene.fluidBox.periodicity();
+    for (const CellType& type : scene.cells.types()) {
+        geometry::Bounds bounds;
+        for (const Vec3& node : type.nodes) bounds.extend(node);
+        const double away = bounds.diagonal().norm() + bounds.center().norm();  // of any node from a cell's centre
+        for (std::size_t k = 0; k < type.places.size(); ++k) {
+            const geometry::Place& place = type.places[k];
+            if (period.shortest(x - place.centre).norm() > place.scale * away) continue;
+            if (geometry::InsideTest({place.of(type.nodes), type.triangles}).inside(x, period))
+                return type.firstCell + static_cast<int>(k);
+        }
     }
     return 0;
 }
@@ -76,9 +84,9 @@ void addBodies(const Case& input, Scene& scene) {
         body.cell = cellAround(scene, mesh.points.front());
         body.viscosity = input.fluid.viscosity;
         if (body.cell > 0) {
-            Cell& around = scene.cells[static_cast<std::size_t>(body.cell) - 1];
-            body.viscosity *= around.viscosityRatio;
-            around.solidVolume += body.solid.volume;
+            Cells& cells = scene.cells;
+            body.viscosity *= cells.types()[cells.typeOf(body.cell)].viscosityRatio;
+            cells.setSolidVolume(body.cell, cells.solidVolume(body.cell) + body.solid.volume);
         }
         body.fill(places, input.particleVolume(), *input.numerics.kernel, input.support());
         all.push_back(std::move(body));
@@ -132,7 +140,11 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.system = std::make_unique<particles::ParticleSystem>(
         comm, input.particleBox(), fields, input.support(), input.scheme().traits().listsEveryStep ? 0 : input.skin(),
         input.spacing(), input.precision());
-    if (hasCells) scene.cells = readCells(input);
+    if (hasCells)
+        scene.cells = Cells(readTypes(input),
+                            input.numerics.isImmersed()
+                                ? coupling::Immersed::margin(scene.spacing, input.support(), scene.system->skin())
+                                : coupling::DualIdentity::margin(scene.spacing, scene.system->skin()));
     if (hasBodies) {
         addBodies(input, scene);
         if (input.scheme().traits().solvesForBodies) scene.system->pairWithinBodies();
@@ -164,7 +176,7 @@ class StartingParticles {
             const std::size_t i = add(Kind::fluid, k, x, input_.flow.velocity(x), density);
             if (s_.optional().side) s_.side[i] = side[k];
             if (s_.optional().viscosity && side[k] > 0)
-                s_.viscosity[i] *= scene_.cells[static_cast<std::size_t>(side[k] - 1)].viscosityRatio;
+                s_.viscosity[i] *= typeOf(static_cast<int>(side[k])).viscosityRatio;
         });
         firstId_ += fluid.points.size();
     }
@@ -179,23 +191,24 @@ class StartingParticles {
         });
         firstId_ += walls.points.size();
     }
-    // Membranes move with the flow; their nodes are particles where the coupling says so.
-    void addMembranes() {
+    // The nodes of membranes, where the coupling says that they are particles.
+    void addNodes() {
+        if (!s_.optional().node) return;
         const sph::FluidModel& model = scene_.model();
-        for (Cell& cell : scene_.cells) {
-            const auto first = static_cast<std::size_t>(cell.firstNode);
-            for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
-                cell.membrane.velocity[k] = input_.flow.velocity(cell.membrane.position[k]);
-            forShare(cell.nodeMass.size(), comm_, [&](std::size_t k) {
-                const std::size_t i =
-                    add(Kind::membrane, first + k, cell.membrane.position[k], cell.membrane.velocity[k], model.density);
+        forShare(scene_.cells.count(), comm_, [&](std::size_t c) {
+            const Cell cell = scene_.cells.make(static_cast<int>(c) + 1);
+            const double ratio = typeOf(cell.membrane.cell).viscosityRatio;
+            for (std::size_t k = 0; k < cell.nodeMass.size(); ++k) {
+                const Vec3& x = cell.membrane.position[k];
+                const std::size_t node = static_cast<std::size_t>(cell.firstNode) + k;
+                const std::size_t i = add(Kind::membrane, node, x, input_.flow.velocity(x), model.density);
                 s_.mass[i] = cell.nodeMass[k];
                 s_.side[i] = cell.membrane.cell;
-                s_.node[i] = static_cast<std::int64_t>(first + k);
-                if (s_.optional().viscosity) s_.viscosity[i] = model.viscosity * harmonicMean(1, cell.viscosityRatio);
-            });
-        }
-        for (const Cell& cell : scene_.cells) firstId_ += cell.nodeMass.size();
+                s_.node[i] = static_cast<std::int64_t>(node);
+                if (s_.optional().viscosity) s_.viscosity[i] = model.viscosity * harmonicMean(1, ratio);
+            }
+        });
+        firstId_ += scene_.cells.nodeCount();
     }
     void addBodies() {
         if (!scene_.bodies) return;
@@ -230,6 +243,8 @@ class StartingParticles {
         return i;
     }
 
+    const CellType& typeOf(int cell) const { return scene_.cells.types()[scene_.cells.typeOf(cell)]; }
+
     const Case& input_;
     Scene& scene_;
     ParticleStore& s_;
@@ -241,13 +256,17 @@ class StartingParticles {
 
 Scene buildScene(const Case& input, MPI_Comm comm) {
     Scene scene = emptyScene(input, comm);
-    requireClear(input, scene);
     StartingParticles particles(input, scene);
     particles.addFluid();
     particles.addWalls();
-    particles.addMembranes();
+    particles.addNodes();
     particles.addBodies();
     scene.system->start();
+    scene.cells.placeAtStart(*scene.system);
+    requireClear(input, scene);
+    for (Cell& cell : scene.cells)  // membranes move with the flow
+        for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
+            cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
     return scene;
 }
 

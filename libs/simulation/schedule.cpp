@@ -149,7 +149,7 @@ std::vector<Event> Schedule::events(const Time& time) const {
 bool Schedule::stopRequested(const Scene& scene, const Time& time) {
     if (input_.control.stop.firstBreak) {
         const auto broke = std::find_if(scene.cells.begin(), scene.cells.end(), [](const coupling::Cell& cell) {
-            return cell.held && cell.membrane.network().brokenBonds() > 0;
+            return cell.membrane.network().brokenBonds() > 0;
         });
         if (app_.communicator().anyTrue(broke != scene.cells.end())) {
             stopReason_ =
@@ -163,12 +163,10 @@ bool Schedule::stopRequested(const Scene& scene, const Time& time) {
 }
 
 void Schedule::reportRupture(const Scene& scene, const Time& time) {
-    // Holders of a cell agree; the root need not be one.
-    long broken = 0;
-    for (const coupling::Cell& cell : scene.cells) {
-        const long ofCell = cell.held ? static_cast<long>(cell.membrane.network().brokenBonds()) : 0;
-        broken += app_.communicator().max(ofCell);
-    }
+    long own = 0;
+    for (const coupling::Cell& cell : scene.cells)
+        if (cell.isOwnedBy(app_.communicator().rank())) own += cell.membrane.network().brokenBonds();
+    const long broken = app_.communicator().sum(own);
     if (broken > brokenBonds_) app_.log().info("rupture: {} bonds broken until strain {:.3f}", broken, time.strain());
     brokenBonds_ = broken;
 }
@@ -226,7 +224,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("result", "strain", time.strain());
     integrator_.stepper().report(record_, app_.log(), steps);
     record_.set("extremes", "largestDensityBalance", integrator_.largestDensityBalance());
-    if (!scene.cells.empty()) {
+    if (scene.cells.exist()) {
         record_.set("extremes", "mostNodesWithoutLinearWeights", integrator_.mostFallbacks());
         if (const long nodes = integrator_.mostFallbacks(); nodes > 0)
             app_.log().warning(

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/dualIdentity.hpp"
+#include "coupling/immersed.hpp"
 #include "particles/isa.hpp"
 #include "schemes/cost.hpp"
 
@@ -17,14 +19,12 @@ struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
     static constexpr double plain = 600, plainLoaded = 730;
     static constexpr double corrected = 1150, correctedLoaded = 1500;
-    static constexpr double node = 2500;  // of a membrane, with its bonds and triangles
+    static constexpr double network = 1500, node = 1000;  // of a mesh, with its bonds and triangles; of a cell
 };
 
-// Copies of particles that a rank has besides its own, over its own: of an even brick, cut from the box across its
-// longest side again and again, what lies within `reach` around it. Nothing lies beyond a wall.
-double ghostShare(const Case& c, int ranks, double reach) {
-    const Vec3 box = c.particleBox().size();
-    Vec3 brick = box;
+// Cut from the box across its longest side again and again.
+Vec3 evenBrick(const Case& c, int ranks) {
+    Vec3 brick = c.particleBox().size();
     for (int parts = ranks; parts > 1;) {
         int prime = 2;
         while (parts % prime != 0) ++prime;
@@ -33,12 +33,30 @@ double ghostShare(const Case& c, int ranks, double reach) {
         brick.maxCoeff(&longest);
         brick[longest] /= prime;
     }
+    return brick;
+}
+
+// Copies of particles that a rank has besides its own, over its own: of an even brick what lies within `reach` around
+// it. Nothing lies beyond a wall.
+double ghostShare(const Case& c, int ranks, double reach) {
+    const Vec3 box = c.particleBox().size(), brick = evenBrick(c, ranks);
     double share = 1;
     for (int k = 0; k < 3; ++k) {
         const double outer = c.hasWallsAcross(k) ? 2 * brick[k] / box[k] : 0;  // faces at walls
         share *= 1 + (2 - outer) * reach / brick[k];
     }
     return share - 1;
+}
+
+// How many ranks hold a cell of this radius, on the average.
+double holdersOf(const Case& c, int ranks, double radius) {
+    const Vec3 box = c.particleBox().size(), brick = evenBrick(c, ranks);
+    const double margin = c.numerics.isImmersed() ? coupling::Immersed::margin(c.spacing(), c.support(), c.skin())
+                                                  : coupling::DualIdentity::margin(c.spacing(), c.skin());
+    double holders = 1;
+    for (int k = 0; k < 3; ++k)
+        holders *= std::min(std::round(box[k] / brick[k]), 1 + 2 * (radius + margin) / brick[k]);
+    return holders;
 }
 
 double memoryOf(const Case& c, int ranks) {
@@ -49,10 +67,13 @@ double memoryOf(const Case& c, int ranks) {
     const double across = reach / c.spacing() + 1, around = 4.2 * across * across * across;
     const double list = 0.65 * 1.5 * sizeof(int) * around / particles::blockLanes(c.precision());
     double nodes = 0;
-    for (const CellSettings& cell : c.mesh.cells) nodes += static_cast<double>(estimateNodes(cell));
-    const int holders = c.numerics.isImmersed() ? ranks : 1;
+    for (const CellTypeSettings& cell : c.mesh.cells) {
+        const auto each = static_cast<double>(estimateNodes(cell)), count = static_cast<double>(cell.placed.size());
+        nodes += each * (MemoryCosts::network * ranks +
+                         MemoryCosts::node * count * holdersOf(c, ranks, cell.largestScale() * cell.shape->radius()));
+    }
     return ranks * (MemoryCosts::program + (ranks > 1 ? MemoryCosts::parallel : 0)) +
-           n * (list + each * (1 + ghostShare(c, ranks, reach))) + nodes * MemoryCosts::node * holders;
+           n * (list + each * (1 + ghostShare(c, ranks, reach))) + nodes;
 }
 
 long writesOf(const Case& c) {
@@ -85,10 +106,12 @@ ParticleEstimate estimateLattice(const Case& c) {
 ParticleEstimate estimateParticles(const Case& c) {
     ParticleEstimate n = estimateLattice(c);
     if (!c.numerics.isImmersed())  // else nodes are no particles
-        for (const CellSettings& cell : c.mesh.cells) {
+        for (const CellTypeSettings& cell : c.mesh.cells) {
             // As particles the nodes replace fluid of area x dx.
-            n.nodes += estimateNodes(cell);
-            n.fluid -= std::lround(cell.shape->area() * c.spacing() / c.particleVolume());
+            double squares = 0;
+            for (const geometry::Place& place : cell.placed) squares += place.scale * place.scale;
+            n.nodes += estimateNodes(cell) * static_cast<long>(cell.placed.size());
+            n.fluid -= std::lround(squares * cell.shape->area() * c.spacing() / c.particleVolume());
         }
     for (const BodyPlaceSettings& body : c.mesh.bodies) {
         const long inside = std::lround(body.shape->volume() / c.particleVolume());
@@ -107,7 +130,8 @@ SizeEstimate estimateSize(const Case& c, int ranks) {
     double components = 0;
     for (const std::string& field : c.control.write.fields) components += field == "velocity" ? 3 : 1;
     double nodes = 0;
-    for (const CellSettings& cell : c.mesh.cells) nodes += static_cast<double>(estimateNodes(cell));
+    for (const CellTypeSettings& cell : c.mesh.cells)
+        nodes += static_cast<double>(estimateNodes(cell)) * static_cast<double>(cell.placed.size());
     SizeEstimate size;
     size.memory = memoryOf(c, ranks);
     size.perWrite = written * (place + component * components) + nodes * perNode;

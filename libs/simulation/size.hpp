@@ -1,7 +1,8 @@
 // How large a case is, before anything is made: particles, memory of a run, disk.
 //
 // Memory, all ranks together:
-//     ranks x program + sum over ranks (owned x list + (owned + ghosts) x each) + nodes x node x holders
+//     ranks x program + sum over ranks (owned x list + (owned + ghosts) x each)
+//         + nodes x state x holders + nodes of each mesh x network x ranks
 // program: libraries, buffers of MPI and files. each: the store and its copy while sorting, sums over pairs, the two
 // states that rollbacks keep, the arrays of the scheme. ghosts: copies from other ranks and periodic images, as deep as
 // support and skin around the rank's brick. list: of what lies around a block of particles half is listed. The
@@ -20,7 +21,7 @@ struct ParticleEstimate {
 ParticleEstimate estimateLattice(const Case& input);
 ParticleEstimate estimateParticles(const Case& input);
 
-long estimateNodes(const CellSettings& cell);  // of its mesh
+long estimateNodes(const CellSettings& cell);  // of its mesh, which each of its cells has
 
 // Bytes: memory of a run in all ranks together, one written time, one checkpoint.
 struct SizeEstimate {

@@ -7,6 +7,7 @@
 
 #include "core/writable.hpp"
 #include "io/publish.hpp"
+#include "simulation/placesTable.hpp"
 
 namespace corpuscle::simulation {
 
@@ -112,8 +113,11 @@ std::map<std::string, std::string> startSettings(const Case& input, const std::s
     const MeshSettings& mesh = input.mesh;
     const Node fill = write(mesh.fill), numerics = write(input.numerics);
     flatten(write(mesh.domain), "mesh.domain", settings);
-    for (std::size_t i = 0; i < mesh.cells.size(); ++i)
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
         addSurface(mesh.cells[i], fmt::format("mesh.cells[{}]", i), settings);
+        if (mesh.cells[i].isPlacedByList())
+            settings[fmt::format("mesh.cells[{}].places", i)] = describePlaces(mesh.cells[i].placed);
+    }
     for (std::size_t i = 0; i < mesh.bodies.size(); ++i)
         addSurface(mesh.bodies[i], fmt::format("mesh.bodies[{}]", i), settings);
     flatten(*fill.find("jitter"), "mesh.fill.jitter", settings);

@@ -41,7 +41,6 @@ std::string words(const Vec3& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) 
 
 StateCheck::StateCheck(const Case& input, const Scene& scene) : input_(input) {
     particles_ = Communicator(scene.system->comm()).sum(static_cast<long>(scene.system->owned()));
-    lengths_.resize(scene.cells.size());
     take(scene);
 }
 
@@ -50,18 +49,8 @@ void StateCheck::take(const Scene& scene) {
     double most = 0;
     for (std::size_t i = 0; i < s.size(); ++i) most = std::max(most, s.velocity(i).squaredNorm());
     fastest2_ = Communicator(scene.system->comm()).max(most);
-    exact_.assign(scene.cells.size(), -1);
-    for (std::vector<double>& lengths : lengths_) lengths.clear();
-    for (std::size_t c = 0; c < scene.cells.size(); ++c)
-        if (isMine(scene, c)) compareBonds(scene.cells[c].membrane, lengths_[c]);
-}
-
-// Where every rank holds every cell, each looks at its share of them.
-bool StateCheck::isMine(const Scene& scene, std::size_t index) const {
-    const particles::Decomposition& ranks = scene.system->decomposition();
-    if (!scene.cells[index].held) return false;
-    return !input_.numerics.isImmersed() ||
-           index % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
+    watched_.clear();
+    for (const Cell& cell : scene.cells) compareBonds(cell.membrane, watched_[cell.membrane.cell].lengths);
 }
 
 Fault StateCheck::find(const Scene& scene, const Time& time) {
@@ -70,12 +59,9 @@ Fault StateCheck::find(const Scene& scene, const Time& time) {
     const Communicator ranks(comm);
     double fastest2 = 0;
     Fault fault = ofParticles(scene, time, fastest2);
-    for (std::size_t c = 0; c < scene.cells.size() && !fault; ++c) {
-        if (isMine(scene, c)) {
-            fault = ofCell(scene, c, time);
-        } else
-            lengths_[c].clear();  // old by the time that this rank holds the cell again
-    }
+    std::erase_if(watched_, [&](const auto& entry) { return !scene.cells.find(entry.first); });
+    for (const Cell& cell : scene.cells)
+        if (!fault) fault = ofCell(scene, cell, time);
     if (!fault) fault = ofSurfaces(scene, time);
     // Surfaces that meet are the cause only where nothing else is wrong, on any rank: a node that was thrown out of its
     // place may cross another cell.
@@ -156,27 +142,28 @@ const Bond* StateCheck::compareBonds(const Membrane& m, std::vector<double>& len
     return nullptr;
 }
 
-Fault StateCheck::ofCell(const Scene& scene, std::size_t index, const Time& time) {
-    const Cell& cell = scene.cells[index];
+Fault StateCheck::ofCell(const Scene& scene, const Cell& cell, const Time& time) {
     const Membrane& m = cell.membrane;
+    Watched& watched = watched_[m.cell];
     const auto when = [&] {
         return fmt::format("step {}, t = {:.6g} s: the membrane '{}' ", time.step, time.t, m.name);
     };
-    if (const Bond* bond = compareBonds(m, lengths_[index])) {
+    if (const Bond* bond = compareBonds(m, watched.lengths)) {
         const Vec3& x = m.position[static_cast<std::size_t>(bond->node[0])];
         return {
             when() + fmt::format(
                          "at {}: a bond of {:.3g} m is {:.3g} m long after a step: a node was thrown out of its place",
-                         words(x), lengths_[index][static_cast<std::size_t>(bond->number)], length(m, *bond)),
+                         words(x), watched.lengths[static_cast<std::size_t>(bond->number)], length(m, *bond)),
             x};
     }
     if (m.network().isOpen()) return {};
     const Vec3& first = m.position.front();
     if (const double change = m.volume() / cell.initialVolume - 1; !(std::abs(change) < largestVolumeChange))
         return {when() + fmt::format("encloses {:+.0f} % of its volume more than at the start", 100 * change), first};
-    const long since = exact_[index] < 0 ? stepsBetweenExact : lookedAt_ - exact_[index];
+    if (!cell.isOwnedBy(scene.system->decomposition().rank())) return {};
+    const long since = watched.exact < 0 ? stepsBetweenExact : lookedAt_ - watched.exact;
     if (since < leastBetweenExact || (since < stepsBetweenExact && !isSuspicious(m))) return {};
-    exact_[index] = lookedAt_;
+    watched.exact = lookedAt_;
     const geometry::TriangleMesh mesh{m.position, m.network().triangles()};
     const auto cuts = geometry::selfIntersections(mesh);
     if (cuts.empty()) return {};
@@ -192,22 +179,25 @@ struct Surface {
     std::string name;
     geometry::SurfaceView view;
     bool isCell;
+    std::vector<int> holders;  // none: every rank
     std::string text() const { return fmt::format("the {} {}", isCell ? "cell" : "body", name); }
 };
 
-// Closed cells that this rank holds, and bodies; their nodes go to `ofBodies`, which must stay.
+// Closed cells that this rank holds, and all bodies; their nodes go to `ofBodies`, which must stay.
 std::vector<Surface> surfacesOf(const Scene& scene, std::vector<std::vector<Vec3>>& ofBodies) {
     std::vector<Surface> surfaces;
     for (const Cell& cell : scene.cells)
-        if (cell.held && !cell.membrane.network().isOpen())
+        if (!cell.membrane.network().isOpen())
             surfaces.push_back({fmt::format("'{}'", cell.membrane.name),
                                 {&cell.membrane.position, &cell.membrane.network().triangles()},
-                                true});
+                                true,
+                                cell.holders});
     if (!scene.bodies) return surfaces;
     ofBodies.reserve(scene.bodies->all().size());
     for (const bodies::Body& body : scene.bodies->all()) {
         ofBodies.push_back(body.nodes());
-        surfaces.push_back({fmt::format("'{}'", body.name), {&ofBodies.back(), &body.solid.surface.triangles}, false});
+        surfaces.push_back(
+            {fmt::format("'{}'", body.name), {&ofBodies.back(), &body.solid.surface.triangles}, false, {}});
     }
     return surfaces;
 }
@@ -250,14 +240,16 @@ Meeting ofTwo(const Surface& one, const Surface& other, const Vec3& shift) {
 
 }  // namespace
 
-// Against each other, their periodic images and walls. Where all ranks know all, each looks at its share.
+// Against each other, their periodic images and walls. Each two are looked at by the lowest rank that holds both, two
+// bodies by one of all ranks.
 Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
     std::vector<std::vector<Vec3>> nodesOfBodies;
     const std::vector<Surface> surfaces = surfacesOf(scene, nodesOfBodies);
     const particles::Decomposition& ranks = scene.system->decomposition();
-    const auto isShare = [&](std::size_t n) {
-        return !input_.numerics.isImmersed() ||
-               n % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
+    const auto isMine = [&](std::size_t one, std::size_t other) {
+        if (!surfaces[one].isCell && !surfaces[other].isCell)
+            return one % static_cast<std::size_t>(ranks.size()) == static_cast<std::size_t>(ranks.rank());
+        return coupling::lowestCommonHolder(surfaces[one].holders, surfaces[other].holders) == ranks.rank();
     };
     const Periodicity& period = scene.system->periodicity();
     const auto faultOf = [&](const Meeting& meeting) {
@@ -272,11 +264,11 @@ Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
         const geometry::Bounds& own = bounds.emplace_back(surfaces[n].view.bounds());
         if (own.isEmpty()) continue;
         Meeting meeting = withItself(surfaces[n], own, period);
-        if (meeting.text.empty() && isShare(n)) meeting = withWalls(surfaces[n], own, scene.model().walls);
+        if (meeting.text.empty() && isMine(n, n)) meeting = withWalls(surfaces[n], own, scene.model().walls);
         if (!meeting.text.empty()) return faultOf(meeting);
     }
     for (const geometry::ImagePair& pair : geometry::neighbours(bounds, period)) {
-        if (!isShare(pair.first)) continue;
+        if (!isMine(pair.first, pair.second)) continue;
         const Meeting meeting = ofTwo(surfaces[pair.first], surfaces[pair.second], pair.shift);
         if (!meeting.text.empty()) return faultOf(meeting);
     }
@@ -293,7 +285,7 @@ void StateCheck::requireFinite(const Scene& scene, const Time& time, const std::
     }
     for (const Cell& cell : scene.cells) {
         const std::vector<Vec3>& nodes = cell.membrane.position;
-        if (!cell.held || !text.empty()) continue;
+        if (!text.empty()) continue;
         for (std::size_t n = 0; n < nodes.size() && text.empty(); ++n)
             if (!nodes[n].allFinite())
                 text = fmt::format("node {} of the membrane '{}' is at {}", n, cell.membrane.name, words(nodes[n]));

@@ -15,6 +15,7 @@
 //                                             them apart, so no shorter step cures it (isGeometric)
 // A membrane that has broken is not asked for its volume and its cuts: its surface is open.
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,19 +52,20 @@ class StateCheck {
   private:
     // fastest2: raised to the largest square of a speed seen until the fault [m^2/s^2].
     Fault ofParticles(const coupling::Scene& scene, const Time& time, double& fastest2) const;
-    bool isMine(const coupling::Scene& scene, std::size_t index) const;
     static const membrane::Bond* compareBonds(const membrane::Membrane& membrane, std::vector<double>& lengths);
-    Fault ofCell(const coupling::Scene& scene, std::size_t index, const Time& time);
+    Fault ofCell(const coupling::Scene& scene, const coupling::Cell& cell, const Time& time);
     Fault ofSurfaces(const coupling::Scene& scene, const Time& time) const;
     bool isSuspicious(const membrane::Membrane& membrane) const;
 
     const Case& input_;
     long particles_ = 0;   // of all ranks
     double fastest2_ = 0;  // of all ranks, at the last look [m^2/s^2]
-    std::vector<std::vector<double>>
-        lengths_;              // of the bonds of each cell that this rank looks at, by their numbers [m]
-    long lookedAt_ = 0;        // how often
-    std::vector<long> exact_;  // of these the last with the exact test, of each cell; -1: none
+    struct Watched {
+        std::vector<double> lengths;  // of its bonds at the last look, by their numbers [m]
+        long exact = -1;              // look of the last exact test; none
+    };
+    std::map<int, Watched> watched_;  // the cells that this rank holds, by their numbers
+    long lookedAt_ = 0;               // how often
 };
 
 }  // namespace corpuscle::simulation

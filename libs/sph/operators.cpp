@@ -222,7 +222,7 @@ void Operators<Real>::setPressure(std::size_t i, double pressure) {
     for (int k = 0; k < 9; ++k) stress[k] = static_cast<Real>(T(k / 3, k % 3));
 }
 
-// Of the stresses of own particles and their images alone: others' particles have none here, their ranks have it.
+// Of the stresses of own particles and their images alone: ghosts have none here, the ranks that own them have it.
 template <class Real>
 void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& force) {
     const std::size_t n = volume_.size(), ghosts = static_cast<std::size_t>(system.ghosts());

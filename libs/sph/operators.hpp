@@ -59,7 +59,7 @@ class Operators {
         force_.assign(width * shared_.entries(), 0.0);
         addForces(system, u, Known::ownVelocities, pressure, force_);
     }
-    // The same added to `force`, with u and force of all entries of shared(): velocities of others' particles need no
+    // The same added to `force`, with u and force of all entries of shared(): velocities of ghosts need no
     // message. What own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
     template <class Pressure>
     void addForces(particles::ParticleSystem& system, const Field& u, Pressure&& pressure,

@@ -83,19 +83,17 @@ struct ShearWave {
 };
 
 // Two spheres of membrane in still fluid, pulled out of shape.
-struct Cells : SphereScene {
+struct TwoSpheres : SphereScene {
     Scene scene;
     std::unique_ptr<AdjointVerlet> step;
 
-    explicit Cells(bool viscous = false) : SphereScene({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true) {
+    explicit TwoSpheres(bool viscous = false)
+        : SphereScene({14, 10, 10}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true, Cells::everywhere,
+                      [=](membrane::MembraneSettings& laws) {
+                          if (viscous) laws.viscosity = {0.3, 0.5};
+                      }) {
         for (Cell& cell : cells) {
             const Vec3 middle = middleOf(cell);
-            if (viscous) {
-                membrane::MembraneSettings laws = cell.membrane.laws();
-                laws.viscosity = {0.3, 0.5};
-                membrane::Membrane& m = cell.membrane;
-                m = membrane::Membrane(m.name, m.cell, m.network().stressFree(), m.network().triangles(), laws, 1);
-            }
             for (Vec3& x : cell.membrane.position) {
                 const Vec3 d = x - middle;
                 x = middle + Vec3(1.05 * d[0], 0.98 * d[1], 0.97 * d[2]);
@@ -116,7 +114,7 @@ struct Cells : SphereScene {
     // masses 1.
     template <class F>
     double largest(F&& product) const {
-        Immersed immersed(const_cast<std::vector<Cell>&>(scene.cells), 1);
+        Immersed immersed(const_cast<coupling::Cells&>(scene.cells), 1);
         std::vector<double> volume(scene.store().size(), 1.0);
         for (std::size_t i = 0; i < volume.size(); ++i) volume[i] = 1 / scene.store().density[i];
         immersed.place(*scene.system, volume);
@@ -192,7 +190,7 @@ TEST(AdjointVerlet, isStableUpToItsViscousLimitAndNotBeyond) {
 }
 
 TEST(AdjointVerlet, springRateIsTheLargestEigenvalueOfWhatTheFluidFeels) {
-    Cells cells;
+    TwoSpheres cells;
     const double rate2 = cells.step->rates(300).spring2;
     constexpr double step = 1e-5;
     const double exact = cells.largest([&](const Immersed& immersed, const Immersed::Vectors& unit) {
@@ -207,8 +205,8 @@ TEST(AdjointVerlet, springRateIsTheLargestEigenvalueOfWhatTheFluidFeels) {
 }
 
 TEST(AdjointVerlet, membraneRateIsTheLargestEigenvalueOfItsDamping) {
-    EXPECT_EQ(Cells(false).step->rates(5).membrane, 0);
-    Cells cells(true);
+    EXPECT_EQ(TwoSpheres(false).step->rates(5).membrane, 0);
+    TwoSpheres cells(true);
     const double rate = cells.step->rates(300).membrane;
     const double exact = cells.largest([](const Immersed& immersed, const Immersed::Vectors& unit) {
         Immersed::Vectors f(unit.size(), Vec3::Zero());
@@ -255,7 +253,7 @@ TEST(AdjointVerlet, isTheSameOnOneRankAndOnAll) {
 // Two spheres out of shape go back towards it through the fluid, their volume as it was; nothing passes their
 // membranes.
 TEST(AdjointVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
-    Cells cells(true);
+    TwoSpheres cells(true);
     const auto energy = [&] {
         double sum = 0;
         for (const Cell& cell : cells.scene.cells) sum += cell.membrane.energy();

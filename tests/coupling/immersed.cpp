@@ -121,14 +121,14 @@ std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const 
                 own.push_back({j, w, w});
             }
         const auto solver = moments.fullPivLu();
-        const Vec5 along = solver.solve(Vec5(1, 0, 0, 0, Immersed::momentAlong)),
-                   across = solver.solve(Vec5(1, 0, 0, 0, Immersed::momentAcross));
+        const Vec5 along = solver.solve(Vec5(1, 0, 0, 0, NodeFluidMap::momentAlong)),
+                   across = solver.solve(Vec5(1, 0, 0, 0, NodeFluidMap::momentAcross));
         double sumAlong = 0, sumAcross = 0;
         for (std::size_t k = 0; k < own.size(); ++k) {
             sumAlong += std::abs(own[k].along * along.dot(of[k]));
             sumAcross += std::abs(own[k].across * across.dot(of[k]));
         }
-        const bool whole = std::max(sumAlong, sumAcross) <= Immersed::largestWeights && own.size() >= 10;
+        const bool whole = std::max(sumAlong, sumAcross) <= NodeFluidMap::largestWeights && own.size() >= 10;
         shepard += !whole;
         for (std::size_t k = 0; k < own.size(); ++k) {
             own[k].along *= whole ? along.dot(of[k]) : 1 / moments(0, 0);
@@ -241,7 +241,7 @@ TEST(Immersed, forcesAndStiffnessAreThoseOfTheMembranes) {
                 cell.membrane.position[k] += along * u[static_cast<std::size_t>(cell.firstNode) + k];
         }
         f();
-        for (std::size_t c = 0; c < scene.cells.size(); ++c) scene.cells[c].membrane.position = before[c];
+        for (std::size_t c = 0; c < scene.cells.heldCount(); ++c) scene.cells[c].membrane.position = before[c];
     };
     const auto energyAt = [&](double along) {
         double energy = 0;
@@ -254,7 +254,7 @@ TEST(Immersed, forcesAndStiffnessAreThoseOfTheMembranes) {
     EXPECT_NEAR(power, byEnergy, 1e-6 * std::abs(byEnergy));
     EXPECT_GT(std::abs(byEnergy), 0.01);
 
-    for (std::size_t c = 0; c < scene.cells.size(); ++c) {
+    for (std::size_t c = 0; c < scene.cells.heldCount(); ++c) {
         scene.cells[c].membrane.position = scene.start[c];
         scene.cells[c].initialVolume = scene.cells[c].membrane.volume();
     }
@@ -354,4 +354,54 @@ TEST(Immersed, spreadForcesKeepTheirTorque) {
             EXPECT_NEAR(sph::testing::sumOverRanks(torque[k]), 0, 1e-12 * scale);
         }
     }
+}
+
+// Where each rank holds what is near its brick, sums go among holders: the same weights, velocities and forces as where
+// every rank holds every cell, to rounding, and the same bits on all holders.
+TEST(Immersed, isTheSameWhereRanksHoldOnlyWhatIsNear) {
+    const auto scene = [](double margin) {
+        SphereScene s({14, 12, 12}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true, margin);
+        for (Cell& cell : s.cells)
+            for (Vec3& x : cell.membrane.position) x[0] += 0.04 * std::sin(x[1]);
+        return s;
+    };
+    SphereScene all = scene(Cells::everywhere), some = scene(Immersed::margin(1, 2.3, skin));
+    const ParticleStore& s = some.system->store();
+    ASSERT_EQ(s.id, all.system->store().id);
+    const std::vector<double> volumes(s.size(), 1.0);
+    std::vector<double> u(4 * s.size(), 0.0);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            u[4 * i + k] = std::sin(static_cast<double>(3 * s.id[i]) + static_cast<double>(k));
+    Immersed one(all.cells, 1), other(some.cells, 1);
+    one.build(*all.system, volumes), other.build(*some.system, volumes);
+    EXPECT_EQ(one.fallbacks(), other.fallbacks());
+    const Immersed::Vectors v = one.interpolate(u.data()), w = other.interpolate(u.data());
+    Immersed::Vectors f = v, g = w;
+    one.addResistance(0.1, v, f), other.addResistance(0.1, w, g);
+    std::vector<double> bits(6 * 2 * all.start[0].size(), 0.0), least = bits;  // of holders; what others have not
+    std::fill(least.begin(), least.end(), 1e300);
+    auto most = bits;
+    std::fill(most.begin(), most.end(), -1e300);
+    for (std::size_t c = 0; c < some.cells.heldCount(); ++c) {
+        const auto cell = static_cast<std::size_t>(some.cells[c].membrane.cell) - 1;
+        for (std::size_t m = other.layout().first(c); m < other.layout().last(c); ++m) {
+            const std::size_t there = all.start[0].size() * cell + m - other.layout().first(c);
+            EXPECT_LT((w[m] - v[there]).norm(), 1e-13);
+            EXPECT_LT((g[m] - f[there]).norm(), 1e-12);
+            for (std::size_t k = 0; k < 3; ++k) {
+                least[6 * there + k] = most[6 * there + k] = w[m][static_cast<int>(k)];
+                least[6 * there + 3 + k] = most[6 * there + 3 + k] = g[m][static_cast<int>(k)];
+            }
+        }
+    }
+    const int count = static_cast<int>(bits.size());
+    MPI_Allreduce(MPI_IN_PLACE, least.data(), count, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    MPI_Allreduce(MPI_IN_PLACE, most.data(), count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    EXPECT_EQ(least, most) << "holders differ, or nobody holds a cell";
+    particles::RealArray force(4 * s.size(), 0.0), same = force;
+    one.spread(f, force), other.spread(g, same);
+    for (std::size_t k = 0; k < force.size(); ++k) EXPECT_NEAR(force[k], same[k], 1e-12);
+    EXPECT_NEAR(sph::testing::sumOverRanks(other.ownDot(w, g)), sph::testing::sumOverRanks(one.ownDot(v, f)), 1e-11);
+    EXPECT_NEAR(one.meanResistance(0.3), other.meanResistance(0.3), 1e-13);
 }

@@ -39,7 +39,7 @@ struct Watched : SphereScene {
     void find() {
         std::vector<int> every(system->store().size());
         for (std::size_t i = 0; i < every.size(); ++i) every[i] = static_cast<int>(i);
-        noFlux.find(*system, every);
+        noFlux.findAmong(*system, [&](std::size_t) { return every; });
     }
     Vec3 fromCentre(std::size_t i) const {
         return system->periodicity().shortest(system->store().position(i) - centre);

@@ -24,30 +24,33 @@ Choice<Family> choice(const std::string& text) {
 
 struct SphereScene {
     std::unique_ptr<ParticleSystem> system;
-    std::vector<Cell> cells;
+    Cells cells;
     std::vector<std::vector<Vec3>> start;  // nodes at first, by cell
     int fluidCount = 0;
 
-    SphereScene(const Index3& size, const std::vector<Vec3>& centres, bool immersed = false) {
+    // margin: within which ranks hold cells. change: what their laws have more.
+    SphereScene(const Index3& size, const std::vector<Vec3>& centres, bool immersed = false,
+                double margin = Cells::everywhere,
+                const std::function<void(membrane::MembraneSettings&)>& change = {}) {
         const Box box = sph::testing::cube(size);
         system = std::make_unique<ParticleSystem>(
             MPI_COMM_WORLD, box, ParticleStore::Optional{!immersed, false, true, !immersed}, 2.3, skin, 1.0);
         membrane::MembraneSettings laws;
         laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
         laws.bending = choice<membrane::BendingLaw>("{type: dihedral, kappa: 0.3 J}");
-        int first = 0;
-        for (const Vec3& centre : centres) {
-            auto mesh = membrane::testing::icosphere(2);
-            for (Vec3& x : mesh.nodes) x = radius * x + centre;
-            const int number = static_cast<int>(cells.size()) + 1;
-            cells.push_back({.membrane = membrane::Membrane("sphere", number, mesh.nodes, mesh.triangles, laws, radius),
-                             .type = "sphere",
-                             .radius = radius,
-                             .firstNode = first,
-                             .nodeMass = std::vector<double>(mesh.nodes.size(), nodeMass)});
-            start.push_back(mesh.nodes);
-            first += cells.back().nodeCount();
-        }
+        if (change) change(laws);
+        auto mesh = membrane::testing::icosphere(2);
+        for (Vec3& x : mesh.nodes) x *= radius;
+        CellType type{.name = "sphere",
+                      .laws = "sphere",
+                      .nodes = mesh.nodes,
+                      .triangles = mesh.triangles,
+                      .settings = laws,
+                      .radius = radius,
+                      .nodeMass = std::vector<double>(mesh.nodes.size(), nodeMass)};
+        for (const Vec3& centre : centres) type.places.push_back({.centre = centre});
+        cells = Cells({type}, margin);
+        for (std::size_t c = 0; c < centres.size(); ++c) start.push_back(cells.startingNodes(static_cast<int>(c) + 1));
         // The root holds everything at first; the system sends it to its owners.
         int rank = 0;
         MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -71,11 +74,12 @@ struct SphereScene {
                 }
                 if (free || immersed) add(p.x, Kind::fluid, side, -1);
             }
-            for (const Cell& cell : cells)
-                for (int n = 0; n < cell.nodeCount() && !immersed; ++n)
-                    add(cell.membrane.position[n], Kind::membrane, 0, cell.firstNode + n);
+            int node = 0;
+            for (const std::vector<Vec3>& nodes : start)
+                for (std::size_t n = 0; n < nodes.size() && !immersed; ++n) add(nodes[n], Kind::membrane, 0, node++);
         }
         system->start();
+        cells.placeAtStart(*system);
     }
 
     // A scene of these membranes immersed, their nodes moved to f(place from the middle of the cell), whose volumes
@@ -103,12 +107,11 @@ struct SphereScene {
     void moveNodes(F&& f) {
         ParticleStore& s = system->store();
         for (std::size_t i = 0; i < s.size(); ++i)
-            for (std::size_t c = 0; c < cells.size(); ++c) {
-                const std::int64_t n = s.node[i] - cells[c].firstNode;
-                if (s.node[i] < 0 || n < 0 || n >= cells[c].nodeCount()) continue;
+            if (s.node[i] >= 0) {
+                const auto [cell, n] = cells.cellOfNode(s.node[i]);
+                const Vec3& began = start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)];
                 // The image nearest to where the particle is: it moves continuously between builds.
-                s.setPosition(i, s.position(i) + system->periodicity().shortest(
-                                                     f(start[c][static_cast<std::size_t>(n)]) - s.position(i)));
+                s.setPosition(i, s.position(i) + system->periodicity().shortest(f(began) - s.position(i)));
             }
     }
 };

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "geometry/boundsIndex.hpp"
 #include "geometry/insideTest.hpp"
 #include "geometry/kuchelFackerell.hpp"
 #include "geometry/mesher.hpp"
@@ -136,6 +138,47 @@ TEST(TriangleTree, answersDoNotDependOnTheTree) {
         EXPECT_EQ(a.point, b.point);
         EXPECT_EQ(a.weights, b.weights);
     }
+}
+
+// Against all surfaces, with all images; some reach across faces, one is longer than the box, one stands some boxes
+// away.
+TEST(BoundsIndex, namesEverySurfaceAroundAPoint) {
+    const Vec3 low(-5, -4, 0), high(5, 4, 6);
+    const Periodicity period(low, high, {true, true, false});
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const auto vector = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+    std::vector<Bounds> bounds(1);  // the first lies nowhere
+    for (int n = 0; n < 40; ++n) {
+        const Vec3 corner = low + vector().cwiseProduct(high - low);
+        bounds.emplace_back(corner, corner + 1.5 * vector());
+    }
+    bounds.emplace_back(Vec3(-6, -1, 1), Vec3(6, 0, 2));
+    bounds.emplace_back(Vec3(28, -19, 4), Vec3(29, -18, 9));
+    for (const double margin : {0.0, 0.4}) {
+        const BoundsIndex index(bounds, low, high, period, margin);
+        double named = 0, around = 0;
+        for (int n = 0; n < 2000; ++n) {
+            const Vec3 x = low + vector().cwiseProduct(high - low);
+            const std::vector<int>& near = index.near(x);
+            EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+            EXPECT_EQ(index.near(x + Vec3(10, -16, 0)), near);
+            for (int s = 1; s < static_cast<int>(bounds.size()); ++s) {
+                const Bounds& b = bounds[static_cast<std::size_t>(s)];
+                bool is = false;
+                period.forImagesWithin(x, b.min() - Vec3::Constant(margin), b.max() + Vec3::Constant(margin),
+                                       [&](const Vec3&) { is = true; });
+                around += is;
+                if (is) {
+                    EXPECT_TRUE(std::binary_search(near.begin(), near.end(), s)) << s;
+                }
+            }
+            named += static_cast<double>(near.size());
+        }
+        EXPECT_LT(named, 12 * around) << "few surfaces are named in vain";
+        EXPECT_LT(named, 0.5 * 2000 * static_cast<double>(bounds.size()));
+    }
+    EXPECT_TRUE(BoundsIndex().near(Vec3(1, 2, 3)).empty());
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ struct LoadedSphere {
                                     MPI_COMM_WORLD,
                                     particles::Precision::full};
     FluidTerm<double> term{f.scene, sph::OperatorForm::corrected};
-    std::vector<coupling::Cell> cells;
+    coupling::Cells cells;
     Vectors unit, areas;
     double area = 0;  // of the mesh over that of the sphere
     std::unique_ptr<coupling::Immersed> immersed;
@@ -87,9 +87,7 @@ struct LoadedSphere {
         unit = mesh.nodes;
         const Vec3 centre = Vec3::Constant(0.5 * length) + Vec3(0.13, -0.21, 0.07);
         for (Vec3& x : mesh.nodes) x = a * x + centre;
-        cells.push_back({.membrane = membrane::Membrane("sphere", 1, mesh.nodes, mesh.triangles, laws, a),
-                         .type = "sphere",
-                         .radius = a});
+        cells.add({.membrane = membrane::Membrane("sphere", 1, mesh.nodes, mesh.triangles, laws, a), .radius = a});
         immersed = std::make_unique<coupling::Immersed>(cells, 1);
         immersed->place(*f.scene.system, term.operators().volumes());
         areas = membrane::volumeGradient(mesh.nodes, mesh.triangles);

@@ -155,7 +155,7 @@ TEST(UnnamedLaws, TogetherTheyCostTheSum) {
     EXPECT_LE(found.bytes, wanted.bytes);
 }
 
-// What is not asked for is not looked at either: numbers that are none would show.
+// What is not asked for is not looked at either: NaN would show.
 TEST(UnnamedLaws, VelocitiesAndTearsAreNotLookedAt) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     Membrane membrane("cell", 1, mesh().nodes, mesh().triangles, settings("bending: {type: dihedral, kappa: 1 J}"), 1);

@@ -24,8 +24,8 @@ ObserversSettings settings(const std::string& text, const Subject& subject = {tr
     return chosen;
 }
 
-std::string refusal(const std::string& text, const Scene& scene, double shearRate = 1) {
-    const Subject subject{!scene.cells.empty(), scene.flow.walls.exist(), shearRate};
+std::string whyNot(const std::string& text, const Scene& scene, double shearRate = 1) {
+    const Subject subject{scene.cells.exist(), scene.flow.walls.exist(), shearRate};
     return messageOf<CaseError>(
         [&] { Observers(settings(text, subject), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
 }
@@ -70,7 +70,8 @@ TEST(Observers, FilesTimesAndNothingChanged) {
     ASSERT_EQ(shape.rows.size(), 11u);  // strain 0, 0.2 .. 2, each once
     EXPECT_EQ(shape.columns[0], "time_s");
     EXPECT_EQ(shape.columns[1], "strain");
-    EXPECT_EQ(shape.columns[2], "D12_extent");
+    EXPECT_EQ(shape.columns[2], "cell");
+    EXPECT_EQ(shape.columns[3], "D12_extent");
     for (std::size_t n = 0; n < 11; ++n) EXPECT_NEAR(shape.column("strain")[n], 0.2 * static_cast<double>(n), 1e-9);
     EXPECT_EQ(io::readCsvSeries(folder.path(), "balance", "conservation").rows.size(), 7u);  // steps 0, 3 .. 18
     EXPECT_EQ(io::readCsvSeries(folder.path(), "breaks", "rbc").rows.size(), 5u);
@@ -107,24 +108,24 @@ TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
     const Scene fluid = sampleScene({});
     for (const std::string type : {"shape", "rupture"}) {
         const std::string text =
-            refusal("a: {type: conservation, every: 1 s}\nb: {type: " + type + ", every: 1 steps}\n", fluid);
+            whyNot("a: {type: conservation, every: 1 s}\nb: {type: " + type + ", every: 1 steps}\n", fluid);
         EXPECT_NE(text.find("system/observers.yaml:2"), std::string::npos) << text;
         EXPECT_NE(text.find("the case has none"), std::string::npos) << text;
         EXPECT_NE(text.find("system/mesh.yaml"), std::string::npos) << text;
     }
-    EXPECT_NE(refusal("a: {type: wallStress, every: 1 s}\n", fluid).find("constant/flow.yaml"), std::string::npos);
-    EXPECT_NE(refusal("a: {type: profile, every: 0.1 strain}\n", fluid, 0).find("no shear rate"), std::string::npos);
-    EXPECT_NE(refusal("a: {type: profil, every: 1 s}\n", fluid).find("Did you mean 'profile'"), std::string::npos);
-    EXPECT_NE(refusal("a: {type: profile}\n", fluid).find("every"), std::string::npos);
-    EXPECT_NE(refusal("a: {type: profile, every: 0 s}\n", fluid), "");
-    EXPECT_NE(refusal("a: {type: profile, every: 1 s, bin: 3}\n", fluid).find("bins"), std::string::npos);
-    EXPECT_EQ(refusal("a: {type: profile, every: 1 s}\n", fluid), "");
+    EXPECT_NE(whyNot("a: {type: wallStress, every: 1 s}\n", fluid).find("constant/flow.yaml"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: profile, every: 0.1 strain}\n", fluid, 0).find("no shear rate"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: profil, every: 1 s}\n", fluid).find("Did you mean 'profile'"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: profile}\n", fluid).find("every"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: profile, every: 0 s}\n", fluid), "");
+    EXPECT_NE(whyNot("a: {type: profile, every: 1 s, bin: 3}\n", fluid).find("bins"), std::string::npos);
+    EXPECT_EQ(whyNot("a: {type: profile, every: 1 s}\n", fluid), "");
 
     Scene cells = sampleScene({.cells = {{"events", Vec3::Zero()}}, .surface = &sphere()});
-    EXPECT_NE(refusal("a: {type: shape, every: 2 strain}\n", cells).find("1.5 strain"), std::string::npos);
-    EXPECT_NE(refusal("a: {type: shape, every: 2 s}\n", cells).find("1.5 strain"), std::string::npos);
-    EXPECT_EQ(refusal("a: {type: shape, every: 1.5 strain}\n", cells), "");
-    EXPECT_NE(refusal("a: {type: rupture, every: 1 s}\n", cells).find("events.csv"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: shape, every: 2 strain}\n", cells).find("1.5 strain"), std::string::npos);
+    EXPECT_NE(whyNot("a: {type: shape, every: 2 s}\n", cells).find("1.5 strain"), std::string::npos);
+    EXPECT_EQ(whyNot("a: {type: shape, every: 1.5 strain}\n", cells), "");
+    EXPECT_NE(whyNot("a: {type: rupture, every: 1 s}\n", cells).find("events.csv"), std::string::npos);
 }
 
 TEST(Observers, EveryModelIsThere) {

@@ -28,6 +28,7 @@ struct SampleOptions {
     std::vector<std::pair<std::string, Vec3>> cells = {};  // name and centre
     const geometry::TriangleMesh* surface = nullptr;       // of every cell, about the origin
     std::string rupture = "none";
+    double margin = coupling::Cells::everywhere;  // within which ranks hold cells [m]
 };
 
 inline Scene sampleScene(const SampleOptions& o) {
@@ -56,25 +57,30 @@ inline Scene sampleScene(const SampleOptions& o) {
     membrane::MembraneSettings laws;
     laws.bonds = choose<membrane::BondLaw>("{type: harmonic, k: 5e-4 N/m}");
     if (o.rupture != "none") laws.rupture = choose<membrane::RuptureLaw>(o.rupture);
-    int nodes = 0;
+    std::vector<coupling::CellType> types;
+    std::vector<geometry::InsideTest> insides;
     for (const auto& [name, centre] : o.cells) {
         geometry::TriangleMesh mesh = *o.surface;
         mesh.translate(centre);
-        const int number = static_cast<int>(scene.cells.size()) + 1;
-        coupling::Cell cell{.membrane = membrane::Membrane(name, number, mesh.nodes, mesh.triangles, laws, 4 * um),
-                            .type = "cell",
-                            .radius = 4 * um,
-                            .firstNode = nodes,
-                            .initialArea = mesh.area(),
-                            .initialVolume = mesh.volume(),
-                            .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx)};
-        nodes += cell.nodeCount();
-        scene.cells.push_back(std::move(cell));
+        insides.emplace_back(mesh);
+        types.push_back({.name = name,
+                         .laws = "cell",
+                         .nodes = mesh.nodes,
+                         .triangles = mesh.triangles,
+                         .settings = laws,
+                         .radius = 4 * um,
+                         .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx),
+                         .places = {{}}});
     }
+    scene.cells = coupling::Cells(types, o.margin);
+    const auto sideOf = [&](const Vec3& x) {
+        for (std::size_t c = 0; c < insides.size(); ++c)
+            if (insides[c].inside(x, scene.system->periodicity())) return static_cast<int>(c) + 1;
+        return 0;
+    };
 
     particles::ParticleStore& s = scene.store();
     std::int64_t id = 0;
-    const TrueSides sides(scene);
     const auto add = [&](const Vec3& x, particles::Kind kind, const Vec3& u, int side, int node) {
         const std::size_t i = s.size();
         s.resize(i + 1);
@@ -91,13 +97,14 @@ inline Scene sampleScene(const SampleOptions& o) {
                     const Vec3 x = box.low + dx * Vec3(a + 0.5, b + 0.5, c + 0.5);
                     const bool wall = c < layers || c >= counts[2] - layers;
                     const Vec3 u = wall ? scene.flow.walls.nearest(x).velocity : Vec3(o.shearRate * x[2], 0, 0);
-                    add(x, wall ? particles::Kind::wall : particles::Kind::fluid, u, wall ? 0 : sides.side(x), -1);
+                    add(x, wall ? particles::Kind::wall : particles::Kind::fluid, u, wall ? 0 : sideOf(x), -1);
                 }
-        for (const coupling::Cell& cell : scene.cells)
-            for (int n = 0; n < cell.nodeCount(); ++n)
-                add(cell.membrane.position[n], particles::Kind::membrane, Vec3::Zero(), 0, cell.firstNode + n);
+        for (const coupling::CellType& type : scene.cells.types())
+            for (std::size_t n = 0; n < type.nodes.size(); ++n)
+                add(type.nodes[n], particles::Kind::membrane, Vec3::Zero(), 0, type.firstNode + static_cast<int>(n));
     }
     scene.system->start();
+    scene.cells.placeAtStart(*scene.system);
 
     sph::FluidModel model;
     model.kernel = choose<sph::Kernel>("wendlandC2").model;
@@ -120,15 +127,20 @@ inline void couple(Scene& scene) {
     scene.coupling->moved(*scene.system, 0, true);
 }
 
+// The network of a cell as made, on every rank.
+inline const membrane::Network& networkOf(const Scene& scene, std::size_t cell) {
+    return scene.cells.types()[cell].membrane->network();
+}
+
 // Puts the nodes of a cell to f(node's stress-free place), as particles and so as membrane.
 template <class F>
 void deform(Scene& scene, std::size_t cell, F&& f) {
-    const coupling::Cell& c = scene.cells[cell];
+    const coupling::CellType& type = scene.cells.types()[cell];
     particles::ParticleStore& s = scene.store();
     for (std::size_t i = 0; i < s.size(); ++i) {
-        const auto node = s.node[i] - c.firstNode;
-        if (s.node[i] >= 0 && node >= 0 && node < c.nodeCount())
-            s.setPosition(i, f(c.membrane.network().stressFree()[static_cast<std::size_t>(node)]));
+        const auto node = s.node[i] - type.firstNode;
+        if (s.node[i] >= 0 && node >= 0 && node < static_cast<std::int64_t>(type.nodes.size()))
+            s.setPosition(i, f(type.nodes[static_cast<std::size_t>(node)]));
     }
     scene.system->rebuild();
     scene.coupling->moved(*scene.system, 0, true);

@@ -126,7 +126,7 @@ TEST(Choice, theCheapestThatCan) {
     std::vector<IntegratorCost> costs = predictCosts(n.settings, n.facts);
     EXPECT_EQ(cheapest(costs), "implicit");
     for (const IntegratorCost& cost : costs) {
-        EXPECT_EQ(cost.obstacle, "");
+        EXPECT_EQ(cost.whyNot, "");
         // Steps of one length: as many as fit.
         if (cost.name != "rkl2") {
             EXPECT_NEAR(cost.steps, 0.05 / cost.step().seconds, 1e-9 * cost.steps) << cost.name;
@@ -136,7 +136,7 @@ TEST(Choice, theCheapestThatCan) {
     WrittenNumerics none("");
     EXPECT_EQ(cheapest({}), "");
     costs = predictCosts(n.settings, n.facts);
-    for (const IntegratorCost& cost : costs) EXPECT_NE(cost.obstacle, "") << cost.name;
+    for (const IntegratorCost& cost : costs) EXPECT_NE(cost.whyNot, "") << cost.name;
     EXPECT_EQ(cheapest(costs), "");
 }
 

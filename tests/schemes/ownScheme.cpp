@@ -80,7 +80,7 @@ TEST(OwnScheme, isInEveryList) {
     n.facts.hasCells = true;
     for (const IntegratorCost& cost : predictCosts(n.settings, n.facts))
         if (cost.name == "drift") {
-            EXPECT_EQ(cost.obstacle, "found drift, which ignores cells");
+            EXPECT_EQ(cost.whyNot, "found drift, which ignores cells");
         }
     const SchemaInfo info = NumericsSettings::schema().info();
     const auto field = [&](const std::string& key) {

@@ -68,18 +68,30 @@ class Injection {
     }
 
     void moveCell(Scene& scene) const {
-        const Vec3 middle = coupling::middleOf(scene.cells.at(0));
+        coupling::Cell* const first = scene.cells.find(1);
+        if (!first) return;
+        const Vec3 middle = coupling::middleOf(*first);
         Vec3 way = Vec3::Zero(), stretch = Vec3::Ones();
-        if (kind_ == "cells") way = 0.5 * (coupling::middleOf(scene.cells.at(1)) - middle);
+        if (kind_ == "cells") way = 0.5 * (otherMiddle(scene) - middle);
         if (kind_ == "wall") way[2] = scene.fluidBox.high[2] - middle[2];
         if (kind_ == "image") stretch = Vec3(1.3, 0.88, 0.88);
-        for (Vec3& x : scene.cells[0].membrane.position) x = middle + way + stretch.cwiseProduct(x - middle);
+        for (Vec3& x : first->membrane.position) x = middle + way + stretch.cwiseProduct(x - middle);
+    }
+
+    // Where the second cell began; it has hardly moved.
+    static Vec3 otherMiddle(const Scene& scene) {
+        geometry::Bounds bounds;
+        for (const Vec3& x : scene.cells.startingNodes(2)) bounds.extend(x);
+        return bounds.center();
     }
 
     void moveNode(Scene& scene, std::mt19937_64& random) const {
-        coupling::Cell& cell = scene.cells.at(random() % scene.cells.size());
-        membrane::Membrane& m = cell.membrane;
-        const Index3& corners = m.network().triangles().at(random() % m.network().triangles().size());
+        const int number = static_cast<int>(random() % scene.cells.count()) + 1;
+        const coupling::CellType& type = scene.cells.types()[scene.cells.typeOf(number)];
+        const Index3& corners = type.triangles.at(random() % type.triangles.size());
+        coupling::Cell* const cell = scene.cells.find(number);
+        if (!cell) return;
+        membrane::Membrane& m = cell->membrane;
         const auto place = [&](int k) -> Vec3& { return m.position[static_cast<std::size_t>(corners[k])]; };
         Vec3 to;
         if (kind_ == "node") {
@@ -90,11 +102,11 @@ class Injection {
             const Vec3 along = (place(2) - place(1)).normalized(), arm = place(0) - place(1);
             to = place(0) - 2 * (arm - arm.dot(along) * along);
         }
-        if (cell.held) place(0) = to;
+        place(0) = to;
         ParticleStore& s = scene.store();
         if (!s.optional().node) return;
         for (std::size_t i = 0; i < s.size(); ++i)
-            if (s.node[i] == cell.firstNode + corners[0]) s.setPosition(i, to);
+            if (s.node[i] == cell->firstNode + corners[0]) s.setPosition(i, to);
     }
 
     std::string kind_;

@@ -22,7 +22,7 @@ Scene twoCells(const std::string& rupture) {
 
 // Pulls nodes of a cell outwards by an eighth of the radius.
 void pull(Scene& scene, std::size_t cell, const std::vector<int>& nodes) {
-    const auto& rest = scene.cells[cell].membrane.network().stressFree();
+    const auto& rest = networkOf(scene, cell).stressFree();
     const Vec3 centre = cell == 0 ? Vec3(-5 * um, 0, 0) : Vec3(5 * um, 0, 0);
     deform(scene, cell, [&](const Vec3& x) {
         const bool far =
@@ -59,7 +59,7 @@ TEST(Results, RimsOfHolesAreClosedLinesWithTheNumbersOfTheObserver) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "results" / "holes.pvd")) << "no hole yet";
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "results" / "holes"));
 
-    const int far = static_cast<int>(scene.cells[0].membrane.network().nodeCount()) - 1;
+    const int far = static_cast<int>(networkOf(scene, 0).nodeCount()) - 1;
     pull(scene, 0, {5});
     pull(scene, 1, {5, far});
     scene.coupling->endStep(*scene.system, 0);

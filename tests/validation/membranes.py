@@ -28,9 +28,9 @@ class Course:
         self.folder = folder
         self.shape = series(folder, "deformation", "*.csv")
         self.balance = series(folder, "balance", "conservation.csv")
+        (self.cell,) = (path.stem for path in (folder / "postProcessing" / "deformation").glob("*.csv"))
         for row, turned in zip(self.shape, axisTurned(self.shape)):
             row["angle_deg"] = turned
-        (self.cell,) = (name[: -len("_volumeChange")] for name in self.balance[0] if name.endswith("_volumeChange"))
         self.end = self.shape[-1]["strain"]
 
     def at(self, strain, key):
@@ -46,13 +46,13 @@ class Course:
 
     def kept(self, label):
         """Figures of what must be kept."""
-        volume = suite.worst(row[f"{self.cell}_volumeChange"] for row in self.balance)
+        volume = suite.worst(row["volumeChange"] for row in self.balance)
         return [Figure(f"{label}: volume, at most", 100 * volume, 1e-5),
                 Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, ""),
                 Figure(f"{label}: particles moved back", suite.worst(row["guardMoves"] for row in self.balance), 0, "")]
 
     def area(self, strain):
-        return at(self.balance, strain, f"{self.cell}_areaChange")
+        return at(self.balance, strain, "areaChange")
 
 
 def turn(table, degrees):

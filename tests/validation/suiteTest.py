@@ -121,7 +121,7 @@ def test_domain():
 
 
 def test_images():
-    """The sum over a sphere's images near a wall does not hang on where it is cut."""
+    """The sum over a sphere's images near a wall does not depend on where it is cut."""
     box = suite.module(HERE / "sphereNearWall" / "wallBox.py", "wallBox")
     for towards in (True, False):
         assert math.isclose(box.images(3, 12, towards, 10), box.images(3, 12, towards, 60), rel_tol=1e-3), towards

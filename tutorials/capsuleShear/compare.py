@@ -39,7 +39,7 @@ for strain in (0.5, 1, 2, 3, 4, 5):
     angle = math.degrees(at(shape, strain, "inclination_rad"))
     print(f"{strain:6.1f} {mine:14.4f} {theirs:11.4f} {100 * error:+8.2f} % {angle:13.1f} {at(reference, strain, 'inclination_deg'):11.1f}")
 side = max(row["changedSide"] for row in balance)
-print(f"largest change of volume {max(abs(row['capsule_volumeChange']) for row in balance):.1e}, particles on the wrong side {side:.0f}, "
+print(f"largest change of volume {max(abs(row['volumeChange']) for row in balance):.1e}, particles on the wrong side {side:.0f}, "
       f"mean density {balance[-1]['density_mean']:.6f}")
 performance = run["performance"]
 print(f"{performance['processorSeconds'] / shape[-1]['strain']:.1f} core-seconds per unit strain, {performance['iterationsPerStep']:.1f} iterations per step")

@@ -41,6 +41,13 @@ std::vector<TriangleMesh> readMeshes(const Case& input, const Surfaces& surfaces
 }  // namespace
 
 std::vector<TriangleMesh> readCellMeshes(const Case& input) { return readMeshes(input, input.mesh.cells); }
+std::vector<TriangleMesh> placedCells(const Case& input, const std::vector<TriangleMesh>& ofTypes) {
+    std::vector<TriangleMesh> cells;
+    for (std::size_t type = 0; type < ofTypes.size(); ++type)
+        for (const geometry::Place& place : input.mesh.cells[type].placed)
+            cells.push_back({place.of(ofTypes[type].nodes), ofTypes[type].triangles});
+    return cells;
+}
 std::vector<TriangleMesh> readBodyMeshes(const Case& input) { return readMeshes(input, input.mesh.bodies); }
 
 membrane::NetworkModuli moduliOf(const TriangleMesh& mesh, const membrane::MembraneSettings& laws) {

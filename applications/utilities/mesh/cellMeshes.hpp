@@ -16,8 +16,11 @@ void requireSerial(const Application& app);
 void place(geometry::TriangleMesh& mesh, const simulation::SurfaceSettings& surface);
 geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::SurfaceSettings& surface);
 
-// All cells of the case, in its order. Throws as simulation::readStart.
+// The mesh of each type of cell, as it stands in 0/. Throws as simulation::readStart.
 std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
+// All cells by their numbers, each where it is put, from the meshes of their types.
+std::vector<geometry::TriangleMesh> placedCells(const simulation::Case& input,
+                                                const std::vector<geometry::TriangleMesh>& ofTypes);
 std::vector<geometry::TriangleMesh> readBodyMeshes(const simulation::Case& input);
 
 membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);

@@ -31,7 +31,7 @@ def figures(done, n):
     turns = [0, *(course.turn(360 * k) for k in range(1, fromOn(TUMBLES, n) + 1))]
     found = [relative(f"tumble {k}: period", b - a, PERIOD, allowed) for k, (a, b) in enumerate(zip(turns, turns[1:]), 1)]
     beyond = worst(outside(row["D12_inertia"], *RANGE, percent=False) for row in course.shape)
-    area = worst(row[f"{course.cell}_areaChange"] for row in course.balance)
+    area = worst(row["areaChange"] for row in course.balance)
     return [*found, Figure(f"D12 by inertia throughout, outside {RANGE[0]} to {RANGE[1]}", beyond, within, ""),
             Figure("change of area, at most", 100 * area, 0.5, "%"), *course.kept("throughout")]
 

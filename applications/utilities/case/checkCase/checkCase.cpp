@@ -82,15 +82,15 @@ struct CellKind {
 };
 std::vector<CellKind> kindsOf(const simulation::Case& input) {
     std::vector<CellKind> kinds;
-    for (const simulation::CellSettings& cell : input.mesh.cells) {
+    for (const simulation::CellTypeSettings& cell : input.mesh.cells) {
         const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const CellKind& kind) {
             return kind.first->type() == cell.type() && kind.first->edge == cell.edge &&
                    kind.first->shape.name == cell.shape.name && kind.first->shape->area() == cell.shape->area();
         });
         if (same == kinds.end())
-            kinds.push_back({&cell, 1});
+            kinds.push_back({&cell, cell.placed.size()});
         else
-            ++same->count;
+            same->count += cell.placed.size();
     }
     return kinds;
 }
@@ -201,9 +201,9 @@ void reportCosts(Report& report, const simulation::Case& input) {
     for (const schemes::IntegratorCost& cost : costs) {
         ordered_json& entry = report.json["integrators"][cost.name];
         entry = {{"step_s", cost.step().seconds}, {"limit", cost.step().name}, {"steps", cost.steps},
-                 {"passes", cost.passes},         {"cost", cost.cost},         {"obstacle", cost.obstacle}};
+                 {"passes", cost.passes},         {"cost", cost.cost},         {"whyNot", cost.whyNot}};
         for (const sph::StepLimit& limit : cost.limits.all) entry["limits_s"][limit.name] = limit.seconds;
-        if (cost.obstacle.empty() || cost.name == input.numerics.integrator) possible.push_back(cost);
+        if (cost.whyNot.empty() || cost.name == input.numerics.integrator) possible.push_back(cost);
     }
     report.json["integrator"] = input.numerics.integrator;
     report.section("Step and cost");
@@ -233,20 +233,18 @@ void reportSize(Report& report, const simulation::Case& input) {
 // Moduli as the networks have them, a line for each kind of cell.
 void reportMembranes(Report& report, const coupling::Scene& scene) {
     std::vector<std::string> told;
-    for (const coupling::Cell& cell : scene.cells) {
-        const membrane::NetworkModuli m = membrane::measureModuli(cell.membrane.network(), cell.membrane.laws());
-        report.json["cells"][cell.membrane.name] = {{"nodes", cell.nodeCount()},
-                                                    {"shearModulus_N_m", m.shear},
-                                                    {"areaModulus_N_m", m.area},
-                                                    {"deviation", m.deviation},
-                                                    {"shearAnisotropy", m.shearAnisotropy}};
+    for (const coupling::CellType& type : scene.cells.types()) {
+        const membrane::NetworkModuli m = membrane::measureModuli(type.membrane->network(), type.settings);
+        report.json["cells"][type.name] = {{"count", type.places.size()}, {"nodes", type.nodes.size()},
+                                           {"shearModulus_N_m", m.shear}, {"areaModulus_N_m", m.area},
+                                           {"deviation", m.deviation},    {"shearAnisotropy", m.shearAnisotropy}};
         std::string text = fmt::format(
             "{} nodes; Gs {:.4g}, Ks {:.4g} of the closed form, varying by {:.2g} %, by direction down to {:.2f}",
-            cell.nodeCount(), m.shear / m.closedForm.shear, m.area / m.closedForm.area, 100 * m.deviation,
+            type.nodes.size(), m.shear / m.closedForm.shear, m.area / m.closedForm.area, 100 * m.deviation,
             m.shearAnisotropy);
         if (std::find(told.begin(), told.end(), text) != told.end()) continue;
         told.push_back(text);
-        report.line(fmt::format("network of {}: {}", cell.membrane.name, text));
+        report.line(fmt::format("network of {}: {}", type.name, text));
     }
 }
 

@@ -186,7 +186,7 @@ void checkSides(Application& app, const Case& input, const std::vector<TriangleM
     const std::vector<geometry::RaySide> solid = geometry::sidesByRays(ofBodies, meshes, box.low, box.high, period);
     std::vector<std::vector<std::string>> rows;
     for (std::size_t c = 0; c < meshes.size(); ++c) {
-        const std::string& name = input.mesh.cells[c].name;
+        const std::string name = input.nameOf(static_cast<int>(c) + 1);
         const double dx = input.spacing(), V = input.particleVolume(), area = meshes[c].area();
         const auto bodies = std::count_if(
             solid.begin(), solid.end(), [&](const geometry::RaySide& s) { return s.mesh == static_cast<int>(c) + 1; });
@@ -241,9 +241,10 @@ int main(int argc, char* argv[]) {
         ordered_json json = ordered_json::object();
         Faults faults;
         utilities::Members members;
-        const std::vector<TriangleMesh> meshes = utilities::readCellMeshes(input);
+        const std::vector<TriangleMesh> ofTypes = utilities::readCellMeshes(input);
+        const bool areCellsSound = checkCells(app, input, ofTypes, json, faults);
+        const std::vector<TriangleMesh> meshes = utilities::placedCells(input, ofTypes);
         for (const TriangleMesh& mesh : meshes) members.cells.push_back(mesh.nodes);
-        const bool areCellsSound = checkCells(app, input, meshes, json, faults);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
         // Of meshes that are no closed surfaces there are no questions of inside and outside.
         const bool areSound = checkBodies(app, input, bodies, json, faults) && areCellsSound;

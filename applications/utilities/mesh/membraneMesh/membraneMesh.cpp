@@ -1,4 +1,5 @@
-// membraneMesh: meshes every cell and every rigid body of system/mesh.yaml and writes them to 0/<name>.vtp.
+// membraneMesh: meshes every type of cell and every rigid body of system/mesh.yaml and writes them to 0/<name>.vtp. The
+// mesh of a type with `places` or `table` stands around the origin; that of one cell or body where it is.
 //
 // Nodes lie on the exact surface; the mesh of a cell is the stress-free state of its membrane, that of a body gives its
 // volume and inertia. Prints quality, and the moduli of the network
@@ -113,7 +114,8 @@ int main(int argc, char* argv[]) {
                     return utilities::describe(solid);
                 },
                 json));
-        for (const Problem& fault : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
+        const std::vector<TriangleMesh> placed = utilities::placedCells(input, cells);
+        for (const Problem& fault : simulation::misplaced(input, simulation::placedOf(input, placed, bodies)))
             app.log().warning("{}", fault.text());
         if (cells.empty() && bodies.empty())
             app.log().info("system/mesh.yaml has neither cells nor bodies: nothing to mesh");

@@ -232,13 +232,22 @@ void report(Application& app, const Case& input, const std::vector<TriangleMesh>
     for (const int side : f.side) ++inside[static_cast<std::size_t>(side)];
     std::vector<std::vector<std::string>> rows{{"fluid, outside", std::to_string(inside[0]), ""}};
     json["outside"] = inside[0];
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        const double volume = cells[c].volume(),
-                     nodes = input.numerics.isImmersed() ? 0 : cells[c].area() * input.spacing();
-        const double filled = (static_cast<double>(inside[c + 1]) * V + 0.5 * nodes) / volume;
-        rows.push_back({"fluid, in " + input.mesh.cells[c].name, std::to_string(inside[c + 1]),
-                        fmt::format("with half the nodes {:.2f} % of the cell's volume", 100 * filled)});
-        json["inside"][input.mesh.cells[c].name] = {{"particles", inside[c + 1]}, {"filled", filled}};
+    std::size_t c = 0;
+    for (const simulation::CellTypeSettings& type : input.mesh.cells) {
+        double volume = 0, nodes = 0;
+        long particles = 0;
+        for (const std::size_t end = c + type.placed.size(); c < end; ++c) {
+            volume += cells[c].volume();
+            nodes += input.numerics.isImmersed() ? 0 : cells[c].area() * input.spacing();
+            particles += inside[c + 1];
+        }
+        const std::size_t count = type.placed.size();
+        const double filled = (static_cast<double>(particles) * V + 0.5 * nodes) / volume;
+        rows.push_back({"fluid, in " + (count > 1 ? fmt::format("{} cells {}", count, type.name) : type.name),
+                        std::to_string(particles),
+                        fmt::format("with half the nodes {:.2f} % of the {} volume", 100 * filled,
+                                    count > 1 ? "cells'" : "cell's")});
+        json["inside"][type.name] = {{"particles", particles}, {"filled", filled}};
     }
     rows.push_back({"walls", std::to_string(f.walls.size()), fmt::format("{} layers each", input.wallLayers())});
     if (f.nodes > 0) {
@@ -301,7 +310,7 @@ int main(int argc, char* argv[]) {
         simulation::requireMemory(app.communicator(), input);
         simulation::requireStartWritable(app.communicator(), input);
         app.lockCase();
-        const std::vector<TriangleMesh> cells = utilities::readCellMeshes(input);
+        const std::vector<TriangleMesh> cells = utilities::placedCells(input, utilities::readCellMeshes(input));
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
         Problems problems;
         for (const Problem& p : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "../cellMeshes.hpp"
+#include "geometry/boundsIndex.hpp"
 #include "geometry/periodicSurface.hpp"
 #include "particles/sumOverPairs.hpp"
 #include "simulation/sceneBuilder.hpp"
@@ -21,10 +22,11 @@ constexpr double strength = 0.02, largestInSpacings = 0.1;
 std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach,
                               const Periodicity& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
-    for (const TriangleMesh& cell : cells) {
-        const geometry::TriangleTree grid(cell, reach);
-        const geometry::NearestImages images(grid, cell.nodes, period);
-        for (std::size_t i = 0; i < points.size(); ++i)
+    const auto near = geometry::pointsNear(points, cells, reach, period);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const geometry::TriangleTree grid(cells[c], reach);
+        const geometry::NearestImages images(grid, cells[c].nodes, period);
+        for (const std::size_t i : near[c])
             if (const auto nearest = images.nearest(points[i]))
                 distance[i] = std::min(distance[i], std::abs(nearest.at.distance));
     }

@@ -1,0 +1,260 @@
+#include "coupling/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/communicator.hpp"
+
+namespace corpuscle::coupling {
+
+using geometry::Bounds;
+using particles::Box;
+using particles::ParticleSystem;
+
+namespace {
+
+// Whether some periodic image of [low, high] meets the brick.
+bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles::Brick& brick) {
+    const Vec3 size = box.size();
+    for (int k = 0; k < 3; ++k) {
+        if (!box.periodic[static_cast<std::size_t>(k)]) {
+            // Beyond the walls the outermost bricks reach on.
+            const bool below = high[k] < brick.low[k] && brick.low[k] > box.low[k];
+            const bool above = low[k] > brick.high[k] && brick.high[k] < box.high[k];
+            if (below || above) return false;
+            continue;
+        }
+        if (high[k] - low[k] >= size[k]) continue;
+        bool meets = false;
+        const int nearest = static_cast<int>(
+            std::floor((0.5 * (brick.low[k] + brick.high[k]) - 0.5 * (low[k] + high[k])) / size[k] + 0.5));
+        for (int image = nearest - 1; image <= nearest + 1 && !meets; ++image)
+            meets = low[k] + image * size[k] <= brick.high[k] && high[k] + image * size[k] >= brick.low[k];
+        if (!meets) return false;
+    }
+    return true;
+}
+
+Bounds boundsOf(const std::vector<Vec3>& nodes) {
+    Bounds bounds;
+    for (const Vec3& x : nodes) bounds.extend(x);
+    return bounds;
+}
+
+}  // namespace
+
+Cells::Cells(std::vector<CellType> types, double margin) : types_(std::move(types)), margin_(margin) {
+    for (CellType& type : types_) {
+        type.firstCell = static_cast<int>(count_) + 1;
+        type.firstNode = static_cast<int>(nodes_);
+        type.membrane = std::make_shared<membrane::MembraneType>(type.stressFree.empty() ? type.nodes : type.stressFree,
+                                                                 type.triangles, type.settings, type.radius);
+        count_ += type.places.size();
+        nodes_ += type.places.size() * type.nodes.size();
+    }
+}
+
+std::size_t Cells::typeOf(int number) const {
+    const auto next = std::upper_bound(types_.begin(), types_.end(), number,
+                                       [](int n, const CellType& type) { return n < type.firstCell; });
+    return static_cast<std::size_t>(next - types_.begin()) - 1;
+}
+
+std::string Cells::nameOf(int number) const {
+    const CellType& type = types_[typeOf(number)];
+    return type.places.size() == 1 ? type.name : type.name + " " + std::to_string(number);
+}
+
+std::pair<int, int> Cells::cellOfNode(std::int64_t node) const {
+    const auto next = std::upper_bound(types_.begin(), types_.end(), node,
+                                       [](std::int64_t n, const CellType& type) { return n < type.firstNode; });
+    const CellType& type = *std::prev(next);
+    const auto below = static_cast<int>(node) - type.firstNode, nodes = static_cast<int>(type.nodes.size());
+    return {type.firstCell + below / nodes, below % nodes};
+}
+
+double Cells::meanBondLength() const {
+    double largest = 0;
+    for (const CellType& type : types_) largest = std::max(largest, type.membrane->network().meanBondLength());
+    return largest;
+}
+
+std::size_t Cells::indexOf(int number) const {
+    const auto at = std::lower_bound(held_.begin(), held_.end(), number,
+                                     [](const Cell& cell, int n) { return cell.membrane.cell < n; });
+    return at != held_.end() && at->membrane.cell == number ? static_cast<std::size_t>(at - held_.begin()) : notHeld;
+}
+
+Cell* Cells::find(int number) {
+    const std::size_t index = indexOf(number);
+    return index == notHeld ? nullptr : &held_[index];
+}
+const Cell* Cells::find(int number) const {
+    const std::size_t index = indexOf(number);
+    return index == notHeld ? nullptr : &held_[index];
+}
+
+double Cells::solidVolume(int number) const {
+    const auto at = solidVolume_.find(number);
+    return at == solidVolume_.end() ? 0 : at->second;
+}
+
+std::vector<Vec3> Cells::startingNodes(int number) const {
+    const CellType& type = types_[typeOf(number)];
+    return type.places[static_cast<std::size_t>(number - type.firstCell)].of(type.nodes);
+}
+
+// A larger or smaller cell has another stress-free shape, and so a type of membrane of its own.
+Cell Cells::make(int number) const {
+    const std::size_t index = typeOf(number);
+    const CellType& type = types_[index];
+    const double scale = type.places[static_cast<std::size_t>(number - type.firstCell)].scale;
+    const double radius = scale * type.radius;
+    std::shared_ptr<membrane::MembraneType> common = type.membrane;
+    if (scale != 1) {
+        std::vector<Vec3> rest = type.stressFree.empty() ? type.nodes : type.stressFree;
+        for (Vec3& x : rest) x *= scale;
+        common = std::make_shared<membrane::MembraneType>(std::move(rest), type.triangles, type.settings, radius);
+    }
+    Cell cell{.membrane = membrane::Membrane(nameOf(number), number, startingNodes(number), std::move(common)),
+              .type = index,
+              .radius = radius,
+              .firstNode = type.firstNode + (number - type.firstCell) * static_cast<int>(type.nodes.size()),
+              .nodeMass = type.nodeMass,
+              .solidVolume = solidVolume(number)};
+    for (double& mass : cell.nodeMass) mass *= scale * scale;
+    cell.initialArea = cell.membrane.area();
+    cell.initialVolume = cell.membrane.volume();
+    return cell;
+}
+
+void Cells::placeAtStart(const ParticleSystem& system) {
+    settledAt_ = system.builds();
+    held_.clear();
+    const int self = system.decomposition().rank();
+    for (const CellType& type : types_) {
+        double away = 0;  // of the farthest node from the centre
+        for (const Vec3& x : type.nodes) away = std::max(away, x.norm());
+        for (std::size_t k = 0; k < type.places.size(); ++k) {
+            const geometry::Place& place = type.places[k];
+            const Vec3 around = Vec3::Constant(place.scale * away + margin_);
+            if (!touches(system.box(), place.centre - around, place.centre + around, system.decomposition().own()))
+                continue;
+            const int number = type.firstCell + static_cast<int>(k);
+            const Bounds reach = boundsOf(place.of(type.nodes));
+            std::vector<int> holders = holdersOf(reach, system);
+            if (!std::binary_search(holders.begin(), holders.end(), self)) continue;
+            Cell cell = make(number);
+            cell.reach = reach, cell.holders = std::move(holders);
+            held_.push_back(std::move(cell));
+        }
+    }
+}
+
+void Cells::take(std::vector<Cell> cells, int rank) {
+    held_ = std::move(cells);
+    for (Cell& cell : held_) cell.holders = {rank};
+}
+
+std::vector<int> Cells::holdersOf(const Bounds& reach, const ParticleSystem& system) const {
+    const Vec3 margin = Vec3::Constant(margin_);
+    std::vector<int> holders;
+    for (int r = 0; r < system.decomposition().size(); ++r)
+        if (touches(system.box(), reach.min() - margin, reach.max() + margin, system.decomposition().brick(r)))
+            holders.push_back(r);
+    return holders;
+}
+
+void Cells::settle(const ParticleSystem& system) {
+    for (Cell& cell : held_) {
+        const Bounds now = boundsOf(cell.membrane.position);
+        if (now.min().allFinite() && now.max().allFinite()) cell.reach = now;  // else the run is about to be taken back
+    }
+    resettle(system);
+}
+
+void Cells::resettle(const ParticleSystem& system) {
+    settledAt_ = system.builds();
+    const int self = system.decomposition().rank(), size = system.decomposition().size();
+    if (!exist() || size == 1) return;
+    std::vector<std::vector<double>> messages(static_cast<std::size_t>(size));
+    for (Cell& cell : held_) {
+        std::vector<int> next = holdersOf(cell.reach, system);
+        if (cell.isOwnedBy(self))
+            for (const int r : next) {
+                if (std::binary_search(cell.holders.begin(), cell.holders.end(), r)) continue;
+                const std::vector<double> state = packed(cell);
+                auto& message = messages[static_cast<std::size_t>(r)];
+                message.insert(message.end(), state.begin(), state.end());
+            }
+        cell.holders = std::move(next);
+    }
+    std::erase_if(
+        held_, [&](const Cell& cell) { return !std::binary_search(cell.holders.begin(), cell.holders.end(), self); });
+    for (const std::vector<double>& message : Communicator(system.comm()).exchange(messages))
+        for (std::size_t at = 0; at < message.size();) {
+            held_.push_back(unpacked(message, at));
+            held_.back().holders = holdersOf(held_.back().reach, system);
+        }
+    std::sort(held_.begin(), held_.end(),
+              [](const Cell& a, const Cell& b) { return a.membrane.cell < b.membrane.cell; });
+}
+
+// Number, reach, places and velocities of the nodes, living bonds, damage.
+std::vector<double> Cells::packed(const Cell& cell) const {
+    const membrane::Membrane& m = cell.membrane;
+    std::vector<double> message{static_cast<double>(m.cell)};
+    const auto add = [&](const Vec3& v) { message.insert(message.end(), v.data(), v.data() + 3); };
+    add(cell.reach.min()), add(cell.reach.max());
+    for (const Vec3& x : m.position) add(x);
+    for (const Vec3& u : m.velocity) add(u);
+    const std::vector<char>& alive = m.network().aliveBonds();
+    message.insert(message.end(), alive.begin(), alive.end());
+    message.insert(message.end(), m.damage().begin(), m.damage().end());
+    return message;
+}
+
+Cell Cells::unpacked(const std::vector<double>& message, std::size_t& at) const {
+    const auto number = [&] { return message[at++]; };
+    const auto vector = [&] {
+        const Vec3 v(message.data() + at);
+        at += 3;
+        return v;
+    };
+    Cell cell = make(static_cast<int>(number()));
+    membrane::Membrane& m = cell.membrane;
+    const Vec3 low = vector(), high = vector();
+    cell.reach = {low, high};
+    for (Vec3& x : m.position) x = vector();
+    for (Vec3& u : m.velocity) u = vector();
+    std::vector<char> alive(m.network().allBonds().size());
+    for (char& bond : alive) bond = number() != 0;
+    std::vector<double> damage(m.damage().size());
+    for (double& d : damage) d = number();
+    m.restore(std::move(alive), std::move(damage));
+    return cell;
+}
+
+void Cells::add(Cell cell) {
+    CellType& type = types_.emplace_back();
+    type.name = cell.membrane.name;
+    type.nodes = cell.membrane.initialPosition();
+    type.triangles = cell.membrane.network().triangles();
+    type.stressFree = cell.membrane.network().stressFree();
+    type.settings = cell.membrane.laws();
+    type.radius = cell.radius;
+    type.nodeMass = cell.nodeMass;
+    type.places.emplace_back();
+    type.firstCell = static_cast<int>(++count_);
+    type.firstNode = static_cast<int>(nodes_);
+    nodes_ += type.nodes.size();
+    type.membrane =
+        std::make_shared<membrane::MembraneType>(type.stressFree, type.triangles, type.settings, type.radius);
+    cell.type = types_.size() - 1;
+    cell.holders.resize(static_cast<std::size_t>(Communicator().size()));
+    std::iota(cell.holders.begin(), cell.holders.end(), 0);
+    held_.push_back(std::move(cell));
+}
+
+}  // namespace corpuscle::coupling
