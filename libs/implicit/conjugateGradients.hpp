@@ -6,17 +6,19 @@
 // whatever z is, so that the preconditioner need not be quite the same from one application to the next, as one that
 // iterates is not.
 //
-// It stops by the energy of the error: g_k = alpha_k gamma_k is what step k takes off |x - x_k|_A^2 (Hestenes and
-// Stiefel 1952), so that the error is the sum of what later steps would take off. They are taken to fall as the last
-// few did, by q a step, the slowest of the means over one, two and three of them: g_k q/(1 - q). A sum over steps
-// already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before them, which is far above the present one
-// where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the finer the resolution.
+// The fluid's solver stops by the energy of the error (StopByEnergy): g_k = alpha_k gamma_k is what step k takes off
+// |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the error is the sum of what later steps would take off. They are
+// taken to fall as the last few did, by q a step, the slowest of the means over one, two and three of them: g_k q/(1 -
+// q). A sum over steps already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before them, which is far above
+// the present one where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the finer
+// the resolution.
 #pragma once
 #include <mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "particles/particleStore.hpp"
@@ -41,13 +43,43 @@ struct Convergence {
     bool reached = true;
 };
 
+// Where the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x).
+class StopByEnergy {
+  public:
+    static constexpr std::size_t window = 3, least = 2;  // steps
+    static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
+    // Whether to ask `before` in front of the product, at the price of a reduction of its own: where products are dear.
+    static constexpr bool looksFirst = false;
+
+    StopByEnergy(double reference, double tolerance) : reference_(reference), tolerance2_(tolerance * tolerance) {}
+
+    // gamma: r.M^-1 r, before a step; gain: what the step has taken off |error|_A^2.
+    bool before(double gamma, const Convergence& c) const { return gamma >= 0 && gamma <= negligible * allowed(c); }
+    bool after(double gain, Convergence& c) {
+        gains_.push_back(gain);
+        c.error = remaining();
+        return gains_.size() >= least && c.error <= allowed(c);
+    }
+
+  private:
+    double allowed(const Convergence& c) const { return tolerance2_ * std::max(reference_, c.energy); }
+    double remaining() const {
+        const std::size_t last = gains_.size() - 1;
+        double q = last == 0 ? 1 : 0;
+        for (std::size_t k = 1; k <= std::min(window, last); ++k)
+            q = std::max(q, std::pow(gains_[last] / gains_[last - k], 1 / static_cast<double>(k)));
+        return q < 1 ? gains_[last] * q / (1 - q) : std::numeric_limits<double>::infinity();
+    }
+
+    double reference_, tolerance2_;
+    std::vector<double> gains_;
+};
+
 template <class Real>
 class ConjugateGradients {
   public:
     using Field = particles::AlignedVector<Real>;
-    static constexpr std::size_t window = 3, least = 2;  // steps
     static constexpr int most = 2000;
-    static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
 
     // Of what else follows linearly from the velocity: `image` is that of the last z, left there by `apply`; what
     // belongs to x is added to `value`.
@@ -61,27 +93,39 @@ class ConjugateGradients {
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
                       Precondition&& precondition, Copies copies = {}, Carried* carried = nullptr) {
+        return solveUntil(comm, r, x, StopByEnergy(reference, tolerance), std::forward<Apply>(apply),
+                          std::forward<Precondition>(precondition), copies, carried);
+    }
+    // The same with another end, `stop` as StopByEnergy. rows: which of them this rank counts, as Copies says it.
+    template <class Stop, class Apply, class Precondition, class Rows>
+    Convergence solveUntil(MPI_Comm comm, Field& r, Field& x, Stop stop, Apply&& apply, Precondition&& precondition,
+                           const Rows& rows, Carried* carried = nullptr) {
         const std::size_t n = r.size();
         for (Field* f : {&z_, &w_}) f->resize(n);
         for (Field* f : {&p_, &s_, &x}) f->assign(n, Real(0));
         if (carried) carriedDirection_.assign(carried->value.size(), Real(0));
         Convergence c;
-        std::vector<double> gains;
         double sigma = 0;
         for (;; ++c.iterations) {
             precondition(r, z_);
-            apply(z_, w_);
             double sums[3] = {0, 0, 0};
-            copies.forCounted(n, [&](std::size_t k) {
+            if constexpr (Stop::looksFirst) {
+                rows.forCounted(
+                    n, [&](std::size_t k) { sums[0] += static_cast<double>(r[k]) * static_cast<double>(z_[k]); });
+                MPI_Allreduce(MPI_IN_PLACE, sums, 1, MPI_DOUBLE, MPI_SUM, comm);
+                if (stop.before(sums[0], c)) break;
+            }
+            apply(z_, w_);
+            rows.forCounted(n, [&](std::size_t k) {
                 const auto z = static_cast<double>(z_[k]);
-                sums[0] += static_cast<double>(r[k]) * z;
+                if constexpr (!Stop::looksFirst) sums[0] += static_cast<double>(r[k]) * z;
                 sums[1] += static_cast<double>(w_[k]) * z;
                 sums[2] += static_cast<double>(s_[k]) * z;
             });
-            MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm);
+            constexpr int known = Stop::looksFirst ? 1 : 0;
+            MPI_Allreduce(MPI_IN_PLACE, sums + known, 3 - known, MPI_DOUBLE, MPI_SUM, comm);
             const auto [gamma, delta, overlap] = sums;
-            const double allowed = tolerance * tolerance * std::max(reference, c.energy);
-            if (gamma >= 0 && gamma <= negligible * allowed) break;
+            if (!Stop::looksFirst && stop.before(gamma, c)) break;
             const double beta = c.iterations > 0 ? -overlap / sigma : 0;
             sigma = delta + beta * overlap;
             const double alpha = gamma / sigma;
@@ -101,10 +145,8 @@ class ConjugateGradients {
                     carriedDirection_[k] = carried->image[k] + b * carriedDirection_[k];
                     carried->value[k] += a * carriedDirection_[k];
                 }
-            gains.push_back(alpha * gamma);
-            c.energy += gains.back();
-            c.error = remaining(gains);
-            if (gains.size() >= least && c.error <= tolerance * tolerance * std::max(reference, c.energy)) {
+            c.energy += alpha * gamma;
+            if (stop.after(alpha * gamma, c)) {
                 ++c.iterations;
                 break;
             }
@@ -113,14 +155,6 @@ class ConjugateGradients {
     }
 
   private:
-    static double remaining(const std::vector<double>& gains) {
-        const std::size_t last = gains.size() - 1;
-        double q = last == 0 ? 1 : 0;
-        for (std::size_t k = 1; k <= std::min(window, last); ++k)
-            q = std::max(q, std::pow(gains[last] / gains[last - k], 1 / static_cast<double>(k)));
-        return q < 1 ? gains[last] * q / (1 - q) : std::numeric_limits<double>::infinity();
-    }
-
     Field z_, w_, p_, s_, carriedDirection_;
 };
 
