@@ -44,6 +44,8 @@ def series(case, observer, file):
     if len(found) > 1:
         raise SystemExit(f"{case}: several tables {file} under postProcessing/{observer}: {', '.join(map(os.path.basename, sorted(found)))}")
     table = rows(found[0]) if found else []
+    if len({row.get("cell") for row in table}) > 1:
+        raise SystemExit(f"{found[0]} has rows of several cells, and this summary is of one")
     if not table:
         raise SystemExit(f"{case}: no {file} under postProcessing/{observer}: run the case, with this observer in system/observers.yaml")
     return table

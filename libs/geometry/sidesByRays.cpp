@@ -4,7 +4,9 @@
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -31,6 +33,12 @@ Surface surfaceOf(const TriangleMesh& mesh, const Vec3& shift) {
 std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& meshes,
                                  const Vec3& low, const Vec3& high, const Periodicity& period) {
     std::vector<RaySide> sides(points.size());
+    std::vector<std::size_t> order(points.size());  // by x, to find those between two planes
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return points[i].x() < points[j].x(); });
+    const auto firstFrom = [&](double x) {
+        return std::partition_point(order.begin(), order.end(), [&](std::size_t i) { return points[i].x() < x; });
+    };
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         Vec3 from = meshes[m].nodes.front(), to = from;
         for (const Vec3& x : meshes[m].nodes) from = from.cwiseMin(x), to = to.cwiseMax(x);
@@ -48,7 +56,9 @@ std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vec
                     const Surface surface = surfaceOf(meshes[m], periods.cwiseProduct(period.lengths()));
                     const CGAL::Side_of_triangle_mesh<Surface, Kernel> side(surface);
                     const Vec3 by = periods.cwiseProduct(period.lengths());
-                    for (std::size_t i = 0; i < points.size(); ++i) {
+                    const auto end = firstFrom(to.x() + by.x() + slack);
+                    for (auto next = firstFrom(from.x() + by.x() - slack); next != end; ++next) {
+                        const std::size_t i = *next;
                         const Vec3 x = points[i] - by;  // to the surface as it stands; rounding stays below the slack
                         if (((x - from).array() < -slack).any() || ((x - to).array() > slack).any()) continue;
                         const CGAL::Bounded_side found = side({points[i].x(), points[i].y(), points[i].z()});

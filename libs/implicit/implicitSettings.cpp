@@ -5,10 +5,11 @@ namespace corpuscle::implicit {
 const Schema<ImplicitSettings>& ImplicitSettings::schema() {
     static const Schema<ImplicitSettings> s =
         Schema<ImplicitSettings>("implicit", "the implicit step; its size is set by accuracy")
-            .quantity("step", &ImplicitSettings::step, unit::none,
-                      "largest strain of one step, rate x dt; absent, also 1/40 of the time in which the flow changes "
-                      "by itself",
-                      {.fallback = "0.05", .range = between(1e-6, 0.5)})
+            .quantity(
+                "step", &ImplicitSettings::step, unit::none,
+                "largest strain of one step, rate x dt; where it is absent, a step is also at most 1/40 of the time "
+                "scale on which the flow itself changes",
+                {.fallback = "0.05", .range = between(1e-6, 0.5)})
             .quantity("tolerance", &ImplicitSettings::tolerance, unit::none,
                       "largest error of the solver, relative to the disturbance of the flow, in the norm of energy",
                       {.fallback = "1e-3", .range = between(1e-10, 0.1)})

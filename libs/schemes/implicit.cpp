@@ -9,7 +9,7 @@ namespace corpuscle::schemes {
 
 namespace {
 
-// The step that follows what a flow does by itself [s]; 0: no limit.
+// The step that resolves the time scale on which the flow itself changes [s]; 0: no limit.
 double longestStep(const sph::FlowState& flow) {
     constexpr double stepsPerTransient = 40;
     return flow.transient / stepsPerTransient;

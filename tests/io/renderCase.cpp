@@ -271,6 +271,43 @@ TEST_F(RenderCase, CellsAreDrawnInTheBoxAndLabelledByTime) {
     EXPECT_NE(none.text.find("give -time between 0 s and 4 ms"), std::string::npos) << none.text;
 }
 
+// Two cells of one type share a stream. They have left the box by different numbers of box lengths, so that their
+// common mean says nothing of where either belongs.
+TEST_F(RenderCase, EachCellOfAStreamIsMovedIntoTheBoxByItself) {
+    TemporaryFolder crowd;
+    std::filesystem::create_directories(crowd.path() / "results" / "rbc");
+    writeBox(crowd.path(), "[24 um, 12 um, 16 um]", "[true, true, false]");
+    PolyData both;
+    const double xs[] = {-6e-6 + 10 * 24e-6, 6e-6 - 3 * 24e-6};
+    for (std::int64_t cell = 0; cell < 2; ++cell) {
+        const PolyData one = sphere(Vec3(xs[cell], 0, 0), 0, false);
+        const int first = static_cast<int>(both.points.size());
+        both.points.insert(both.points.end(), one.points.begin(), one.points.end());
+        for (const auto& t : one.triangles) both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        both.point.integers["cell"].resize(both.points.size(), cell);
+    }
+    writeVtp(crowd.path() / "results" / "rbc" / "rbc_0.vtp", both);
+    writeIndex(crowd.path(), "rbc", {0});
+    const auto report = drawIn(crowd.path(), "-view xz -count 1 -size 900");
+    Pixels pixels(crowd.path() / "postProcessing" / "renderCase.png");
+    const auto& panel = report["panels"][0];
+    const double scale = report["metresPerPixel"], projected = M_PI * radius * radius / (scale * scale);
+    EXPECT_NEAR(pixels.count(panel, isReddish) / projected, 2, 0.04);
+    // The left and the right one, 12 um apart.
+    const double mean = pixels.meanColumn(panel, isReddish);
+    nlohmann::json half = panel;
+    half["width"] = static_cast<int>(mean);
+    const int left = pixels.count(half, isReddish);
+    const double leftMean = pixels.meanColumn(half, isReddish);
+    half["x"] = panel["x"].get<int>() + static_cast<int>(mean);
+    half["width"] = panel["width"].get<int>() - static_cast<int>(mean);
+    const int right = pixels.count(half, isReddish);
+    const double rightMean = pixels.meanColumn(half, isReddish) + static_cast<int>(mean);
+    EXPECT_NEAR(left / projected, 1, 0.02);
+    EXPECT_NEAR(right / projected, 1, 0.02);
+    EXPECT_NEAR((rightMean - leftMean) * scale, 12e-6, 0.1e-6);
+}
+
 TEST_F(RenderCase, WordsBarsAndPanelsLieBesideEachOther) {
     TemporaryFolder boxed;
     writeCase(boxed.path());

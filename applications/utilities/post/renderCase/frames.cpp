@@ -100,13 +100,23 @@ void removeBroken(io::PolyData& surface) {
     for (auto& item : surface.cell.integers) keepWhole(item.second);
 }
 
+// Each cell of the stream; a surface without the array `cell` is one.
 void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
-    if (surface.points.empty()) return;
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& x : surface.points) mean += x;
-    mean /= static_cast<double>(surface.points.size());
-    const Vec3 shift = box.periodicity().wrap(mean) - mean;
-    for (Vec3& x : surface.points) x += shift;
+    const auto numbers = surface.point.integers.find("cell");
+    const auto cellOf = [&](std::size_t p) {
+        return numbers == surface.point.integers.end() ? std::int64_t{0} : numbers->second[p];
+    };
+    std::map<std::int64_t, std::pair<Vec3, double>> means;  // sum and number of its points
+    for (std::size_t p = 0; p < surface.points.size(); ++p) {
+        auto& [sum, count] = means.try_emplace(cellOf(p), Vec3(Vec3::Zero()), 0.0).first->second;
+        sum += surface.points[p], ++count;
+    }
+    std::map<std::int64_t, Vec3> shifts;
+    for (const auto& [cell, points] : means) {
+        const Vec3 mean = points.first / points.second;
+        shifts[cell] = box.periodicity().wrap(mean) - mean;
+    }
+    for (std::size_t p = 0; p < surface.points.size(); ++p) surface.points[p] += shifts.at(cellOf(p));
 }
 
 int entryOf(Stream& stream, Wanted wanted) {

@@ -1,5 +1,5 @@
 // What a picture shows: the surfaces of a case at some times. Cells in a periodic box are unwrapped in the results;
-// here each surface is moved as a whole, by box lengths, until the mean of its points lies in the box.
+// here each cell is moved as a whole, by box lengths, until the mean of its points lies in the box.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -17,7 +17,7 @@ struct Frame {
     double time = 0;                               // s
     std::optional<double> strain;                  // gammadot t; empty where the flow has no shear rate
     std::optional<double> stage;                   // of a protocol
-    std::map<std::string, io::PolyData> surfaces;  // by name of the cell or rigid body
+    std::map<std::string, io::PolyData> surfaces;  // by name of the type of cells or of the rigid body
     std::optional<Slice> slice;                    // of the fluid, where it is shown
 };
 
