@@ -29,7 +29,7 @@ class Preconditioner {
     virtual long takeInnerIterations() { return 0; }  // on the nodes, since it was asked last
 };
 
-// Whether it has a part on the background grid. Throws std::invalid_argument where there is none of this name.
+// Whether the preconditioner of this name has a part on the background grid.
 bool isOnGrid(const std::string& name);
 
 // The system must stay where it is.

@@ -37,7 +37,7 @@ class AdjointVerletStepper final : public ExplicitStepper {
 
 class AdjointVerlet final : public Scheme {
   public:
-    Traits traits() const override { return {.isAdjoint = true, .state = "adjoint"}; }
+    Traits traits() const override { return {.isAdjoint = true, .nodeMemory = 4000, .state = "adjoint"}; }
 
     void check(const CaseFacts& facts, const NumericsSettings& numerics, Problems& problems) const override {
         const bool corrected = numerics.isCorrected();

@@ -102,6 +102,7 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
                 .stepsPerBalance = 1,
                 .stepsPerKeptState = 5,
                 .stepsPerLook = 1,
+                .nodeMemory = 6000,  // 4800 to 6900: springs to Helfrich's bending, whose stiffness reaches further
                 .stepKey = "implicit.step",
                 .state = "implicit"};
     }

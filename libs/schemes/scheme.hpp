@@ -35,6 +35,7 @@ struct Traits {
     long stepsPerBalance = 10;       // between two balances of density, unless the case says
     long stepsPerKeptState = 50;     // between two states in memory that a run can go back to
     long stepsPerLook = 10;          // between two looks at the state for faults
+    double nodeMemory = 1000;        // of a node of a cell, on each rank that holds the cell [bytes], to predict memory
     std::string stepKey = "safety";  // of system/numerics.yaml: takes shorter steps
     std::string state = "explicit";  // what a checkpoint keeps; schemes with the same can follow each other
 };

@@ -19,7 +19,7 @@ struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
     static constexpr double plain = 600, plainLoaded = 730;
     static constexpr double corrected = 1150, correctedLoaded = 1500;
-    static constexpr double network = 1500, node = 1000;  // of a mesh, with its bonds and triangles; of a cell
+    static constexpr double network = 1500;  // of a node of a mesh, with its bonds and triangles, on each rank
 };
 
 // Cut from the box across its longest side again and again.
@@ -66,11 +66,12 @@ double memoryOf(const Case& c, int ranks) {
                                   : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain);
     const double across = reach / c.spacing() + 1, around = 4.2 * across * across * across;
     const double list = 0.65 * 1.5 * sizeof(int) * around / particles::blockLanes(c.precision());
+    const double nodeMemory = c.scheme().traits().nodeMemory;
     double nodes = 0;
     for (const CellTypeSettings& cell : c.mesh.cells) {
         const auto each = static_cast<double>(estimateNodes(cell)), count = static_cast<double>(cell.placed.size());
         nodes += each * (MemoryCosts::network * ranks +
-                         MemoryCosts::node * count * holdersOf(c, ranks, cell.largestScale() * cell.shape->radius()));
+                         nodeMemory * count * holdersOf(c, ranks, cell.largestScale() * cell.shape->radius()));
     }
     return ranks * (MemoryCosts::program + (ranks > 1 ? MemoryCosts::parallel : 0)) +
            n * (list + each * (1 + ghostShare(c, ranks, reach))) + nodes;

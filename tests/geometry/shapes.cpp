@@ -4,11 +4,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/registry.hpp"
 #include "geometry/evansFung.hpp"
 #include "geometry/fileShape.hpp"
 #include "geometry/kuchelFackerell.hpp"
 #include "geometry/spheroid.hpp"
+#include "support/registered.hpp"
 
 using namespace corpuscle;
 using namespace corpuscle::geometry;
@@ -135,8 +135,8 @@ TEST(Shape, chosenByNameInACase) {
     const auto choice = readChoice<Shape>(node, problems);
     ASSERT_TRUE(problems.empty());
     EXPECT_EQ(choice->radius(), 4e-6);
-    EXPECT_EQ(Registry<Shape>::instance().names(),
-              (std::vector<std::string>{"evansFung", "file", "kuchelFackerell", "sphere", "spheroid"}));
+    EXPECT_EQ(corpuscle::support::missing<Shape>({"evansFung", "file", "kuchelFackerell", "sphere", "spheroid"}),
+              std::vector<std::string>());
 }
 
 TEST(FileShape, readsStlMergedAndCentred) {

@@ -5,6 +5,7 @@
 
 #include "geometry/spheroid.hpp"
 #include "observers/sampleScene.hpp"
+#include "support/registered.hpp"
 
 namespace corpuscle::observers::testing {
 namespace {
@@ -129,8 +130,9 @@ TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
 }
 
 TEST(Observers, EveryModelIsThere) {
-    EXPECT_EQ(Registry<Observer>::instance().names(),
-              (std::vector<std::string>{"body", "conservation", "profile", "rupture", "shape", "wallStress"}));
+    EXPECT_EQ(
+        corpuscle::support::missing<Observer>({"body", "conservation", "profile", "rupture", "shape", "wallStress"}),
+        std::vector<std::string>());
 }
 
 }  // namespace

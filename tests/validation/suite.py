@@ -53,6 +53,7 @@ class Figure:
     value: float | None = None
     reference: float | None = None
     order: bool = False  # an error that should fall with the resolution: its observed order is shown
+    earlier: bool = False  # against an earlier run of the same case: says nothing in another box
 
     def holds(self):
         return abs(self.error) <= self.allowed  # false of nan
@@ -212,7 +213,7 @@ def validate(name, n, binaries, ranks, work, domain=None):
     machines, days, programs = zip(*map(origin, records))
     return {"resolution": n, "particles": max(record["parameters"]["particles"] for record in records), "coreSeconds": round(seconds, 1),
             "ranks": max(record["ranks"] for record in records), "machine": "; ".join(dict.fromkeys(machines)), "date": max(days),
-            "programs": ", ".join(dict.fromkeys(programs)), "figures": [asdict(figure) for figure in case.figures(done, n)]}, done
+            "programs": ", ".join(dict.fromkeys(programs)), "figures": [asdict(figure) for figure in case.figures(done, n) if domain is None or not figure.earlier]}, done
 
 
 def origin(record):
