@@ -218,7 +218,7 @@ std::vector<double> Cells::packed(const Cell& cell) const {
 Cell Cells::unpacked(const std::vector<double>& message, std::size_t& at) const {
     const auto number = [&] { return message[at++]; };
     const auto vector = [&] {
-        const Vec3 v(message.data() + at);
+        Vec3 v(message.data() + at);
         at += 3;
         return v;
     };

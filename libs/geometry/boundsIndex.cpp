@@ -78,6 +78,7 @@ std::vector<std::vector<std::size_t>> pointsNear(const std::vector<Vec3>& points
     for (int k = 0; k < 3; ++k)  // of periodic images one whole period is needed
         if (period.isAlong(k)) box.max()[k] = box.min()[k] + period.lengths()[k];
     std::vector<Bounds> bounds;
+    bounds.reserve(meshes.size());
     for (const TriangleMesh& mesh : meshes) bounds.push_back(SurfaceView{&mesh.nodes, &mesh.triangles}.bounds());
     const BoundsIndex index(bounds, box.min(), box.max(), period, margin);
     for (std::size_t i = 0; i < points.size(); ++i)
