@@ -47,8 +47,9 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nod
     }
 }
 
-Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::vector<Index3> triangles,
-                   const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree)
+Membrane::Membrane(std::string nameOfCell, int cellNumber, const std::vector<Vec3>& nodes,
+                   std::vector<Index3> triangles, const MembraneSettings& settings, double radius,
+                   std::vector<Vec3> stressFree)
     : Membrane(std::move(nameOfCell), cellNumber, nodes,
                std::make_shared<MembraneType>(stressFree.empty() ? nodes : std::move(stressFree), std::move(triangles),
                                               settings, radius)) {}

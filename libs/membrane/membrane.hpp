@@ -44,7 +44,7 @@ class Membrane {
     // Nodes start at rest.
     Membrane(std::string name, int cell, std::vector<Vec3> nodes, std::shared_ptr<MembraneType> type);
     // Of a type of its own. `stressFree`: places of the nodes in the shape without tension, the same ones when empty.
-    Membrane(std::string name, int cell, std::vector<Vec3> nodes, std::vector<Index3> triangles,
+    Membrane(std::string name, int cell, const std::vector<Vec3>& nodes, std::vector<Index3> triangles,
              const MembraneSettings& settings, double radius, std::vector<Vec3> stressFree = {});
 
     std::string name;
