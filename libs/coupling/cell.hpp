@@ -30,6 +30,12 @@ struct CellType {
     // By Cells: the number of its first cell, 1 and up, and of that cell's first node; what all of its cells share.
     int firstCell = 1, firstNode = 0;
     std::shared_ptr<membrane::MembraneType> membrane{};
+
+    double extent() const {  // of the nodes around the centre of a place of scale 1: the farthest of them [m]
+        double farthest = 0;
+        for (const Vec3& x : nodes) farthest = std::max(farthest, x.norm());
+        return farthest;
+    }
 };
 
 struct Cell {
@@ -58,10 +64,11 @@ inline int lowestCommonHolder(const std::vector<int>& one, const std::vector<int
     return -1;
 }
 
-inline Vec3 middleOf(const Cell& cell) {  // of its bounds
-    Vec3 low = cell.membrane.position.front(), high = low;
-    for (const Vec3& p : cell.membrane.position) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    return 0.5 * (low + high);
+inline Vec3 middleOf(const Cell& cell) { return geometry::boundsOf(cell.membrane.position).center(); }
+
+// What one cell is called: as its type, with its own number where the type has several.
+inline std::string nameOfCell(const std::string& type, std::size_t count, int number) {
+    return count == 1 ? type : type + " " + std::to_string(number);
 }
 
 }  // namespace corpuscle::coupling

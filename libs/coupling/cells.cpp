@@ -9,6 +9,7 @@
 namespace corpuscle::coupling {
 
 using geometry::Bounds;
+using geometry::boundsOf;
 using particles::Box;
 using particles::ParticleSystem;
 
@@ -36,12 +37,6 @@ bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles:
     return true;
 }
 
-Bounds boundsOf(const std::vector<Vec3>& nodes) {
-    Bounds bounds;
-    for (const Vec3& x : nodes) bounds.extend(x);
-    return bounds;
-}
-
 }  // namespace
 
 Cells::Cells(std::vector<CellType> types, double margin) : types_(std::move(types)), margin_(margin) {
@@ -63,7 +58,7 @@ std::size_t Cells::typeOf(int number) const {
 
 std::string Cells::nameOf(int number) const {
     const CellType& type = types_[typeOf(number)];
-    return type.places.size() == 1 ? type.name : type.name + " " + std::to_string(number);
+    return nameOfCell(type.name, type.places.size(), number);
 }
 
 std::pair<int, int> Cells::cellOfNode(std::int64_t node) const {
@@ -134,11 +129,10 @@ void Cells::placeAtStart(const ParticleSystem& system) {
     held_.clear();
     const int self = system.decomposition().rank();
     for (const CellType& type : types_) {
-        double away = 0;  // of the farthest node from the centre
-        for (const Vec3& x : type.nodes) away = std::max(away, x.norm());
+        const double extent = type.extent();
         for (std::size_t k = 0; k < type.places.size(); ++k) {
             const geometry::Place& place = type.places[k];
-            const Vec3 around = Vec3::Constant(place.scale * away + margin_);
+            const Vec3 around = Vec3::Constant(place.scale * extent + margin_);
             if (!touches(system.box(), place.centre - around, place.centre + around, system.decomposition().own()))
                 continue;
             const int number = type.firstCell + static_cast<int>(k);
@@ -169,7 +163,7 @@ std::vector<int> Cells::holdersOf(const Bounds& reach, const ParticleSystem& sys
 void Cells::settle(const ParticleSystem& system) {
     for (Cell& cell : held_) {
         const Bounds now = boundsOf(cell.membrane.position);
-        if (now.min().allFinite() && now.max().allFinite()) cell.reach = now;  // else the run is about to be taken back
+        if (!now.isEmpty()) cell.reach = now;  // else the run is about to be taken back
     }
     resettle(system);
 }

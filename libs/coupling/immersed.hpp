@@ -49,7 +49,7 @@ class Immersed {
     // Weights of ghosts too, where `place` has just been. Collective.
     void placeOthers(particles::ParticleSystem& system, const particles::SharedParticles& shared,
                      const std::vector<double>& volume) {
-        map_.placeOthers(cells_, system, shared, volume);
+        map_.placeOthers(cells_, layout_, system, shared, volume);
     }
 
     // P S u, u of four numbers a particle. Collective.

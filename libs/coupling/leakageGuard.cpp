@@ -27,7 +27,7 @@ void LeakageGuard::findCandidates(const ParticleSystem& system, const Cells& cel
         const membrane::Membrane& m = cells[c].membrane;
         if (m.network().isOpen()) continue;
         surfaces[c].emplace(surfaces_.of(cells[c]), m.position, system.periodicity());
-        bounds[c] = geometry::SurfaceView{&m.position, &m.network().triangles()}.bounds();
+        bounds[c] = geometry::boundsOf(m.position);
     }
     const particles::Box& box = system.box();
     const geometry::BoundsIndex index(bounds, box.low, box.high, system.periodicity(), reachInSpacings * spacing_);

@@ -154,8 +154,8 @@ void NodeFluidMap::Weights::findTouched(const NodeLayout& layout, std::size_t pa
         }
 }
 
-void NodeFluidMap::placeOthers(const Cells& cells, ParticleSystem& system, const particles::SharedParticles& shared,
-                               const std::vector<double>& volume) {
+void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, ParticleSystem& system,
+                               const particles::SharedParticles& shared, const std::vector<double>& volume) {
     const std::size_t own = shared.owned();
     particles::RealArray records(4 * (own + static_cast<std::size_t>(system.ghosts())));
     for (std::size_t i = 0; i < own; ++i) {
@@ -183,7 +183,7 @@ void NodeFluidMap::placeOthers(const Cells& cells, ParticleSystem& system, const
             });
             others_.first.push_back(others_.entries.size());
         }
-    others_.findTouched(NodeLayout(cells), shared.entries());
+    others_.findTouched(layout, shared.entries());
 }
 
 template <class Real>

@@ -31,8 +31,8 @@ class NodeFluidMap {
     void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
                const std::vector<double>& volume);
     // Weights of ghosts too, where `place` has just been. Collective.
-    void placeOthers(const Cells& cells, particles::ParticleSystem& system, const particles::SharedParticles& shared,
-                     const std::vector<double>& volume);
+    void placeOthers(const Cells& cells, const NodeLayout& layout, particles::ParticleSystem& system,
+                     const particles::SharedParticles& shared, const std::vector<double>& volume);
 
     // S u, u of four numbers a particle. Collective among holders.
     template <class Real>

@@ -27,13 +27,18 @@ class NodeLayout {
         return {all.data() + first(cell), last(cell) - first(cell)};
     }
 
-    // value(node) added up over the nodes of the cells that `rank` owns: its part of a sum over all nodes of the scene.
+    // f(node) for the nodes of the cells that `rank` owns: over all ranks each node of the scene once.
+    template <class F>
+    void forOwned(const Cells& cells, int rank, F&& f) const {
+        for (std::size_t c = 0; c < this->cells(); ++c)
+            if (cells[c].isOwnedBy(rank))
+                for (std::size_t m = first(c); m < last(c); ++m) f(m);
+    }
+    // value(node) added up over these: the rank's part of a sum over all nodes of the scene.
     template <class F>
     double sumOverOwned(const Cells& cells, int rank, F&& value) const {
         double sum = 0;
-        for (std::size_t c = 0; c < this->cells(); ++c)
-            if (cells[c].isOwnedBy(rank))
-                for (std::size_t m = first(c); m < last(c); ++m) sum += value(m);
+        forOwned(cells, rank, [&](std::size_t m) { sum += value(m); });
         return sum;
     }
 

@@ -79,7 +79,7 @@ std::vector<std::vector<std::size_t>> pointsNear(const std::vector<Vec3>& points
         if (period.isAlong(k)) box.max()[k] = box.min()[k] + period.lengths()[k];
     std::vector<Bounds> bounds;
     bounds.reserve(meshes.size());
-    for (const TriangleMesh& mesh : meshes) bounds.push_back(SurfaceView{&mesh.nodes, &mesh.triangles}.bounds());
+    for (const TriangleMesh& mesh : meshes) bounds.push_back(boundsOf(mesh.nodes));
     const BoundsIndex index(bounds, box.min(), box.max(), period, margin);
     for (std::size_t i = 0; i < points.size(); ++i)
         for (const int m : index.near(points[i])) near[static_cast<std::size_t>(m)].push_back(i);

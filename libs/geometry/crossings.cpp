@@ -39,9 +39,9 @@ std::vector<Facet> facetsWithin(const SurfaceView& surface, const Vec3& shift, c
 
 }  // namespace
 
-Bounds SurfaceView::bounds() const {
+Bounds boundsOf(const std::vector<Vec3>& points) {
     Bounds all;
-    for (const Vec3& x : *nodes) {
+    for (const Vec3& x : points) {
         if (!x.allFinite()) return {};
         all.extend(x);
     }

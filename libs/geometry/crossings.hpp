@@ -14,13 +14,14 @@
 namespace corpuscle::geometry {
 
 using Bounds = Eigen::AlignedBox3d;
+Bounds boundsOf(const std::vector<Vec3>& points);  // empty where one is not finite
 
 // A surface that stands elsewhere.
 struct SurfaceView {
     const std::vector<Vec3>* nodes;
     const std::vector<Index3>* triangles;
 
-    Bounds bounds() const;  // empty where a node is not finite
+    Bounds bounds() const { return boundsOf(*nodes); }
 };
 
 // The second surface, moved by `shift`, beside the first. A surface and its own image: first == second, shift not zero.

@@ -38,8 +38,8 @@ class CoarseGrid {
     // inertia c1 rho, viscosity, lambda. Factorises when they have changed.
     void setCoefficients(double inertia, double viscosity, double lambda);
 
-    // Which nodes each particle has, for `add`: those of this rank, then ghosts, which get of the
-    // grid and give nothing.
+    // Which nodes each particle has, for `add`: those of this rank, then ghosts, which take from the grid and give
+    // nothing.
     void begin(std::size_t particles, std::size_t copies = 0) {
         own_ = particles;
         places_.assign(particles + copies, Place{});

@@ -29,10 +29,9 @@ struct OwnedRows {
     int rank;
     template <class F>
     void forCounted(std::size_t, F&& f) const {
-        const coupling::NodeLayout& layout = immersed.layout();
-        for (std::size_t c = 0; c < layout.cells(); ++c)
-            if (immersed.cells()[c].isOwnedBy(rank))
-                for (std::size_t k = 3 * layout.first(c); k < 3 * layout.last(c); ++k) f(k);
+        immersed.layout().forOwned(immersed.cells(), rank, [&](std::size_t m) {
+            for (std::size_t k = 3 * m; k < 3 * m + 3; ++k) f(k);
+        });
     }
 };
 

@@ -7,8 +7,8 @@
 // Rows of walls are prescribed: the preconditioner gives nothing there, and the residual has the whole force on them,
 // linear in the velocity as all else. Rows of rigid bodies stand behind the particles (rigidUnknowns.hpp).
 //
-// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of ghosts
-// hold what their ranks have, to rounding.
+// Fields have four numbers an entry, three of them a vector (particles/vectorField.hpp). Entries of ghosts hold what
+// their ranks have, to rounding.
 #pragma once
 #include <memory>
 #include <vector>

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <vector>
 
 namespace corpuscle::io {
 
@@ -27,6 +29,14 @@ std::uint64_t checksum(std::span<const T> values, std::uint64_t first) {
         sum += mix(std::bit_cast<std::uint64_t>(values[i]) + (first + i + 1) * 0x9e3779b97f4a7c15ull);
     }
     return sum;
+}
+
+// Of a text, letter by letter.
+inline std::uint64_t checksum(std::string_view text) {
+    std::vector<std::uint64_t> letters;
+    letters.reserve(text.size());
+    for (const char c : text) letters.push_back(static_cast<unsigned char>(c));
+    return checksum(std::span<const std::uint64_t>(letters), 0);
 }
 
 }  // namespace corpuscle::io

@@ -33,12 +33,9 @@ class Contents {
     std::uint64_t sum() const {
         std::vector<std::string> sorted = lines_;
         std::sort(sorted.begin(), sorted.end());
-        std::vector<std::uint64_t> bytes;
-        for (const std::string& line : sorted) {
-            for (const char c : line) bytes.push_back(static_cast<unsigned char>(c));
-            bytes.push_back('\n');
-        }
-        return checksum(std::span<const std::uint64_t>(bytes), 0);
+        std::string all;
+        for (const std::string& line : sorted) all += line + '\n';
+        return checksum(all);
     }
 
   private:

@@ -11,12 +11,12 @@ class Digest {
   public:
     template <class T>
     void add(const std::string& name, std::span<const T> values) {
-        state_ = mix(state_ + ofText(name));
+        state_ = mix(state_ + checksum(name));
         state_ = mix(state_ + checksum(values, 0)) + values.size();
     }
     void add(const std::string& name, const std::string& text) {
-        state_ = mix(state_ + ofText(name));
-        state_ = mix(state_ + ofText(text)) + text.size();
+        state_ = mix(state_ + checksum(name));
+        state_ = mix(state_ + checksum(text)) + text.size();
     }
     void add(const std::string& name, const std::vector<Vec3>& values) {
         add(name, std::span<const double>(values.empty() ? nullptr : values[0].data(), 3 * values.size()));
@@ -24,12 +24,6 @@ class Digest {
     std::string text() const { return fmt::format("{:016x}", state_); }
 
   private:
-    static std::uint64_t ofText(const std::string& text) {
-        std::vector<std::uint64_t> bytes;
-        bytes.reserve(text.size());
-        for (const char c : text) bytes.push_back(static_cast<unsigned char>(c));
-        return checksum(std::span<const std::uint64_t>(bytes), 0);
-    }
     std::uint64_t state_ = 0;
 };
 

@@ -131,7 +131,7 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
     }
     if (aliveBonds != network().aliveBonds()) {
         ownNetwork().restore(std::move(aliveBonds));
-    };
+    }
     // Between a law that keeps damage and one that does not, the membrane goes on undamaged.
     if (damage.empty() || damage_.empty()) {
         std::fill(damage_.begin(), damage_.end(), 0.0);

@@ -90,7 +90,7 @@ TrueSides::TrueSides(const Scene& scene) : scene_(scene), period_(scene.system->
         const geometry::TriangleMesh mesh = closedSurface(scene.cells[c]);
         if (mesh.nodes.empty()) continue;
         surfaces_[c].emplace(mesh);
-        bounds[c] = geometry::SurfaceView{&mesh.nodes, &mesh.triangles}.bounds();
+        bounds[c] = geometry::boundsOf(mesh.nodes);
     }
     const particles::Box& box = scene.system->box();
     index_ = geometry::BoundsIndex(bounds, box.low, box.high, period_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/cell.hpp"
 #include "schemes/cost.hpp"
 #include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
@@ -347,7 +348,7 @@ Case::CellPlace Case::cellAt(int cell) const {
 
 std::string Case::nameOf(int cell) const {
     const CellTypeSettings& entry = mesh.cells[cellAt(cell).entry];
-    return entry.placed.size() == 1 ? entry.name : fmt::format("{} {}", entry.name, cell);
+    return coupling::nameOfCell(entry.name, entry.placed.size(), cell);
 }
 
 std::string Case::keyOfPlace(int cell) const {

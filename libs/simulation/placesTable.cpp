@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 
-#include "core/units.hpp"
+#include "io/checksum.hpp"
 #include "io/polyData.hpp"
+#include "io/textNumber.hpp"
 
 namespace corpuscle::simulation {
 
@@ -37,14 +37,6 @@ std::vector<Word> wordsOf(const std::string& line) {
         begin = end + 1;
     }
     return words;
-}
-
-std::optional<double> numberOf(const std::string& text) {
-    double value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
-    return value;
 }
 
 // Which number a column has, and in which unit.
@@ -118,9 +110,9 @@ class CsvPlaces {
         std::array<double, numbers> values{0, 0, 0, 0, 0, 1, 1};
         bool isRight = true;
         for (std::size_t k = 0; k < words.size(); ++k) {
-            const std::optional<double> value = numberOf(words[k].text);
+            const std::optional<double> value = io::textToDouble(words[k].text);
             const Column& column = *columns_[k];
-            if (!value) {
+            if (!value || !std::isfinite(*value)) {
                 isRight = false;
                 add(words[k].column, names[column.number],
                     fmt::format("found '{}'; a finite number is needed", words[k].text));
@@ -192,22 +184,17 @@ std::vector<Place> readPlaces(const std::filesystem::path& caseDirectory, const 
     return places;
 }
 
-// FNV-1a over the numbers as text.
+// The checksum is that of the numbers as text, so that their last digits do not count.
 std::string describePlaces(const std::vector<Place>& places) {
-    std::uint64_t sum = 14695981039346656037ull;
-    const auto add = [&](double number) {
-        for (const char letter : fmt::format("{:.10g};", number + 0.0)) {
-            sum ^= static_cast<unsigned char>(letter);
-            sum *= 1099511628211ull;
-        }
-    };
+    std::string text;
+    const auto add = [&](double number) { text += fmt::format("{:.10g};", number + 0.0); };
     for (const Place& place : places) {
         const Vec3 axis = place.axis.normalized();
         for (int k = 0; k < 3; ++k) add(place.centre[k]);
         for (int k = 0; k < 3; ++k) add(axis[k]);
         add(place.scale);
     }
-    return fmt::format("{} places, checksum {:016x}", places.size(), sum);
+    return fmt::format("{} places, checksum {:016x}", places.size(), io::checksum(text));
 }
 
 }  // namespace corpuscle::simulation

@@ -53,12 +53,10 @@ std::vector<CellType> readTypes(const Case& input) {
 int cellAround(const Scene& scene, const Vec3& x) {
     const Periodicity period = scene.fluidBox.periodicity();
     for (const CellType& type : scene.cells.types()) {
-        geometry::Bounds bounds;
-        for (const Vec3& node : type.nodes) bounds.extend(node);
-        const double away = bounds.diagonal().norm() + bounds.center().norm();  // of any node from a cell's centre
+        const double extent = type.extent();
         for (std::size_t k = 0; k < type.places.size(); ++k) {
             const geometry::Place& place = type.places[k];
-            if (period.shortest(x - place.centre).norm() > place.scale * away) continue;
+            if (period.shortest(x - place.centre).norm() > place.scale * extent) continue;
             if (geometry::InsideTest({place.of(type.nodes), type.triangles}).inside(x, period))
                 return type.firstCell + static_cast<int>(k);
         }

@@ -72,7 +72,7 @@ struct Population {
         }
         return false;
     }
-    // Where each cell is, on every rank, from its owner; six numbers a cell and the owner behind.
+    // Who owns each cell: its rank, counted from 1, on every rank.
     std::vector<double> owners() const {
         std::vector<double> all(cells.count(), 0.0);
         for (const Cell& cell : cells)
