@@ -61,6 +61,18 @@ struct Prefix {
 constexpr std::array<Prefix, 10> prefixes{
     {{'a', -18}, {'f', -15}, {'p', -12}, {'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'k', 3}, {'M', 6}, {'G', 9}}};
 
+std::string namesOf(bool prefixable) {
+    std::string names;
+    for (const Symbol& s : symbols)
+        if (s.prefixable == prefixable) (names += names.empty() ? "" : " ") += s.name;
+    return names;
+}
+std::string prefixLetters() {
+    std::string letters;
+    for (const Prefix& p : prefixes) (letters += letters.empty() ? "" : " ") += p.letter;
+    return letters;
+}
+
 std::optional<UnitValue> lookUp(std::string_view name) {
     for (const Symbol& s : symbols)
         if (s.name == name) return s.value;
@@ -115,10 +127,10 @@ UnitValue parseUnit(std::string_view text) {
             if (value->factor != 1) total.factor *= std::pow(value->factor, power);
         } else {
             const std::string wrong = name.empty() ? std::string(text.substr(begin)) : std::string(name);
-            throw std::invalid_argument(fmt::format(
-                "unknown unit '{}'.{} Known: m s g N dyn Pa bar P J Hz L min h with the prefixes a f p n u m c k M G, "
-                "combined like 'kg/m^3', 'Pa s', 'N/m'",
-                wrong, didYouMean(wrong, commonUnits())));
+            throw std::invalid_argument(
+                fmt::format("unknown unit '{}'.{} Known: {} with the prefixes {}, {} without, combined like 'kg/m^3', "
+                            "'Pa s', 'N/m'",
+                            wrong, didYouMean(wrong, commonUnits()), namesOf(true), prefixLetters(), namesOf(false)));
         }
         first = false;
         skipBlanks();

@@ -85,6 +85,8 @@ TEST(Units, bareNumbersAndSpacings) {
 TEST(Units, faultsSayWhatIsNear) {
     EXPECT_NE(complaint("8 Um").find("Did you mean 'um'?"), std::string::npos) << complaint("8 Um");
     EXPECT_NE(complaint("8 parsec").find("unknown unit 'parsec'"), std::string::npos);
+    for (const char* const known : {" m ", " erg ", " W ", " L ", " kg ", " mmHg ", " cmH2O ", " deg "})
+        EXPECT_NE(complaint("8 parsec").find(known), std::string::npos) << known;
     EXPECT_NE(complaint("fast").find("does not start with a number"), std::string::npos);
     EXPECT_NE(complaint("1e999 m").find("double precision"), std::string::npos);
     for (const char* wrong :
