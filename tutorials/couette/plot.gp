@@ -10,5 +10,5 @@ slabs = 64
 array look[4] = [1, 2, 5, 10]                    # multiples of 0.0225 s
 set key left top; set xlabel 'u/U'; set ylabel 'z/L'
 set parametric; set trange [-0.5:0.5]; set samples 400; set yrange [-0.5:0.5]; set xrange [-1:1]
-plot for [i=1:4] file using ($4/U):($3/L) every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.4f s', 0.0225*look[i]), \
+plot for [i=1:4] file using (column('u_m_s')/U):(column('position_m')/L) every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.4f s', 0.0225*look[i]), \
      for [i=1:4] u(t*L, 0.0225*look[i]), t with lines lc i notitle

@@ -9,4 +9,4 @@ set xrange [1:1.3]
 set yrange [0:1.3]
 set key bottom right
 plot 2*(1-x**-6)/x with lines lw 2 lc rgb "#1f77b4" title "2 (1 - l^{-6})/l", \
-     "postProcessing/relax/capsule.csv" using ($4):($2*4e-6/4e-6) with points pt 7 ps 1.4 lc rgb "#d62728" title "membraneRelax, neoHookean"
+     "postProcessing/relax/capsule.csv" using 'stretch':(column('pressure_Pa')*4e-6/4e-6) with points pt 7 ps 1.4 lc rgb "#d62728" title "membraneRelax, neoHookean"

@@ -9,7 +9,7 @@ jeffery(s) = s < pi*(r + 1/r) ? atan2(r*sin(s/(r + 1/r)), cos(s/(r + 1/r))) : 1/
 file(name) = 'runs/'.name.'/postProcessing/motion/body.csv'
 start = 0.5*pi*(r + 1/r)                                                    # strain at which Jeffery's axis passes the flow
 set key left top; set xlabel 'strain'; set ylabel 'phi, degrees'; set xrange [0:8]; set yrange [0:190]; set ytics 45; set samples 400
-plot file('turn') using 2:(turned($6, $8)*180/pi) every 10 with points pt 6 title 'dmpFlow, 8 particles along the diameter', \
-     file('gradient') using 2:(turned($6, $8)*180/pi) with lines lw 4 title '16 along the diameter', \
-     file('flow') using ($2 + start):(turned($6, $8)*180/pi) with lines lw 4 title '16, from the axis along the flow', \
+plot file('turn') using 'strain':(turned(column('axis_x'), column('axis_z'))*180/pi) every 10 with points pt 6 title 'dmpFlow, 8 particles along the diameter', \
+     file('gradient') using 'strain':(turned(column('axis_x'), column('axis_z'))*180/pi) with lines lw 4 title '16 along the diameter', \
+     file('flow') using (column('strain') + start):(turned(column('axis_x'), column('axis_z'))*180/pi) with lines lw 4 title '16, from the axis along the flow', \
      jeffery(x)*180/pi with lines lc 'black' title 'Jeffery'

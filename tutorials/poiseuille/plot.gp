@@ -11,5 +11,5 @@ slabs = 64
 array look[4] = [1, 2, 4, 10]                    # multiples of 0.05 s
 set key right top; set xlabel 'u nu/(F L^2)'; set ylabel 'z/L'
 set parametric; set trange [-0.5:0.5]; set samples 400; set yrange [-0.5:0.5]; set xrange [0:0.15]
-plot for [i=1:4] file using ($4*nu/(F*L**2)):($3/L) every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.2f s', 0.05*look[i]), \
+plot for [i=1:4] file using (column('u_m_s')*nu/(F*L**2)):(column('position_m')/L) every ::slabs*look[i]::slabs*look[i]+slabs-1 with points pt 6 lc i title sprintf('t = %.2f s', 0.05*look[i]), \
      for [i=1:4] u(t*L, 0.05*look[i]), t with lines lc i notitle

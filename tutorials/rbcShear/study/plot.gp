@@ -11,7 +11,7 @@ set xlabel 'strain'
 set multiplot layout 1,2
 set key below
 set ylabel 'D12 by extents'
-plot for [c in cases] file(c) using 2:3 with lines lw 2 title name(c)
+plot for [c in cases] file(c) using 'strain':'D12_extent' with lines lw 2 title name(c)
 set ylabel 'D12 by inertia'
-plot for [c in cases] file(c) using 2:4 with lines lw 2 title name(c)
+plot for [c in cases] file(c) using 'strain':'D12_inertia' with lines lw 2 title name(c)
 unset multiplot
