@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "core/communicator.hpp"
 #include "implicit/disturbance.hpp"
@@ -60,6 +61,7 @@ class Step final : public ImplicitStep {
     Events make(double dt, bool backward, int halvings) {
         if (attempt(dt, halvings == 0 ? planned_ : dt, backward)) {
             ++statistics.steps;
+            statistics.mostIterations = std::max(statistics.mostIterations, std::exchange(sinceStep_, 0));
             return coupling::endStep(scene_, options_, ++state.steps, dt);
         }
         if (halvings == mostHalvings)
@@ -125,7 +127,7 @@ class Step final : public ImplicitStep {
                 [&](const Field& r, Field& z) { preconditioner_->apply(r, z); }, system_.copies(), &divergence_);
             statistics.innerIterations += preconditioner_->takeInnerIterations();
             statistics.iterations += c.iterations;
-            statistics.mostIterations = std::max<long>(statistics.mostIterations, c.iterations);
+            sinceStep_ += c.iterations;
             if (!c.reached) {
                 fault_ = fmt::format("the solver did not converge in {} iterations", c.iterations);
                 return false;
@@ -222,6 +224,7 @@ class Step final : public ImplicitStep {
     StepBudget<Real> budget_;
     ConjugateGradients<Real> solver_;
     double planned_ = 0;  // length of the step but for an event [s]
+    long sinceStep_ = 0;  // iterations since the last step that was made: of all solves and attempts
     Field velocity_, residual_, correction_;
     typename ConjugateGradients<Real>::Carried divergence_;
     std::vector<double> rate_;  // divergence of the velocity found

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "coupling/noFlux.hpp"
@@ -303,6 +304,29 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
                                  what, formatQuantity(size, dimension)));
         return;  // others follow from it
     }
+}
+
+std::vector<std::string> unusedEntries(const Case& c) {
+    std::map<std::string, std::set<std::string>> taken;  // by kind
+    for (const PlacedSurface& surface : surfacesOf(c.mesh))
+        taken[surface.kind].insert(surface.kind == "cell"
+                                       ? static_cast<const CellSettings&>(surface.settings).type()
+                                       : static_cast<const BodyPlaceSettings&>(surface.settings).type());
+    std::vector<std::string> words;
+    const auto find = [&](const auto& entries, const std::string& file, const std::string& kind, const char* key) {
+        const std::set<std::string>& names = taken[kind];
+        std::string others;
+        for (const std::string& name : names) (others += others.empty() ? "they take " : ", ") += name;
+        for (const auto& entry : entries)
+            if (!names.contains(entry.first))
+                words.push_back(fmt::format(
+                    "{}: {}: no {} of system/mesh.yaml takes this entry, so that it has no effect ({}); remove it, or "
+                    "name it in '{}' of a {}",
+                    file, entry.first, kind, names.empty() ? fmt::format("there is no {}", kind) : others, key, kind));
+    };
+    find(c.membranes.types, "constant/membranes.yaml", "cell", "membrane");
+    find(c.bodies.types, "constant/bodies.yaml", "body", "body");
+    return words;
 }
 
 }  // namespace corpuscle::simulation

@@ -8,6 +8,7 @@
 #include "observers/summary.hpp"
 #include "particles/isa.hpp"
 #include "schemes/cost.hpp"
+#include "simulation/caseRules.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/stateCheck.hpp"
 
@@ -90,8 +91,8 @@ void Schedule::describe() {
 ExitCode Schedule::dryRun(const Scene& scene, const Time& time) {
     describe();
     app_.log().info("dry run: about {:.0f} steps to {}; nothing written, {} MiB in lists and particles of rank 0",
-                    time.left() / time.dt, time.endTime ? "the end time" : "the end strain",
-                    scene.system->bytes() >> 20);
+                    time.left() / std::max(time.dt, integrator_.limits().binding().seconds),
+                    time.endTime ? "the end time" : "the end strain", scene.system->bytes() >> 20);
     record_.set("", "status", "dryRun");
     if (app_.json()) record_.print();
     return ExitCode::done;
@@ -123,6 +124,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     if (results_.due(time)) results_.write(scene, time);
     observers_.run(scene, time);
     for (const std::string& note : observers_.notes()) app_.log().warning("{}", note);
+    for (const std::string& note : unusedEntries(input_)) app_.log().warning("{}", note);
 }
 
 void Schedule::afterStep(const Scene& scene, const Time& time) {

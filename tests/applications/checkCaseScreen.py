@@ -78,6 +78,12 @@ def test_warnings(folder):
         warned = screen(case, *(word for change in changes for word in ("-set", f"constant/flow.yaml:/{change}")))[1]
         assert all(word in warned for word in words), warned
     assert "sets the density" not in screen(case, "-set", "constant/flow.yaml:/inertia=physical", "-set", "constant/flow.yaml:/Ca=1e-4")[1]
+    laws = IMPLICIT_CASE["constant/membranes.yaml"]
+    assert "takes this entry" not in screen(case)[1]
+    for name in ("foo", "RBC", "healthyRBC"):  # one that nobody takes; what is changed in it would be changed for nothing
+        (case / "constant" / "membranes.yaml").write_text(laws + "\n" + laws.replace("rbc:", name + ":", 1))
+        warned = screen(case)[1]
+        assert all(word in warned for word in (f"constant/membranes.yaml: {name}: no cell", "they take rbc", "'membrane'")), warned
 
 
 def peak(case, application):

@@ -161,6 +161,7 @@ class RenderCase : public ::testing::Test {
         return run.exitCode == 0 ? nlohmann::json::parse(run.text) : nlohmann::json();
     }
     static nlohmann::json draw(const std::string& options) { return drawIn(caseDir(), options); }
+    static void expectTwoCells(const std::filesystem::path& folder, double apart);
     static std::unique_ptr<TemporaryFolder> folder_;
 };
 std::unique_ptr<TemporaryFolder> RenderCase::folder_;
@@ -288,12 +289,16 @@ TEST_F(RenderCase, EachCellOfAStreamIsMovedIntoTheBoxByItself) {
     }
     writeVtp(crowd.path() / "results" / "rbc" / "rbc_0.vtp", both);
     writeIndex(crowd.path(), "rbc", {0});
-    const auto report = drawIn(crowd.path(), "-view xz -count 1 -size 900");
-    Pixels pixels(crowd.path() / "postProcessing" / "renderCase.png");
+    expectTwoCells(crowd.path(), 12e-6);
+}
+
+// Two cells in the view along y, whole and so far apart [m].
+void RenderCase::expectTwoCells(const std::filesystem::path& folder, double apart) {
+    const auto report = drawIn(folder, "-view xz -count 1 -size 900");
+    Pixels pixels(folder / "postProcessing" / "renderCase.png");
     const auto& panel = report["panels"][0];
     const double scale = report["metresPerPixel"], projected = M_PI * radius * radius / (scale * scale);
     EXPECT_NEAR(pixels.count(panel, isReddish) / projected, 2, 0.04);
-    // The left and the right one, 12 um apart.
     const double mean = pixels.meanColumn(panel, isReddish);
     nlohmann::json half = panel;
     half["width"] = static_cast<int>(mean);
@@ -305,7 +310,32 @@ TEST_F(RenderCase, EachCellOfAStreamIsMovedIntoTheBoxByItself) {
     const double rightMean = pixels.meanColumn(half, isReddish) + static_cast<int>(mean);
     EXPECT_NEAR(left / projected, 1, 0.02);
     EXPECT_NEAR(right / projected, 1, 0.02);
-    EXPECT_NEAR((rightMean - leftMean) * scale, 12e-6, 0.1e-6);
+    EXPECT_NEAR((rightMean - leftMean) * scale, apart, 0.1e-6);
+}
+
+// The mesh in 0/ of a type that is placed by a list stands around the origin; before a run the picture has its cells
+// where the case puts them.
+TEST_F(RenderCase, BeforeARunCellsStandAtTheirPlaces) {
+    const std::string x = "[{centre: [-5 um, 0 um, 0 um]}, {centre: [6 um, 0 um, 0 um], axis: [1, 0, 1]}]";
+    for (const std::string& entry : {"places: " + x, std::string("table: cells.csv")}) {
+        TemporaryFolder fresh;
+        std::filesystem::create_directories(fresh.path() / "0");
+        writeBox(fresh.path(), "[24 um, 12 um, 16 um]", "[true, true, false]");
+        std::ofstream(fresh.path() / "system" / "mesh.yaml", std::ios::app)
+            << "cells: [{name: rbc, " << entry << "}]\n";
+        std::ofstream(fresh.path() / "cells.csv") << "x_um,y_um,z_um\n-5,0,0\n6,0,0\n";
+        writeVtp(fresh.path() / "0" / "rbc.vtp", sphere(Vec3::Zero(), 0, false));
+        expectTwoCells(fresh.path(), 11e-6);
+    }
+    TemporaryFolder wrong;
+    std::filesystem::create_directories(wrong.path() / "0");
+    writeBox(wrong.path(), "[24 um, 12 um, 16 um]", "[true, true, false]");
+    std::ofstream(wrong.path() / "system" / "mesh.yaml", std::ios::app) << "cells: [{name: rbc, table: none.csv}]\n";
+    writeVtp(wrong.path() / "0" / "rbc.vtp", sphere(Vec3::Zero(), 0, false));
+    const Outcome run = renderCase(wrong.path(), "-size 300");
+    EXPECT_EQ(run.exitCode, 0) << run.text;
+    EXPECT_NE(run.text.find("cells are drawn where their meshes stand"), std::string::npos) << run.text;
+    EXPECT_NE(run.text.find("none.csv"), std::string::npos) << run.text;
 }
 
 TEST_F(RenderCase, WordsBarsAndPanelsLieBesideEachOther) {

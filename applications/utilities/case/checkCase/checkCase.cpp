@@ -19,6 +19,7 @@
 #include "core/machineMemory.hpp"
 #include "membrane/moduli.hpp"
 #include "schemes/cost.hpp"
+#include "simulation/caseRules.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
 #include "simulation/rollback.hpp"
@@ -341,6 +342,7 @@ int main(int argc, char* argv[]) {
         reportGroups(report, input);
         findEdges(report, input);
         findDensity(report, input);
+        for (const std::string& words : simulation::unusedEntries(input)) report.warnings.push_back(words);
         reportSize(report, input);
         simulation::requireMemory(app.communicator(), input);
         reportCosts(report, input);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "simulation/caseSettings.hpp"
+#include "simulation/placesTable.hpp"
 
 namespace corpuscle {
 
@@ -31,6 +32,37 @@ std::optional<particles::Box> readBox(Application& app, bool hasRun) {
         return std::nullopt;
     }
     return particles::Box{-0.5 * domain.size, 0.5 * domain.size, domain.periodic};
+}
+
+PlacesByName readPlacesOfCells(Application& app) {
+    const std::string dictionary = "system/mesh.yaml";
+    if (!app.hasDictionary(dictionary)) return {};
+    Problems problems;
+    const Node mesh = app.dictionary(dictionary, problems);
+    const Node* const cells = mesh.find("cells");
+    PlacesByName found;
+    for (std::size_t k = 0; cells && k < cells->items.size(); ++k) {
+        const Node& cell = cells->items[k];
+        const Node* const name = cell.find("name");
+        if (!name) continue;
+        std::vector<geometry::Place> places;
+        if (const Node* const list = cell.find("places"))
+            for (const Node& entry : list->items) {
+                const auto place = read<simulation::PlaceSettings>(entry, problems);
+                places.push_back({place.centre, place.axis, place.scale});
+            }
+        if (const Node* const table = cell.find("table"))
+            places = simulation::readPlaces(app.caseDirectory(), table->scalar, table->mark,
+                                            fmt::format("cells[{}].table", k), problems);
+        if (!places.empty()) found[name->scalar] = std::move(places);
+    }
+    if (problems.empty()) return found;
+    try {
+        problems.throwIfAny();
+    } catch (const CaseError& error) {
+        app.log().warning("cells are drawn where their meshes stand: {}", error.problems().front().text());
+    }
+    return {};
 }
 
 }  // namespace corpuscle

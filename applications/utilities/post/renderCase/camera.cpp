@@ -18,7 +18,7 @@ constexpr double halfAngle = 13 * M_PI / 180;  // at which the eye sees the sphe
 
 }  // namespace
 
-void Range::add(double value) {
+void ValueRange::add(double value) {
     if (!std::isfinite(value)) return;
     low = std::min(low, value);
     high = std::max(high, value);

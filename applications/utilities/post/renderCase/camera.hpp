@@ -13,7 +13,7 @@
 
 namespace corpuscle {
 
-struct Range {
+struct ValueRange {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     void add(double value);  // values that are not finite are passed over
     bool empty() const { return low > high; }
@@ -47,14 +47,14 @@ class Camera {
     bool seesFromSide(const Vec3& place,
                       const Vec3& normal) const;         // whether the eye is on the side that the normal points to
     std::array<double, 2> project(const Vec3& x) const;  // u, v [m]
-    const Range& u() const { return u_; }                // of the points
-    const Range& v() const { return v_; }
+    const ValueRange& u() const { return u_; }           // of the points
+    const ValueRange& v() const { return v_; }
 
   private:
     View view_;
     Vec3 focus_ = Vec3::Zero();
     double distance_ = 1;
-    Range u_, v_;
+    ValueRange u_, v_;
 };
 
 }  // namespace corpuscle

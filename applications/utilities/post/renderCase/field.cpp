@@ -14,7 +14,7 @@ using Colours = FieldStyle::Colours;
 
 // The unit in which the larger end of a range is a number of at least 1, and what the numbers are divided by: "mm/s"
 // and 1e-3.
-std::pair<std::string, double> unitFor(const Range& range, Dimension dimension) {
+std::pair<std::string, double> unitFor(const ValueRange& range, Dimension dimension) {
     if (dimension.isDimensionless()) return {"", 1};
     const double size = std::max(std::abs(range.low), std::abs(range.high));
     // "3.2 mm/s" has the prefix.
@@ -25,7 +25,7 @@ std::pair<std::string, double> unitFor(const Range& range, Dimension dimension) 
     return {shown, parseQuantity("1 " + name).value};
 }
 
-vtkSmartPointer<vtkLookupTable> colourTable(const FieldStyle& style, const Range& range) {
+vtkSmartPointer<vtkLookupTable> colourTable(const FieldStyle& style, const ValueRange& range) {
     auto table = vtkSmartPointer<vtkLookupTable>::New();
     const bool ofKinds = style.colours == Colours::kinds;
     const int count = ofKinds ? static_cast<int>(std::lround(range.length())) + 1 : 256;
@@ -99,9 +99,9 @@ Values valuesOf(const io::PolyData& surface, const std::string& name, const std:
                                                joinWords(names), names.empty() ? "" : ", ", didYouMean(field, names)));
 }
 
-Scale makeScale(const FieldStyle& style, Range found, const std::optional<Range>& asked) {
+Scale makeScale(const FieldStyle& style, ValueRange found, const std::optional<ValueRange>& asked) {
     Scale scale{style, asked.value_or(found), 1, "", nullptr};
-    Range& range = scale.range;
+    ValueRange& range = scale.range;
     if (range.empty()) range = {0, 0};
     if (style.colours == Colours::signedOrNot) {
         constexpr double little = 0.05;
@@ -136,7 +136,7 @@ Scale makeScale(const FieldStyle& style, Range found, const std::optional<Range>
     return scale;
 }
 
-Range parseRange(const std::string& option, const std::string& text) {
+ValueRange parseRange(const std::string& option, const std::string& text) {
     const std::size_t comma = text.find(',');
     try {
         if (comma == std::string::npos) throw std::invalid_argument("there is no comma");
@@ -146,7 +146,7 @@ Range parseRange(const std::string& option, const std::string& text) {
             high.hasUnit && !low.hasUnit
                 ? parseQuantity("1 " + text.substr(text.find_first_not_of(" +-.0123456789eE", comma + 1))).value
                 : 1;
-        const Range range{low.value * factor, high.value};
+        const ValueRange range{low.value * factor, high.value};
         if (!(range.length() > 0) || !std::isfinite(range.length()))
             throw std::invalid_argument("the second must be greater than the first");
         return range;

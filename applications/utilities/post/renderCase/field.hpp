@@ -37,15 +37,15 @@ Values valuesOf(const io::PolyData& surface, const std::string& name, const std:
 // A field with its range, ready to be drawn and explained by a bar.
 struct Scale {
     FieldStyle style;
-    Range range;                              // SI
+    ValueRange range;                         // SI
     double perUnit = 1;                       // the bar's numbers are SI divided by this
     std::string title;                        // with the unit: "tension T1, uN/m"
     vtkSmartPointer<vtkLookupTable> colours;  // by SI values
 };
 // The range found, or the one asked for.
-Scale makeScale(const FieldStyle& style, Range found, const std::optional<Range>& asked);
+Scale makeScale(const FieldStyle& style, ValueRange found, const std::optional<ValueRange>& asked);
 
 // "-5,5", "0,20 uN/m": SI where no unit is given. Throws Failure(usage).
-Range parseRange(const std::string& option, const std::string& text);
+ValueRange parseRange(const std::string& option, const std::string& text);
 
 }  // namespace corpuscle

@@ -119,6 +119,32 @@ void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
     for (std::size_t p = 0; p < surface.points.size(); ++p) surface.points[p] += shifts.at(cellOf(p));
 }
 
+// One mesh, once at each place, as cells of one stream. Arrays of a mesh in 0/ are those of the stress-free state, the
+// same for each.
+io::PolyData placed(const io::PolyData& mesh, const std::vector<geometry::Place>& places) {
+    io::PolyData all;
+    all.field = mesh.field;
+    const auto repeat = [&](const auto& arrays, auto& into) {
+        for (const auto& [name, values] : arrays) into[name].insert(into[name].end(), values.begin(), values.end());
+    };
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const int first = static_cast<int>(all.points.size());
+        const std::vector<Vec3> nodes = places[k].of(mesh.points);
+        all.points.insert(all.points.end(), nodes.begin(), nodes.end());
+        for (const Index3& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        repeat(mesh.point.scalars, all.point.scalars), repeat(mesh.cell.scalars, all.cell.scalars);
+        repeat(mesh.point.vectors, all.point.vectors), repeat(mesh.cell.vectors, all.cell.vectors);
+        repeat(mesh.point.integers, all.point.integers), repeat(mesh.cell.integers, all.cell.integers);
+    }
+    std::vector<std::int64_t>&ofPoints = all.point.integers["cell"], &ofTriangles = all.cell.integers["cell"];
+    ofPoints.clear(), ofTriangles.clear();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        ofPoints.resize(ofPoints.size() + mesh.points.size(), static_cast<std::int64_t>(k) + 1);
+        ofTriangles.resize(ofTriangles.size() + mesh.triangles.size(), static_cast<std::int64_t>(k) + 1);
+    }
+    return all;
+}
+
 int entryOf(Stream& stream, Wanted wanted) {
     using Kind = Wanted::Kind;
     const int last = stream.last();
@@ -187,7 +213,8 @@ Results::Results(const fs::path& caseDir) : caseDir_(caseDir) {
     }
 }
 
-std::vector<Frame> Results::frames(const FrameChoice& choice, const std::optional<particles::Box>& box) const {
+std::vector<Frame> Results::frames(const FrameChoice& choice, const std::optional<particles::Box>& box,
+                                   const PlacesByName& places) const {
     std::vector<std::string> names = surfaces_;
     if (!choice.membrane.empty()) {
         if (std::find(names.begin(), names.end(), choice.membrane) == names.end()) {
@@ -213,6 +240,8 @@ std::vector<Frame> Results::frames(const FrameChoice& choice, const std::optiona
         for (auto& [name, stream] : streams) {
             io::PolyData& surface = frame.surfaces[name] = stream.at(stream.nearestTime(frame.time));
             if (!choice.keepBroken) removeBroken(surface);
+            if (const auto found = places.find(name); !hasRun_ && found != places.end())
+                surface = placed(surface, found->second);
             if (box) moveIntoBox(surface, *box);
         }
         frames.push_back(std::move(frame));

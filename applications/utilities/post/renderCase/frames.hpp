@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/place.hpp"
 #include "io/polyData.hpp"
 #include "particles/box.hpp"
 #include "slice.hpp"
@@ -42,6 +43,9 @@ struct FrameChoice {
     bool keepBroken = false;     // triangles marked `broken` are left out otherwise
 };
 
+// Of types of cells that are placed by a list: where the mesh in 0/, which stands around the origin, is put.
+using PlacesByName = std::map<std::string, std::vector<geometry::Place>>;
+
 // The streams of a case. Files are read when asked for.
 class Results {
   public:
@@ -52,8 +56,10 @@ class Results {
     bool hasFluid() const { return hasFluid_; }
     const std::vector<std::string>& surfaces() const { return surfaces_; }
 
-    // Throws Failure: usage for times outside the results or an unknown membrane, io for unreadable files.
-    std::vector<Frame> frames(const FrameChoice& choice, const std::optional<particles::Box>& box) const;
+    // `places` of the meshes in 0/, where nothing has run. Throws Failure: usage for times outside the results or an
+    // unknown membrane, io for unreadable files.
+    std::vector<Frame> frames(const FrameChoice& choice, const std::optional<particles::Box>& box,
+                              const PlacesByName& places) const;
     // The particles at the time nearest to this one.
     io::PolyData fluidAt(double time) const;
 

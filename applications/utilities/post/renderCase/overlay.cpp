@@ -55,7 +55,7 @@ struct Tick {
 };
 std::vector<Tick> ticksOf(const Scale& scale) {
     std::vector<Tick> ticks;
-    const Range& range = scale.range;
+    const ValueRange& range = scale.range;
     if (scale.style.colours == FieldStyle::Colours::kinds) {
         const int count = static_cast<int>(std::lround(range.length())) + 1, shownCount = std::min(count, mostKinds);
         for (int i = 0; i < shownCount; ++i) {

@@ -226,7 +226,7 @@ double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, doub
 
 Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options) {
     Plan plan{options, cameraFor(frames, options), {}, {}, 0, 0, 0};
-    Range field, fluid;
+    ValueRange field, fluid;
     bool sliced = false, surfaces = false;
     for (const Frame& frame : frames) {
         plan.largestTime = std::max(plan.largestTime, std::abs(frame.time));

@@ -16,10 +16,10 @@ namespace corpuscle {
 
 struct PictureOptions {
     View view;
-    std::string field = "none";       // of the triangles or points: areaStrain, tension1, ...; none: plain
-    std::optional<Range> fieldRange;  // none: that of all frames
-    std::string fluidField = "u";     // of the slice
-    std::optional<Range> fluidRange;
+    std::string field = "none";            // of the triangles or points: areaStrain, tension1, ...; none: plain
+    std::optional<ValueRange> fieldRange;  // none: that of all frames
+    std::string fluidField = "u";          // of the slice
+    std::optional<ValueRange> fluidRange;
     bool arrows = false;
     bool frameCells = false;  // as far as the cells reach, without the box
     bool mesh = false;        // edges of the triangles

@@ -264,8 +264,9 @@ int main(int argc, char* argv[]) {
         const Results results(app.caseDirectory());
         options.box = readBox(app, results.hasRun());
         if (options.box) options.view = turnedForWalls(options.view, options.box->periodic);
+        const PlacesByName places = results.hasRun() ? PlacesByName() : readPlacesOfCells(app);
         if (!app.communicator().isRoot()) return ExitCode::done;
-        std::vector<Frame> frames = results.frames(choice, options.box);
+        std::vector<Frame> frames = results.frames(choice, options.box, places);
         bool sliced = results.surfaces().empty();
         for (const char* option : {"fluid", "slice", "fluidField", "fluidRange", "arrows"})
             sliced = sliced || app.has(option);
