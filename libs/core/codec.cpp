@@ -120,7 +120,11 @@ std::optional<double> readNumber(const Node& node, Dimension dimension, const Ra
         return wrong(
             fmt::format("'{}' is in particle spacings, which are not allowed here; {} is expected", found, expected));
     if (!q.hasUnit && !si.empty()) return wrong(fmt::format("'{}' has no unit; {} is expected", found, expected));
-    if (si.empty() && q.hasUnit) return wrong(fmt::format("'{}' has a unit, but this is a number without one", found));
+    if (si.empty() && q.hasUnit) {
+        const std::string number = text.substr(0, text.size() - unitOf(text).size());
+        return wrong(fmt::format("'{}' has a unit; a number without a unit is needed: write '{}'", found,
+                                 number.substr(0, number.find_last_not_of(' ') + 1)));
+    }
     if (q.dimension != dimension)
         return wrong(fmt::format("'{}' is in {}; {} is expected", found,
                                  q.dimension.isDimensionless() ? "radians" : q.dimension.si(), expected));

@@ -233,7 +233,7 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
             else if (!(tableOnly && read.isNothing()))
                 root = std::move(read);
             TreeBuilder second(shownAs, units, problems);
-            if (parser.HandleNextDocument(second))
+            if (problems.count() == before && parser.HandleNextDocument(second))
                 problems.add(root.mark, "", "more than one document ('---'); one file holds one dictionary");
         }
     } catch (const TooDeep& there) {

@@ -229,7 +229,8 @@ DictionaryText dictionaryText(std::string text, const std::string& shownAs, Prob
 
 std::optional<Problem> foreignHabit(const std::string& text, const std::string& shownAs, int line) {
     static const std::regex comment(" *(//|/\\*).*"), ending("[^#]*; *"), noBlank(" *(?:- )?([A-Za-z]\\w*):([^ ].*)"),
-        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *");
+        equals(" *(?:- )?([A-Za-z]\\w*) *= *(.*)"), braces(" *([A-Za-z]\\w*)? *\\{? *"),
+        braced(" *(?:- )?([A-Za-z]\\w*) *\\{(.*)\\} *;? *");
     constexpr std::size_t longest = 200;
     constexpr int before = 2, after = 1;  // lines
     std::istringstream lines(text);
@@ -244,6 +245,11 @@ std::optional<Problem> foreignHabit(const std::string& text, const std::string& 
             const auto found = [&](const std::string& message) { return Problem{{shownAs, n, column}, "", message}; };
             if (std::regex_match(now, part, comment))
                 return found(fmt::format("a comment starts with '#', not with '{}'", part[1].str()));
+            if (std::regex_match(now, part, braced))
+                return found(
+                    fmt::format("a table on one line is written '{}: {{key: value, key: value}}': a ':' after each "
+                                "name, and ',' between the entries",
+                                part[1].str()));
             if (std::regex_match(now, ending)) return found("lines do not end with ';' here: write 'key: value'");
             if (std::regex_match(now, part, equals))
                 return found(fmt::format("'=' in place of ':': write '{}: {}'", part[1].str(), part[2].str()));

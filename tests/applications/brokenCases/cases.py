@@ -126,7 +126,7 @@ CASES = [
     # Units
     case("missingUnit", replace(NUMERICS, "spacing: 1 um", "spacing: 1"), NUMERICS, "spacing", "1", "'1' has no unit",
          "a quantity in m", "um"),
-    case("unitOnNumber", replace(FLOW, "Ca: 0.02", "Ca: 0.02 Pa"), FLOW, "Ca", "0.02 Pa", "has a unit", "number without one"),
+    case("unitOnNumber", replace(FLOW, "Ca: 0.02", "Ca: 0.02 Pa"), FLOW, "Ca", "0.02 Pa", "has a unit", "write '0.02'"),
     case("wrongDimension", replace(FLUID, "1.0e-3 Pa s", "1.0e-3 Pa"), FLUID, "viscosity", "1.0e-3 Pa", "is in Pa", "in Pa s"),
     case("unknownUnit", replace(MESH, "edge: 0.8 um", "edge: 0.8 mu"), MESH, "cells[0].edge", "0.8 mu", "unknown unit 'mu'",
          "Did you mean 'um'?", "Known for m: um, nm"),
