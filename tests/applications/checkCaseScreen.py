@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -62,6 +63,9 @@ def test_cells(folder):
     one, sixteen, two = (screen(cells(*given))[0] for given in ((1, ["rbc"]), (16, ["rbc"]), (16, ["rbc", "other"])))
     assert len(one) == len(sixteen), "\n".join(sixteen)
     assert len(two) <= len(one) + 3, "\n".join(two)
+    text = "\n".join(screen(prepared(folder / "meshed", IMPLICIT_CASE))[0])  # the mesh's own number, not an estimate beside it
+    counts = re.findall(r"(\d+) nodes", text)
+    assert len(counts) > 1 and len(set(counts)) == 1 and "about" not in text, text
     assert any("16 of rbc" in line for line in sixteen) and sum("8 of" in line for line in two) == 2, "\n".join(sixteen + two)
 
 

@@ -13,10 +13,12 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include "core/buildInfo.hpp"
 #include "core/machineMemory.hpp"
+#include "io/polyData.hpp"
 #include "membrane/moduli.hpp"
 #include "schemes/cost.hpp"
 #include "simulation/caseRules.hpp"
@@ -102,6 +104,15 @@ std::string withoutLineEnds(std::string text) {
     return text;
 }
 
+// Of the mesh in 0/, where it has been made; what is wrong with it is said where it is put to use.
+std::optional<long> nodesInMesh(const simulation::Case& input, const simulation::CellSettings& cell) {
+    try {
+        return static_cast<long>(io::readVtp(input.directory / "0" / (cell.name + ".vtp")).points.size());
+    } catch (const Failure&) {
+        return std::nullopt;
+    }
+}
+
 void reportCase(Report& report, const simulation::Case& input) {
     report.section("Case");
     std::vector<std::vector<std::string>> rows;
@@ -129,10 +140,12 @@ void reportCase(Report& report, const simulation::Case& input) {
     long nodes = 0;
     for (const CellKind& kind : kindsOf(input)) {
         const simulation::CellSettings& cell = *kind.first;
-        const long each = simulation::estimateNodes(cell);
+        const std::optional<long> made = nodesInMesh(input, cell);
+        const long each = made.value_or(simulation::estimateNodes(cell));
         nodes += each * static_cast<long>(kind.count);
-        rows.push_back({"cells", fmt::format("{} of {}: {}, edge {}, about {} nodes each", kind.count, cell.type(),
-                                             cell.shape.name, formatQuantity(cell.edge, unit::metre), each)});
+        rows.push_back(
+            {"cells", fmt::format("{} of {}: {}, edge {}, {}{} nodes each", kind.count, cell.type(), cell.shape.name,
+                                  formatQuantity(cell.edge, unit::metre), made ? "" : "about ", each)});
         rows.push_back({"", withoutLineEnds(membrane::describeConstants(input.membraneOf(cell), cell.edge))});
     }
     report.table({}, rows);
