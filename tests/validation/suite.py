@@ -20,6 +20,7 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, replace
 from fnmatch import fnmatchcase
 
@@ -203,12 +204,27 @@ def folder(name, n, work, domain=None):
     return work / name / (str(n) if domain is None else f"{n}-{'x'.join(re.findall(r'[0-9.]+', domain))}")
 
 
+def planned(name, n, work, domain=None):
+    """The runs of a case at a resolution, each with its folder."""
+    return [(run if domain is None else inDomain(run, domain), folder(name, n, work, domain) / run.name) for run in load(name).runs(n)]
+
+
+def executeTogether(runs, binaries, jobs):
+    """Planned runs, from coarse to fine, so many at a time on one rank each: what one run on several ranks loses by waiting is saved. The last of
+    them, the dearest in most cases, is made when the others have ended, on as many ranks. All before it are tried, whatever fails."""
+    with ThreadPoolExecutor(jobs) as pool:
+        for future in [pool.submit(execute, run, place, binaries, 1) for run, place in runs[:-1]]:
+            future.exception()
+    for run, place in runs:  # has ended, or fails here with its message
+        execute(run, place, binaries, jobs)
+
+
 def validate(name, n, binaries, ranks, work, domain=None):
     """Runs a case at a resolution. Returns its record, with what the runs left, whenever they were, and the folders of its runs."""
     case, done, records = load(name), {}, []
-    for run in case.runs(n):
-        done[run.name] = folder(name, n, work, domain) / run.name
-        records.append(execute(run if domain is None else inDomain(run, domain), done[run.name], binaries, ranks))
+    for run, place in planned(name, n, work, domain):
+        done[run.name] = place
+        records.append(execute(run, place, binaries, ranks))
     seconds = sum(record["performance"]["processorSeconds"] for record in records)
     machines, days, programs = zip(*map(origin, records))
     return {"resolution": n, "particles": max(record["parameters"]["particles"] for record in records), "coreSeconds": round(seconds, 1),

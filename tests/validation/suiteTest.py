@@ -107,6 +107,40 @@ def test_execute():
         assert runs("b=2", earlier=1) == 7 and runs("b=3") == 8
 
 
+def test_executeTogether():
+    """Two at a time on one rank, the last alone on two; what fails is tried, keeps none of the others from being made, and is said."""
+    record = {"status": "done", "performance": {"processorSeconds": 1.0}}
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        source, log = folder / "source", folder / "log"
+        for part in ("system", "constant"):
+            (source / part).mkdir(parents=True)
+        # Begins, waits for another if it is to have one, ends.
+        (folder / "mpirun").write_text(f"""#!/bin/sh
+echo begin $2 $6 >>{log}
+sleep 0.3
+echo end $2 $6 >>{log}
+case $6 in *bad) exit 3;; esac
+echo '{json.dumps(record)}' >$6/run.json
+""")
+        (folder / "mpirun").chmod(0o755)
+        runs = [(suite.Run(name, source, [], ("solver",)), folder / name) for name in ("a", "b", "bad", "c", "last")]
+        with unittest.mock.patch.dict(suite.ENVIRONMENT, {"PATH": f"{folder}:{suite.ENVIRONMENT['PATH']}"}):
+            try:
+                suite.executeTogether(runs, folder, 2)
+                failed = False
+            except subprocess.CalledProcessError:
+                failed = True
+            assert failed and all((folder / name / "run.json").exists() for name in "abc"), log.read_text()
+            log.write_text("")
+            good = [run for run in runs if run[0].name != "bad"] + [(suite.Run("d", source, [], ("solver",)), folder / "d")]
+            for name in "abc":
+                (folder / name / "run.json").unlink()
+            suite.executeTogether(good, folder, 2)
+            words = [line.replace(f"{folder}/", "") for line in log.read_text().splitlines()]
+            assert set(words[:2]) == {"begin 1 a", "begin 1 b"} and words[-2:] == ["begin 2 d", "end 2 d"] and len(words) == 10, words
+
+
 def test_domain():
     """Another box is that and nothing else, in a folder of its own."""
     size, work = "[40 um, 32.5 um, 40 um]", pathlib.Path("work")
