@@ -10,6 +10,7 @@
 #include "schemes/cost.hpp"
 #include "simulation/caseFiles.hpp"
 #include "simulation/caseRules.hpp"
+#include "simulation/foreignKeys.hpp"
 #include "simulation/placesTable.hpp"
 #include "simulation/readyCell.hpp"
 
@@ -179,7 +180,7 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
     }
     if (app.hasDictionary("system/observers.yaml"))
         c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
-    problems.throwIfAny();
+    throwWithKeysInstead(problems);
 }
 
 // Where the cells of each type are put.
