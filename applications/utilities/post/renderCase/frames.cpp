@@ -127,9 +127,9 @@ io::PolyData placed(const io::PolyData& mesh, const std::vector<geometry::Place>
     const auto repeat = [&](const auto& arrays, auto& into) {
         for (const auto& [name, values] : arrays) into[name].insert(into[name].end(), values.begin(), values.end());
     };
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (const geometry::Place& place : places) {
         const int first = static_cast<int>(all.points.size());
-        const std::vector<Vec3> nodes = places[k].of(mesh.points);
+        const std::vector<Vec3> nodes = place.of(mesh.points);
         all.points.insert(all.points.end(), nodes.begin(), nodes.end());
         for (const Index3& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
         repeat(mesh.point.scalars, all.point.scalars), repeat(mesh.cell.scalars, all.cell.scalars);
