@@ -62,15 +62,15 @@ constexpr std::array<Prefix, 10> prefixes{
     {{'a', -18}, {'f', -15}, {'p', -12}, {'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'k', 3}, {'M', 6}, {'G', 9}}};
 
 std::string namesOf(bool prefixable) {
-    std::string names;
+    std::vector<std::string> names;
     for (const Symbol& s : symbols)
-        if (s.prefixable == prefixable) (names += names.empty() ? "" : " ") += s.name;
-    return names;
+        if (s.prefixable == prefixable) names.emplace_back(s.name);
+    return joinWords(names, " ");
 }
 std::string prefixLetters() {
-    std::string letters;
-    for (const Prefix& p : prefixes) (letters += letters.empty() ? "" : " ") += p.letter;
-    return letters;
+    std::vector<std::string> letters;
+    for (const Prefix& p : prefixes) letters.emplace_back(1, p.letter);
+    return joinWords(letters, " ");
 }
 
 std::optional<UnitValue> lookUp(std::string_view name) {

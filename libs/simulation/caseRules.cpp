@@ -315,14 +315,14 @@ std::vector<std::string> unusedEntries(const Case& c) {
     std::vector<std::string> words;
     const auto find = [&](const auto& entries, const std::string& file, const std::string& kind, const char* key) {
         const std::set<std::string>& names = taken[kind];
-        std::string others;
-        for (const std::string& name : names) (others += others.empty() ? "they take " : ", ") += name;
+        const std::string others = names.empty() ? fmt::format("there is no {}", kind)
+                                                 : "they take " + joinWords({names.begin(), names.end()});
         for (const auto& entry : entries)
             if (!names.contains(entry.first))
                 words.push_back(fmt::format(
                     "{}: {}: no {} of system/mesh.yaml takes this entry, so that it has no effect ({}); remove it, or "
                     "name it in '{}' of a {}",
-                    file, entry.first, kind, names.empty() ? fmt::format("there is no {}", kind) : others, key, kind));
+                    file, entry.first, kind, others, key, kind));
     };
     find(c.membranes.types, "constant/membranes.yaml", "cell", "membrane");
     find(c.bodies.types, "constant/bodies.yaml", "body", "body");

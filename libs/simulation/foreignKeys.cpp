@@ -51,14 +51,15 @@ const std::vector<Habit>& habits() {
     return all;
 }
 
-}  // namespace
-
+// Empty: none is known.
 std::string insteadOf(const std::string& file, const std::string& key) {
     for (const Habit& habit : habits())
         if (habit.file == file && std::find(habit.keys.begin(), habit.keys.end(), key) != habit.keys.end())
             return habit.instead;
     return {};
 }
+
+}  // namespace
 
 void throwWithKeysInstead(const Problems& problems) {
     try {

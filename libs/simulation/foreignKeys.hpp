@@ -4,9 +4,6 @@
 
 namespace corpuscle::simulation {
 
-// Of a dictionary ("system/control.yaml"); empty: none is known.
-std::string insteadOf(const std::string& file, const std::string& key);
-
 // Throws all problems, as Problems::throwIfAny; those about an unknown key that is one of these say what to write.
 void throwWithKeysInstead(const Problems& problems);
 
