@@ -46,6 +46,9 @@ struct PolyData {
     bool verified = false;                     // by readVtp: the file has a checksum, which is right
 };
 
+// Puts a piece with the same arrays behind what there is; field data and texts stay.
+void append(PolyData& all, const PolyData& piece);
+
 enum class Cells { vertices, triangles, lines };
 
 // Throws Failure(ExitCode::io) when the file cannot be written, std::invalid_argument when an array has the wrong

@@ -64,7 +64,9 @@ PolyData toPolyData(VtpPiece& piece, const std::string& where, F&& fail) {
     return data;
 }
 
-void join(PolyData& all, const PolyData& piece) {
+}  // namespace
+
+void append(PolyData& all, const PolyData& piece) {
     const int first = static_cast<int>(all.points.size());
     all.points.insert(all.points.end(), piece.points.begin(), piece.points.end());
     for (const auto& t : piece.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -76,15 +78,13 @@ void join(PolyData& all, const PolyData& piece) {
     append(all.cell, piece.cell, all.cell.where);
 }
 
-}  // namespace
-
 PolyData readVtp(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& what) -> Failure {
         return {ExitCode::io, fmt::format("{}: {}", path.string(), what)};
     };
     VtpFile file = readVtpFile(path);
     PolyData data = toPolyData(file.pieces.front(), path.string(), fail);
-    for (std::size_t i = 1; i < file.pieces.size(); ++i) join(data, toPolyData(file.pieces[i], path.string(), fail));
+    for (std::size_t i = 1; i < file.pieces.size(); ++i) append(data, toPolyData(file.pieces[i], path.string(), fail));
     for (const VtpArray& array : file.field) {
         if (array.reals.size() == 1) data.field[array.name] = array.reals.front();
         if (array.integers.size() == 1) data.field[array.name] = static_cast<double>(array.integers.front());
@@ -120,7 +120,7 @@ PolyData readPvtp(const std::filesystem::path& path) {
         const std::string* source = element.attribute("Source");
         if (element.name != "Piece" || !source) continue;
         const PolyData piece = readVtp(path.parent_path() / *source);
-        join(all, piece);
+        append(all, piece);
         all.field.insert(piece.field.begin(), piece.field.end());
     }
     return all;

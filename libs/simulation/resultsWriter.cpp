@@ -107,23 +107,6 @@ io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     return data;
 }
 
-namespace {
-
-// Behind what there is already, which has the same arrays.
-void append(io::PolyData& all, const io::PolyData& one) {
-    const int first = static_cast<int>(all.points.size());
-    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
-    for (const Index3& t : one.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    const auto join = [](auto& to, const auto& from) {
-        for (const auto& [name, values] : from) to[name].insert(to[name].end(), values.begin(), values.end());
-    };
-    join(all.point.scalars, one.point.scalars), join(all.cell.scalars, one.cell.scalars);
-    join(all.point.vectors, one.point.vectors), join(all.cell.vectors, one.cell.vectors);
-    join(all.point.integers, one.point.integers), join(all.cell.integers, one.cell.integers);
-}
-
-}  // namespace
-
 io::PolyData typePiece(const Scene& scene, std::size_t type) {
     io::PolyData all;
     for (const char* name : {"force", "velocity"}) all.point.vectors[name];
@@ -141,7 +124,7 @@ io::PolyData typePiece(const Scene& scene, std::size_t type) {
         io::PolyData one = membranePiece(cell.membrane, scene.spacing);
         one.point.integers["cell"].assign(one.points.size(), cell.membrane.cell);
         one.cell.integers["cell"].assign(one.triangles.size(), cell.membrane.cell);
-        append(all, one);
+        io::append(all, one);
     }
     return all;
 }

@@ -122,25 +122,14 @@ void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
 // One mesh, once at each place, as cells of one stream. Arrays of a mesh in 0/ are those of the stress-free state, the
 // same for each.
 io::PolyData placed(const io::PolyData& mesh, const std::vector<geometry::Place>& places) {
-    io::PolyData all;
+    io::PolyData all, one = mesh;
     all.field = mesh.field;
-    const auto repeat = [&](const auto& arrays, auto& into) {
-        for (const auto& [name, values] : arrays) into[name].insert(into[name].end(), values.begin(), values.end());
-    };
+    std::int64_t number = 0;
     for (const geometry::Place& place : places) {
-        const int first = static_cast<int>(all.points.size());
-        const std::vector<Vec3> nodes = place.of(mesh.points);
-        all.points.insert(all.points.end(), nodes.begin(), nodes.end());
-        for (const Index3& t : mesh.triangles) all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-        repeat(mesh.point.scalars, all.point.scalars), repeat(mesh.cell.scalars, all.cell.scalars);
-        repeat(mesh.point.vectors, all.point.vectors), repeat(mesh.cell.vectors, all.cell.vectors);
-        repeat(mesh.point.integers, all.point.integers), repeat(mesh.cell.integers, all.cell.integers);
-    }
-    std::vector<std::int64_t>&ofPoints = all.point.integers["cell"], &ofTriangles = all.cell.integers["cell"];
-    ofPoints.clear(), ofTriangles.clear();
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        ofPoints.resize(ofPoints.size() + mesh.points.size(), static_cast<std::int64_t>(k) + 1);
-        ofTriangles.resize(ofTriangles.size() + mesh.triangles.size(), static_cast<std::int64_t>(k) + 1);
+        one.points = place.of(mesh.points);
+        one.point.integers["cell"].assign(mesh.points.size(), ++number);
+        one.cell.integers["cell"].assign(mesh.triangles.size(), number);
+        io::append(all, one);
     }
     return all;
 }
