@@ -57,6 +57,8 @@ struct SurfaceSettings {
     Choice<geometry::Shape> shape;
     Length edgeLength;  // target, as given
     double edge = 0;    // the same [m], once the particle spacing is known
+    std::string enclose;
+    bool enclosesExactly() const { return enclose == "exact"; }  // geometry/enclosedVolume.hpp
     Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();
     static const Schema<SurfaceSettings>& schema();
 };

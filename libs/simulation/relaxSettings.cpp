@@ -1,7 +1,7 @@
 #include "simulation/relaxSettings.hpp"
 
+#include "geometry/enclosedVolume.hpp"
 #include "geometry/flatSheet.hpp"
-#include "geometry/mesher.hpp"
 #include "simulation/stressFree.hpp"
 
 namespace corpuscle::simulation {
@@ -69,7 +69,7 @@ membrane::Membrane RelaxSettings::makeMembrane(const std::filesystem::path& case
                                                const MembranesSettings& membranes) const {
     geometry::TriangleMesh mesh;
     if (cell) {
-        mesh = geometry::meshSurface(*cell->shape, edge());
+        mesh = geometry::meshEnclosing(*cell->shape, edge(), cell->enclosesExactly());
     } else {
         mesh = sheet->diameter ? geometry::disc(0.5 * *sheet->diameter, sheet->edge)
                                : geometry::rectangle(sheet->size[0], sheet->size[1], sheet->edge);

@@ -1,6 +1,7 @@
 // membraneMesh, particleFill, checkMesh and listModels as a user runs them: exit codes, numbers, and what errors say.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -155,6 +156,35 @@ TEST_F(Utilities, ChecksFailOnAStartThatBelongsToAnotherCase) {
     EXPECT_TRUE(
         contains(silent.err, "0/fluid.vtp: does not say for which settings it was made; run particleFill again"))
         << silent.err;
+}
+
+TEST_F(Utilities, AMeshEnclosesTheVolumeOfItsShapeWhereTheCaseSaysSo) {
+    const std::string exact = "-set system/mesh.yaml:/cells/0/enclose=exact";
+    EXPECT_EQ(run("membraneMesh", exact).code, 0);
+    EXPECT_EQ(run("particleFill", exact).code, 0);
+    const Result check = run("checkMesh", exact);
+    EXPECT_EQ(check.code, 0) << check.err;
+    const io::PolyData mesh = io::readVtp(at("0/rbc.vtp"));
+    double volume = 0;
+    for (const auto& t : mesh.triangles)
+        volume += mesh.points[t[0]].dot(mesh.points[t[1]].cross(mesh.points[t[2]])) / 6;
+    EXPECT_NEAR(volume / 85.988326e-18, 1, 1e-7);
+
+    const Result other = run("checkMesh");
+    EXPECT_EQ(other.code, 2);
+    EXPECT_TRUE(contains(other.err, "cells[0].enclose: the case says surface, but 0/rbc.vtp was made for exact"))
+        << other.err;
+
+    io::PolyData larger = mesh;
+    for (Vec3& x : larger.points) x *= 1.001;
+    io::writeVtp(at("0/rbc.vtp"), larger);
+    const Result off = run("checkMesh", exact);
+    EXPECT_EQ(off.code, 2);
+    EXPECT_TRUE(contains(off.err, "the mesh encloses +0.3 % more than the shape")) << off.err;
+
+    const Result unknown = run("membraneMesh", "-set system/mesh.yaml:/cells/0/enclose=exactly");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_TRUE(contains(unknown.err, "exact")) << unknown.err;
 }
 
 TEST_F(Utilities, CellsInEachOtherAreRefused) {

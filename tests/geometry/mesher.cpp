@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 
 #include "core/error.hpp"
+#include "geometry/enclosedVolume.hpp"
 #include "geometry/evansFung.hpp"
 #include "geometry/fileShape.hpp"
 #include "geometry/kuchelFackerell.hpp"
@@ -55,6 +58,67 @@ TEST(Mesher, redCellAtFourEdgeLengths) {
     }
     EXPECT_LT(lastArea, 5e-4);
     EXPECT_LT(lastVolume, 1e-3);
+}
+
+// The mesh that encloses the volume of the shape, and what becomes of its area: volumes and areas of the shapes by
+// quadrature or formula, not by meshes.
+TEST(EnclosedVolume, isThatOfTheShape) {
+    const Sphere ball(3e-6);
+    const Spheroid flat(4e-6, 1.2e-6);
+    const struct {
+        const char* name;
+        const Shape& shape;
+        double area, volume, edge;
+    } cases[] = {{"red cell", redCell, 128.030428e-12, 85.988326e-18, 0.5e-6},
+                 {"red cell", redCell, 128.030428e-12, 85.988326e-18, 0.25e-6},
+                 {"ball", ball, 36e-12 * std::numbers::pi, 36e-18 * std::numbers::pi, 1e-6},
+                 {"ball", ball, 36e-12 * std::numbers::pi, 36e-18 * std::numbers::pi, 0.5e-6},
+                 {"flat spheroid", flat, flat.area(), 4.0 / 3 * std::numbers::pi * 16e-12 * 1.2e-6, 0.5e-6}};
+    double lastArea = 0;
+    const char* last = "";
+    for (const auto& one : cases) {
+        TriangleMesh mesh = meshSurface(one.shape, one.edge);
+        const double areaBefore = mesh.area() / one.area - 1, volumeBefore = mesh.volume() / one.volume - 1;
+        const std::vector<Vec3> nodes = mesh.nodes;
+        encloseVolume(mesh, one.shape);
+        const double area = mesh.area() / one.area - 1;
+        double furthest = 0;
+        for (std::size_t m = 0; m < nodes.size(); ++m) furthest = std::max(furthest, (mesh.nodes[m] - nodes[m]).norm());
+        std::printf("%-14s edge %.2f um: volume %+.2e -> %+.1e, area %+.2e -> %+.2e, nodes moved by %.3f edges\n",
+                    one.name, one.edge / micro, volumeBefore, mesh.volume() / one.volume - 1, areaBefore, area,
+                    furthest / one.edge);
+        EXPECT_NEAR(mesh.volume() / one.volume, 1, 1e-7) << one.name;  // the reference's digits
+        EXPECT_NEAR(mesh.volume() / one.shape.volume(), 1, 1e-10) << one.name;
+        EXPECT_LT(volumeBefore, -1e-3);
+        EXPECT_LT(std::abs(area), 0.6 * std::abs(areaBefore)) << one.name;
+        EXPECT_LT(furthest, 0.25 * one.edge);
+        EXPECT_TRUE(checkClosedManifold(mesh).empty());
+        EXPECT_TRUE(selfIntersections(mesh).empty());
+        if (std::string(last) == one.name) {
+            EXPECT_NEAR(std::log2(lastArea / area), 2, 0.4) << one.name;
+        }
+        lastArea = area, last = one.name;
+    }
+}
+
+TEST(EnclosedVolume, ofAMeshThatIsTheShapeChangesNothing) {
+    TriangleMesh ball = meshSurface(Sphere(3e-6), 1e-6);
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "corpuscleEnclosed.off";
+    {
+        std::ofstream out(file);
+        out.precision(17);
+        out << "OFF\n" << ball.nodes.size() << ' ' << ball.triangles.size() << " 0\n";
+        for (const Vec3& x : ball.nodes) out << 1e6 * x[0] << ' ' << 1e6 * x[1] << ' ' << 1e6 * x[2] << '\n';
+        for (const Index3& t : ball.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    }
+    FileShape shape;
+    shape.file = file.string();
+    shape.prepare(".");
+    std::filesystem::remove(file);
+    TriangleMesh mesh = *shape.triangulation();
+    const std::vector<Vec3> nodes = mesh.nodes;
+    encloseVolume(mesh, shape);
+    for (std::size_t m = 0; m < nodes.size(); ++m) EXPECT_LT((mesh.nodes[m] - nodes[m]).norm(), 1e-12);
 }
 
 TEST(Mesher, theTwoDimplesStayApart) {

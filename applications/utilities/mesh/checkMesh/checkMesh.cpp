@@ -27,7 +27,8 @@ namespace {
 
 constexpr double leastAngle = 20;           // degrees
 constexpr double edgeTolerance = 0.05;      // of the mean edge, relative
-constexpr double surfaceTolerance = 1e-6;   // of nodes from the shape, over the radius
+constexpr double surfaceTolerance = 1e-6;   // of nodes from the shape, over the radius; of the volume enclosed exactly
+constexpr double moveTolerance = 0.25;      // of nodes from the shape where they enclose its volume, in edges
 constexpr double leastDistance = 0.25;      // of two particles, in spacings
 constexpr double leastNodeDistance = 0.1;   // of a fluid particle and a node
 constexpr double leastCellDistance = 0.25;  // of the nodes of two cells
@@ -51,9 +52,16 @@ geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, c
     if (std::abs(quality.edgeMean / surface.edge - 1) > edgeTolerance)
         fault(fmt::format("mean edge {}, but system/mesh.yaml asks for {}: run membraneMesh again",
                           formatQuantity(quality.edgeMean, unit::metre), formatQuantity(surface.edge, unit::metre)));
-    if (!(quality.residual <= surfaceTolerance))
+    const double tolerance =
+        surface.enclosesExactly() ? moveTolerance * surface.edge / surface.shape->radius() : surfaceTolerance;
+    if (!(quality.residual <= tolerance))
         fault(fmt::format("nodes lie up to {:.2g} radii off the shape of system/mesh.yaml: run membraneMesh again",
                           quality.residual));
+    if (surface.enclosesExactly() && !(std::abs(quality.volumeError) <= surfaceTolerance))
+        fault(
+            fmt::format("the mesh encloses {:+.2g} % more than the shape, but system/mesh.yaml says `enclose: exact`: "
+                        "run membraneMesh again",
+                        100 * quality.volumeError));
     return quality;
 }
 

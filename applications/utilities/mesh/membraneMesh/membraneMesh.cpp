@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "../cellMeshes.hpp"
+#include "geometry/enclosedVolume.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/placement.hpp"
 
@@ -23,9 +24,9 @@ using geometry::TriangleMesh;
 
 namespace {
 
-// Surfaces are the same kind when shape, its settings and edge length are.
+// Surfaces are the same kind when shape, its settings, edge length and what the mesh encloses are.
 std::string kindOf(const simulation::SurfaceSettings& surface) {
-    return emit(writeChoice(surface.shape)) + fmt::format("{:a}", surface.edge);
+    return emit(writeChoice(surface.shape)) + fmt::format("{:a} {}", surface.edge, surface.enclose);
 }
 
 void writeSurface(const simulation::Case& input, const std::string& name, const TriangleMesh& mesh) {
@@ -50,7 +51,8 @@ class Meshes {
         const bool isNew = !made_.contains(kindOf(surface));
         if (isNew)
             for (const std::string& remark : surface.shape->remarks()) app_.log().info("{}", remark);
-        if (isNew) made_[kindOf(surface)] = geometry::meshSurface(*surface.shape, surface.edge);
+        if (isNew)
+            made_[kindOf(surface)] = geometry::meshEnclosing(*surface.shape, surface.edge, surface.enclosesExactly());
         TriangleMesh mesh = made_.at(kindOf(surface));
         const geometry::MeshQuality quality = geometry::meshQuality(mesh, surface.shape.model.get());
         json[surface.name] = {{"quality", utilities::toJson(quality)}};
