@@ -81,7 +81,7 @@ membrane::Membrane RelaxSettings::makeMembrane(const std::filesystem::path& case
     problems.throwIfAny();
     return {name(),
             1,
-            std::move(mesh.nodes),
+            mesh.nodes,
             std::move(mesh.triangles),
             laws,
             cell ? cell->shape->radius() : sheet->radius(),
