@@ -5,36 +5,29 @@
 
 The cell of the tutorial rbcShear/Ca0.02 (springs), Re 0.01, edges of dx, in a box of 5 x 4 x 5 radii. Of each place: strain of a quarter turn and
 the least D12 by inertia until then. The flow has no such places, so that what differs between them is an error. -across: particles along the
-radius. A run that has ended is not run again.
+radius. What has ended is not run again unless its settings have changed; a stopped run goes on.
 """
 import argparse
+import math
 import pathlib
 import statistics
-import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from tutorialCase import RADIUS, prepare, sized
-from membranes import Course
-from suite import ENVIRONMENT
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests" / "validation"))
+from membranes import RADIUS, Course, settings
+from suite import PROGRAMS, TUTORIALS, Run, execute
 
 BOX = (5, 4, 5)  # radii
 PLACES = [(0, 0, 0), (0.5, 0, 0), (0, 0, 0.5), (0.25, 0.25, 0.25), (0.5, 0.5, 0.5), (0.3, 0.1, 0.4)]  # spacings
 
 
-def course(binaries, directory, across, place, words):
-    """The run's, to the strain asked for."""
+def run(across, place, words):
     spacing = RADIUS / across
-    case = directory / f"{across}_{words.viscosityRatio:g}_{words.Ca:g}_{'_'.join(f'{x:g}' for x in place)}"
-    options = prepare(case, binaries, "rbcShear/Ca0.02", sized([RADIUS * x for x in BOX], spacing) + [
-        "system/mesh.yaml:/cells/0/centre=[" + ", ".join(f"{spacing * x:.8g} um" for x in place) + "]",
-        f"constant/membranes.yaml:/rbc/interior/viscosityRatio={words.viscosityRatio:g}", f"constant/flow.yaml:/Ca={words.Ca:g}",
-        "constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.05 strain", "system/control.yaml:/write={}",
-        f"system/control.yaml:/endStrain={words.end:g}"])
-    if not (case / "done").exists():
-        subprocess.run([binaries / "dmpFlow", "-case", case, *options], check=True, env=ENVIRONMENT)
-        (case / "done").touch()
-    return Course(case)
+    more = ["system/mesh.yaml:/cells/0/centre=[" + ", ".join(f"{spacing * x:.8g} um" for x in place) + "]",
+            f"constant/membranes.yaml:/rbc/interior/viscosityRatio={words.viscosityRatio:g}", f"constant/flow.yaml:/Ca={words.Ca:g}",
+            "constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.05 strain"]
+    name = f"{across}_{words.viscosityRatio:g}_{words.Ca:g}_{'_'.join(f'{x:g}' for x in place)}"
+    return Run(name, TUTORIALS / "rbcShear" / "Ca0.02", settings(across, BOX, words.end, more), PROGRAMS)
 
 
 if __name__ == "__main__":
@@ -46,14 +39,17 @@ if __name__ == "__main__":
     parser.add_argument("-Ca", type=float, default=0.2)
     parser.add_argument("-end", type=float, default=8)
     words = parser.parse_args()
-    directory = words.directory.resolve()
-    directory.mkdir(parents=True, exist_ok=True)
     print("| a/dx | centre [dx] | quarter turn | least D12 |\n|---|---|---|---|")
     for across in map(int, words.across.split(",")):
         turns = []
         for place in PLACES:
-            found = course(words.bin.resolve(), directory, across, place, words)
-            turns.append(found.turn(90))
-            least = min(row["D12_inertia"] for row in found.shape[1:] if row["strain"] <= turns[-1])
+            planned = run(across, place, words)
+            folder = words.directory.resolve() / planned.name
+            execute(planned, folder, words.bin.resolve(), 1)
+            course = Course(folder)
+            turns.append(course.turn(90))
+            if math.isnan(turns[-1]):
+                sys.exit(f"placement: {folder} has not turned by 90 degrees at strain {words.end:g}; take a larger -end")
+            least = min(row["D12_inertia"] for row in course.shape[1:] if row["strain"] <= turns[-1])
             print(f"| {across} | {', '.join(f'{x:g}' for x in place)} | {turns[-1]:.3f} | {least:.4f} |", flush=True)
         print(f"| {across} | mean, standard deviation | {statistics.mean(turns):.3f}, {statistics.stdev(turns):.3f} | |", flush=True)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """A flat membrane between two fluids on a lattice of particles: what its place between two layers of particles does to its nodes.
 
     plane.py [-viscosityRatio 1] [-R 2.5] [-weights moments|kink] [-mean side|laminate]
@@ -16,7 +16,7 @@ Weights of nodes within R, by least squares with W: sum w = 1, sum w q = 0, and
 Excess viscosity of a layer, whose share f inside is that of its thickness:
     side      (ratio - 1) where its particles are inside, 0 elsewhere
     laminate  harmonic mean of the viscosities by p - kappa (1 - 1/ratio)^2 p (1 - p)/(1 - p + p/ratio)^2 - 1, p the mean of f over the kernel
-s, or v, t, kappa, are those for which the means over all places are 0.
+s, or v, t, kappa, are those for which the means over all places are 0. Needs Debian's python3-numpy.
 """
 import argparse
 
@@ -55,7 +55,7 @@ PAIRS, GRADIENT = operators()
 
 
 def kink():
-    """phi on a table of |z|/R."""
+    """The function phi of z/R, by a table."""
     q = np.linspace(0, 1, 4001)
     moment = lambda k: np.trapz(q ** (2 + k) * W(q), q) * 4 * np.pi
     c0, c2 = np.linalg.solve([[moment(0), moment(2)], [moment(2), moment(4)]], [1, 0.1])
@@ -65,7 +65,8 @@ def kink():
     share = np.interp(abs(y), q, below[-1] - below)
     share /= share.sum()
     table = np.linspace(0, 1, 501)
-    return lambda x: np.interp(abs(x), table, [(abs(at - y) * share).sum() for at in table])
+    values = [(abs(at - y) * share).sum() for at in table]
+    return lambda x: np.interp(abs(x), table, values)
 
 
 def weights(place, R, conditions, count):

@@ -48,8 +48,7 @@ void encloseVolume(TriangleMesh& mesh, const Shape& shape) {
         if (std::abs(here) < exactEnough) break;
         const double next = c - here * (c - before) / (here - errorBefore);
         before = c, errorBefore = here;
-        if (!(next >= least && next <= most)) break;
-        if (next == c) return;  // to rounding
+        if (!(next >= least && next <= most)) break;  // not a number where c no longer changes
         c = next;
     }
     if (!(std::abs(error(c)) < 1e-10))

@@ -3,7 +3,7 @@
 // 0/<cell>.vtp and 0/<body>.vtp (membraneMesh), 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp (particleFill) hold places:
 // nodes and triangles, particles and their sides. Each notes in its field data, as texts by name, the settings that its
 // places follow from; reading compares them with the case:
-//     of a cell       cell.shape.*, cell.edge, cell.centre, cell.axis; of a body likewise
+//     of a cell       cell.shape.*, cell.edge, cell.enclose, cell.centre, cell.axis; of a body likewise
 //     of particles    mesh.domain.*, mesh.cells[n].*, mesh.bodies[n].*, numerics.spacing; of mesh.fill.* and
 //                     numerics.kernel.* what counts
 // What only the run depends on (flow, Ca, Re, fluid, laws, time step) is not among them: a start holds for all such

@@ -101,6 +101,22 @@ TEST(EnclosedVolume, isThatOfTheShape) {
     }
 }
 
+TEST(EnclosedVolume, thatNoMoveReachesIsRefused) {
+    struct Larger : Sphere {
+        using Sphere::Sphere;
+        double volume() const override { return 1.5 * Sphere::volume(); }
+    };
+    const Larger shape(3e-6);
+    TriangleMesh mesh = meshSurface(shape, 1e-6);
+    try {
+        encloseVolume(mesh, shape);
+        FAIL();
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code(), ExitCode::invalidCase);
+        EXPECT_NE(std::string(failure.what()).find("it lacks 36 % of it"), std::string::npos) << failure.what();
+    }
+}
+
 TEST(EnclosedVolume, ofAMeshThatIsTheShapeChangesNothing) {
     TriangleMesh ball = meshSurface(Sphere(3e-6), 1e-6);
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "corpuscleEnclosed.off";
