@@ -19,6 +19,7 @@ Excess viscosity of a layer, whose share f inside is that of its thickness:
 s, or v, t, kappa, are those for which the means over all places are 0. Needs Debian's python3-numpy.
 """
 import argparse
+import sys
 
 import numpy as np
 
@@ -136,6 +137,8 @@ class Plane:
                 break
             slopes = [(self.errors(x + 1e-4 * np.eye(3)[k]).mean(0) - here)[solved] / 1e-4 for k in unknown]
             x[unknown] -= np.linalg.solve(np.array(slopes).T, here[solved])
+        else:
+            sys.exit(f"plane: no constants found at the ratio of viscosities {self.ratio:g}: mean errors are still {here[solved]}")
         return x, self.errors(x)
 
 
