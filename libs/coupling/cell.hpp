@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/arc.hpp"
 #include "geometry/crossings.hpp"
 #include "geometry/place.hpp"
 #include "membrane/membrane.hpp"
@@ -46,6 +47,7 @@ struct Cell {
     double initialArea = 0, initialVolume = 0;  // at t = 0 [m^2, m^3]
     std::vector<double> nodeMass{};             // of each node as a particle [kg]
     double solidVolume = 0;                     // of rigid bodies inside [m^3]
+    Arc arc{};  // by which its nodes are off the chord of their step; none between steps
 
     std::vector<int> holders{0};  // ranks that hold it, ascending; the first of them is its owner
     geometry::Bounds reach{};     // of its nodes when it was last settled who holds it

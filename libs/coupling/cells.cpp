@@ -195,12 +195,13 @@ void Cells::resettle(const ParticleSystem& system) {
               [](const Cell& a, const Cell& b) { return a.membrane.cell < b.membrane.cell; });
 }
 
-// Number, reach, places and velocities of the nodes, living bonds, damage.
+// Number, reach, arc, places and velocities of the nodes, living bonds, damage.
 std::vector<double> Cells::packed(const Cell& cell) const {
     const membrane::Membrane& m = cell.membrane;
     std::vector<double> message{static_cast<double>(m.cell)};
     const auto add = [&](const Vec3& v) { message.insert(message.end(), v.data(), v.data() + 3); };
     add(cell.reach.min()), add(cell.reach.max());
+    add(cell.arc.centre), add(cell.arc.turn);
     for (const Vec3& x : m.position) add(x);
     for (const Vec3& u : m.velocity) add(u);
     const std::vector<char>& alive = m.network().aliveBonds();
@@ -220,6 +221,7 @@ Cell Cells::unpacked(const std::vector<double>& message, std::size_t& at) const 
     membrane::Membrane& m = cell.membrane;
     const Vec3 low = vector(), high = vector();
     cell.reach = {low, high};
+    cell.arc.centre = vector(), cell.arc.turn = vector();
     for (Vec3& x : m.position) x = vector();
     for (Vec3& u : m.velocity) u = vector();
     std::vector<char> alive(m.network().allBonds().size());

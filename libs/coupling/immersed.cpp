@@ -12,6 +12,24 @@ void Immersed::move(double seconds) {
             cell.membrane.position[n] += seconds * cell.membrane.velocity[n];
 }
 
+void Immersed::depart(double seconds, bool onArc) {
+    move(seconds);
+    if (!onArc) return;
+    for (Cell& cell : cells_) {
+        membrane::Membrane& m = cell.membrane;
+        cell.arc = Arc::of(m.position, m.velocity, seconds);
+        for (Vec3& x : m.position) x = cell.arc.fromChord(x);
+    }
+}
+
+void Immersed::takeBack(double seconds) {
+    for (Cell& cell : cells_) {
+        for (Vec3& x : cell.membrane.position) x = cell.arc.toChord(x);
+        cell.arc = {};
+    }
+    move(-seconds);
+}
+
 Immersed::Vectors Immersed::velocities() const {
     Vectors all;
     for (const Cell& cell : cells_) all.insert(all.end(), cell.membrane.velocity.begin(), cell.membrane.velocity.end());

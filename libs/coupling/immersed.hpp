@@ -35,6 +35,10 @@ class Immersed {
     const Cells& cells() const { return cells_; }
     const NodeLayout& layout() const { return layout_; }
     void move(double seconds);  // nodes along their velocities
+    // The same from the beginning of a step to where its forces are taken, and back from there. onArc: that is the
+    // middle of the arc on which each cell turns (arc.hpp).
+    void depart(double seconds, bool onArc);
+    void takeBack(double seconds);
     Vectors velocities() const;
     void setVelocities(const Vectors& velocities);
     void restoreVolume() { VolumeProjection::restore(cells_); }

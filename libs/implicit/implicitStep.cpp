@@ -79,7 +79,7 @@ class Step final : public ImplicitStep {
     bool attempt(double dt, double planned, bool backward) {
         const TimeDifference time = backward ? TimeDifference::backwardEuler(dt, state)
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
-        movement_.depart(time.begin());
+        movement_.depart(time);
         system_.prepare(time);
         movement_.findNear();
         system_.findGuess(velocity_);
@@ -87,7 +87,7 @@ class Step final : public ImplicitStep {
         takeDivergence(divergence_.value);
         preconditioner_->prepare();
         if (!solve()) {
-            movement_.takeBack(time.begin());
+            movement_.takeBack(time);
             return false;
         }
         const double bondRate =

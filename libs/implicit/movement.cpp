@@ -14,22 +14,23 @@ void Movement<Real>::moveVelocities(double seconds) {
 }
 
 template <class Real>
-void Movement<Real>::moveBy(double seconds) {
+void Movement<Real>::moveFluid(double seconds) {
     ParticleStore& s = system_.scene().store();
     for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + seconds * s.velocity(i));
-    if (system_.immersed()) system_.immersed()->move(seconds);
 }
 
 template <class Real>
-void Movement<Real>::depart(double seconds) {
-    moveBy(seconds);
-    if (system_.rigid()) system_.rigid()->depart(seconds);
+void Movement<Real>::depart(const TimeDifference& time) {
+    moveFluid(time.begin());
+    if (system_.immersed()) system_.immersed()->depart(time.begin(), !time.isAtEnd());
+    if (system_.rigid()) system_.rigid()->depart(time.begin());
     system_.scene().system->rebuild();
 }
 
 template <class Real>
-void Movement<Real>::takeBack(double seconds) {
-    moveBy(-seconds);
+void Movement<Real>::takeBack(const TimeDifference& time) {
+    moveFluid(-time.begin());
+    if (system_.immersed()) system_.immersed()->takeBack(time.begin());
     if (system_.rigid()) system_.rigid()->takeBack();
 }
 
@@ -45,7 +46,7 @@ void Movement<Real>::arrive(const Field& velocity) {
     ParticleStore& s = system_.scene().store();
     transport_.shift(system_.operators(), dt);
     if (coupling::Immersed* const immersed = system_.immersed()) {
-        immersed->move(-time.begin());
+        immersed->takeBack(time.begin());
         immersed->setVelocities(system_.membranes()->velocities());
         transport_.holdAtMembranes(*noFlux_, dt, [&](std::size_t i) { return vectorAt(velocity, i); });
         immersed->move(dt);

@@ -1,7 +1,8 @@
 // How an implicit step moves what is in a scene: to where its forces are taken, back from there, and to its end with
 // the velocity found.
 //
-//     x* = x^n + share dt u                                       departs, or takes it back
+//     x* = x^n + share dt u                                       departs, or takes it back; nodes of cells in the
+//                                                                 middle of a step on the arc (coupling/arc.hpp)
 //     x^(n+1) = x^n + dt v + shift,   a = (v - u)/h               arrives (timeDifference.hpp)
 // The state between steps has the velocity at its end, u + (t - t_middle) a; the step takes it back to that of the
 // middle first.
@@ -26,15 +27,15 @@ class Movement {
     // Velocities along their accelerations, between the middle of a step and its end.
     void moveVelocities(double seconds);
     // To the places at which forces are taken, and lists there. Collective.
-    void depart(double seconds);
-    void takeBack(double seconds);
+    void depart(const TimeDifference& time);
+    void takeBack(const TimeDifference& time);
     // Who is near a membrane, once the terms have been prepared.
     void findNear();
     // With the velocity v found: places, velocities and accelerations at the end of the step. Collective.
     void arrive(const Field& v);
 
   private:
-    void moveBy(double seconds);
+    void moveFluid(double seconds);
     System<Real>& system_;
     coupling::NoFlux* noFlux_;
     coupling::Transport transport_;

@@ -126,6 +126,7 @@ TEST(Cells, holdersAreThoseNearAndOneOfThemOwns) {
         for (Cell& cell : p.cells) {
             before[static_cast<std::size_t>(cell.membrane.cell)] = 1;
             const Vec3 way(0.45, 0.2 - 0.05 * cell.membrane.cell, 0.1);  // more than once round the box
+            cell.arc = {.centre = velocityOf(cell.membrane.cell, 7, step), .turn = way};
             for (std::size_t n = 0; n < cell.membrane.position.size(); ++n) {
                 cell.membrane.position[n] += way;
                 cell.membrane.velocity[n] = velocityOf(cell.membrane.cell, n, step);
@@ -153,6 +154,9 @@ TEST(Cells, holdersAreThoseNearAndOneOfThemOwns) {
             handedOver += !before[static_cast<std::size_t>(cell.membrane.cell)];
             for (std::size_t n = 0; n < cell.membrane.velocity.size(); ++n)
                 EXPECT_EQ(cell.membrane.velocity[n], velocityOf(cell.membrane.cell, n, step));
+            EXPECT_EQ(cell.arc.centre, velocityOf(cell.membrane.cell, 7, step))
+                << "it may be handed over within a step";
+            EXPECT_EQ(cell.arc.turn, Vec3(0.45, 0.2 - 0.05 * cell.membrane.cell, 0.1));
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, &notHeld, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);

@@ -152,14 +152,14 @@ TEST(Movement, goesThereAndBackAndArrives) {
         scene.store().fx[i] = scene.store().fy[i] = scene.store().fz[i] = 0;
     }
     const auto before = places();
-    movement.depart(0.2);
-    movement.takeBack(0.2);
+    const TimeDifference time = TimeDifference::midpoint(Fluid::dt, {}, false);
+    movement.depart(time);
+    movement.takeBack(time);
     for (const auto& [id, x] : places())  // those that are still here
         if (const auto was = before.find(id); was != before.end()) {
             EXPECT_LT(distance(x, was->second), 1e-14);
         }
-    const TimeDifference time = TimeDifference::midpoint(Fluid::dt, {}, false);
-    movement.depart(time.begin());
+    movement.depart(time);
     f.system.prepare(time);
     System<double>::Field velocity(f.system.length(), 0.0);
     for (std::size_t i = 0; i < f.system.owned(); ++i) setVector(velocity, i, v);

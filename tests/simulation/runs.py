@@ -281,11 +281,12 @@ def test_implicit(folder):
         run(case, "dmpFlow", ranks=ranks)
         losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
     assert losses[0] == losses[1] > 0, losses
-    # Of second order in the step. From a lattice: jittered particles are first evened out, at a pace that depends on the step.
+    # Of second order in the step. From a lattice: jittered particles are first evened out, at a pace that depends on the step. The steps are as long as
+    # they are since D12 has 2e-5 of another kind, by where particles happen to be.
     lattice = IMPLICIT_CASE["system/mesh.yaml"] + "fill: {jitter: 0}\n"
     start = prepared(folder / "lattice", {**IMPLICIT_CASE, "system/mesh.yaml": lattice})
     D = []
-    for step in (0.1, 0.05, 0.025):
+    for step in (0.15, 0.075, 0.0375):
         case = copied(start, folder / f"step{step}")
         run(case, "dmpFlow", "-set", f"system/numerics.yaml:/implicit/step={step}", "-set", "system/observers.yaml:/deformation/every=0.6 strain")
         D.append(float(series(case, "deformation")[-1][3]))
