@@ -110,11 +110,10 @@ void addSurface(Schema<Surface>& s, const FieldOptions& ofShape = {}) {
                "shape, of a cell the stress-free one; axis along z", ofShape)
         .length("edge", static_cast<Length Surface::*>(&SurfaceSettings::edgeLength), "edge length of the mesh",
                 {.range = positive})
-        .word(
-            "enclose", static_cast<std::string Surface::*>(&SurfaceSettings::enclose), {"surface", "exact"},
-            "where the mesh's nodes lie: on the surface, so that its facets cut off some of the volume; or off it, so "
-            "that the mesh encloses exactly the volume of the shape",
-            {.fallback = "surface"})
+        .word("enclose", static_cast<std::string Surface::*>(&SurfaceSettings::enclose), {"exact", "surface"},
+              "what the mesh encloses: exactly the volume of the shape, for which its nodes lie a little off the "
+              "surface; or what facets leave of it whose nodes lie on the surface",
+              {.fallback = "exact"})
         .vector("centre", static_cast<Vec3 Surface::*>(&SurfaceSettings::centre), unit::metre, "place of its centre",
                 {.fallback = "[0 m, 0 m, 0 m]"})
         .vector("axis", static_cast<Vec3 Surface::*>(&SurfaceSettings::axis), unit::none,

@@ -20,7 +20,6 @@ L, NU, RHO = 1e-3, 1e-6, 1000.0  # m, m^2/s, kg/m^3: of a cell; constant/fluid.y
 RE, LAYERS = 1e-3, 5  # Re = U a/nu
 STEPS = 6  # of three times that in which the flow follows the force: what is missing at the end falls by 3 to 4 in each
 EDGES = 16  # of the mesh along the radius
-INSCRIBED = 1 + 0.4 / 3 / EDGES**2  # nodes of a mesh that has the sphere's volume lie so far out
 REACH = 2.4  # system/numerics.yaml: support over dx
 
 # Sangani and Acrivos (zickHomsy.csv): K = sum q_s chi^s, chi = (c/0.5236)^(1/3); for the plot
@@ -66,7 +65,7 @@ def run(c, n, prefix=""):
     sound = 0.5 * L / tau  # pressure spreads over a cell, against the drag, at a rate of pi^2/tau
     rate = force * LAYERS * L / (8 * NU)  # that of the flow between walls without spheres, which counts the steps
     bodies = ", ".join(
-        f"{{name: sphere{x}{y}{z}, body: sphere, shape: {{type: sphere, radius: {1e6 * a * INSCRIBED:.8g} um}}, edge: {1e6 * a / EDGES:.6g} um, "
+        f"{{name: sphere{x}{y}{z}, body: sphere, shape: {{type: sphere, radius: {1e6 * a:.8g} um}}, edge: {1e6 * a / EDGES:.6g} um, "
         f"centre: [{1e3 * L * (x - (m - 1) / 2):g} mm, {1e3 * L * (y - (m - 1) / 2):g} mm, {1e3 * L * (z - (LAYERS - 1) / 2):g} mm]}}"
         for x in range(m) for y in range(m) for z in range(LAYERS))
     return Run(prefix + name(c), HERE, [
