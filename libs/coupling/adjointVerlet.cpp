@@ -6,6 +6,7 @@
 
 #include "core/communicator.hpp"
 #include "core/powerIteration.hpp"
+#include "coupling/insideShares.hpp"
 #include "coupling/transport.hpp"
 #include "particles/vectorField.hpp"
 #include "sph/randomSigns.hpp"
@@ -28,7 +29,7 @@ class Verlet final : public AdjointVerlet {
           operators_(scene.model(), *scene.system, options.form),
           transport_(scene, options.shifting) {
         if (!scene.cells.exist()) return;
-        immersed_ = std::make_unique<Immersed>(scene.cells, scene.spacing);
+        immersed_ = std::make_unique<Immersed>(scene.cells, scene.model(), *scene.system);
         noFlux_ = std::make_unique<NoFlux>(scene.cells, scene.spacing);
     }
 
@@ -95,6 +96,11 @@ class Verlet final : public AdjointVerlet {
         const std::size_t n = s.size();
         for (std::size_t i = 0; i < n; ++i) s.density[i] += extrapolation * s.densityRate[i];
         operators_.build(*scene_.system);
+        if (immersed_) {
+            immersed_->place(*scene_.system, operators_.volumes());
+            noFlux_->find(*scene_.system, *immersed_);
+        }
+        operators_.setInside(*scene_.system, insideShares(scene_, noFlux_.get()));
         findPressures(scene_, pressure_);
         field_.resize(width * n);
         for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
@@ -102,8 +108,6 @@ class Verlet final : public AdjointVerlet {
         const bool keeps = scene_.budget.kept;
         if (keeps) findRates();
         if (!immersed_) return;
-        immersed_->place(*scene_.system, operators_.volumes());
-        noFlux_->find(*scene_.system, *immersed_);
         Immersed::Vectors f = immersed_->force();
         double viscous = 0;
         if (immersed_->isViscous()) {

@@ -1,10 +1,33 @@
 #include "coupling/immersed.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace corpuscle::coupling {
 
 using particles::ParticleSystem;
+
+namespace {
+
+std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidModel& model,
+                                         const ParticleSystem& system) {
+    std::map<double, NodeConditions> known;  // by the ratio of viscosities
+    std::vector<NodeConditions> conditions;
+    for (const CellType& type : cells.types()) {
+        const auto [at, isNew] = known.try_emplace(type.viscosityRatio);
+        if (isNew)
+            at->second = FlatMembrane(*model.kernel, system.support() / system.spacing(),
+                                      NodeFluidMap::radiusInSpacings, type.viscosityRatio)
+                             .conditions();
+        conditions.push_back(at->second);
+    }
+    return conditions;
+}
+
+}  // namespace
+
+Immersed::Immersed(Cells& cells, const sph::FluidModel& model, const ParticleSystem& system)
+    : cells_(cells), map_(system.spacing(), system.support(), conditionsOf(cells, model, system)), layout_(cells) {}
 
 void Immersed::move(double seconds) {
     for (Cell& cell : cells_)

@@ -15,6 +15,7 @@
 #include "coupling/membraneStiffness.hpp"
 #include "coupling/nodeFluidMap.hpp"
 #include "coupling/volumeProjection.hpp"
+#include "sph/fluidForces.hpp"
 
 namespace corpuscle::coupling {
 
@@ -29,7 +30,8 @@ class Immersed {
         return radiusInSpacings * spacing + support + 2 * skin;
     }
 
-    Immersed(Cells& cells, double spacing) : cells_(cells), map_(spacing), layout_(cells) {}
+    // model: of the fluid around them.
+    Immersed(Cells& cells, const sph::FluidModel& model, const particles::ParticleSystem& system);
 
     Cells& cells() { return cells_; }
     const Cells& cells() const { return cells_; }

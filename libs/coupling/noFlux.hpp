@@ -7,6 +7,7 @@
 // beyond it, goes to that distance; those that were beyond it are counted. In the interior of the fluid nothing is
 // done, and an opened cell is left alone.
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "coupling/immersed.hpp"
@@ -38,6 +39,11 @@ class NoFlux {
     template <class F>
     void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
         for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
+    }
+    // f(particle, cell, its distance from the membrane, positive outside [m])
+    template <class F>
+    void forDistances(F&& f) const {
+        for (const Near& near : near_) f(near.particle, std::as_const(cells_)[near.cell], near.at.distance);
     }
     // After particles and nodes have moved.
     void keepSides(particles::ParticleSystem& system);

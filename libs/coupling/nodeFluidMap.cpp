@@ -18,15 +18,9 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr int fewest = 10;           // particles for more than Shepard's weights
-constexpr std::size_t moments = 16;  // upper triangle of sum W b b^T with the basis b, and how many
-
-double wendland(double r) {
-    const double s = 1 - r, s2 = s * s;
-    return (1 + 4 * r) * s2 * s2;
-}
-
-Eigen::Matrix<double, 5, 1> basis(const Vec3& q) { return {1, q[0], q[1], q[2], q.squaredNorm()}; }
+constexpr int fewest = 10;  // particles for more than Shepard's weights
+constexpr std::size_t moments =
+    NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;  // upper triangle of sum V W b b^T, and how many
 
 // All images of x within `reach` of the rank's brick.
 template <class F>
@@ -48,24 +42,35 @@ void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f)
 
 void NodeFluidMap::place(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
                          const std::vector<double>& volume) {
-    findEntries(cells, system, volume);
+    findNormals(cells);
+    smoothing_.place(cells, layout, normal_);
+    for (Vec3& area : normal_) area.stableNormalize();
+    findNear(cells, system, volume);
     std::vector<char> isMine(layout.nodes());
-    for (std::size_t m = 0; m < isMine.size(); ++m) isMine[m] = own_.first[m + 1] > own_.first[m];
+    for (std::size_t m = 0; m < isMine.size(); ++m) isMine[m] = firstNear_[m + 1] > firstNear_[m];
     sums_.plan(
-        cells, system.comm(), [](const Cell& cell) { return cell.nodeCount(); }, isMine);
-    findWeights(cells, layout, system.comm());
+        cells, system.comm(), [](const Cell& cell) { return cell.nodeCount(); }, smoothing_.reached(isMine));
+    findCoefficients(cells, layout, system.comm());
+    own_.clear(), others_.clear();
+    for (std::size_t m = 0; m < layout.nodes(); ++m) {
+        for (std::size_t k = firstNear_[m]; k < firstNear_[m + 1]; ++k) add(near_[k], m, own_);
+        own_.first.push_back(own_.entries.size());
+    }
     own_.findTouched(layout, volume.size());
-    others_.clear();
-    normal_.clear();
-    for (const Cell& cell : cells)
-        for (const Vec3& area : membrane::volumeGradient(cell.membrane.position, cell.membrane.network().triangles()))
-            normal_.push_back(area.stableNormalized());
 }
 
-void NodeFluidMap::findEntries(const Cells& cells, const ParticleSystem& system, const std::vector<double>& volume) {
+void NodeFluidMap::findNormals(const Cells& cells) {
+    normal_.clear();
+    for (const Cell& cell : cells) {
+        const auto areas = membrane::volumeGradient(cell.membrane.position, cell.membrane.network().triangles());
+        normal_.insert(normal_.end(), areas.begin(), areas.end());
+    }
+}
+
+void NodeFluidMap::findNear(const Cells& cells, const ParticleSystem& system, const std::vector<double>& volume) {
     const particles::ParticleStore& s = system.store();
     const double reach = radius_ + 0.5 * system.skin();  // particles are found by their places when lists were built
-    own_.clear();
+    firstNear_.assign(1, 0), near_.clear();
     for (const Cell& cell : cells)
         for (const Vec3& x : cell.membrane.position) {
             forImages(system, x, reach, [&](const Vec3& image) {
@@ -73,47 +78,63 @@ void NodeFluidMap::findEntries(const Cells& cells, const ParticleSystem& system,
                     const Vec3 q = (s.position(static_cast<std::size_t>(i)) - image) / radius_;
                     const double r2 = q.squaredNorm();
                     if (r2 < 1)
-                        own_.entries.push_back(
-                            {i, volume[static_cast<std::size_t>(i)] * wendland(std::sqrt(r2)), 0, q});
+                        near_.push_back({i, volume[static_cast<std::size_t>(i)] * NodeBasis::weight(std::sqrt(r2)), q});
                 });
             });
-            own_.first.push_back(own_.entries.size());
+            firstNear_.push_back(near_.size());
         }
 }
 
-void NodeFluidMap::findWeights(const Cells& cells, const NodeLayout& layout, MPI_Comm comm) {
+bool NodeFluidMap::hasSlopes() const {
+    return std::any_of(conditions_.begin(), conditions_.end(), [](const NodeConditions& c) { return c.slope != 0; });
+}
+
+// Of the sums over all particles near the node.
+NodeFluidMap::Coefficients NodeFluidMap::solve(const Cell& cell, std::size_t m, const double* sums) const {
+    NodeBasis::Matrix A;
+    for (int a = 0; a < NodeBasis::size; ++a)
+        for (int b = a; b < NodeBasis::size; ++b) A(a, b) = A(b, a) = *sums++;
+    const auto factors = A.ldlt();
+    const NodeConditions& conditions = conditions_[cell.type];
+    const double square = smoothing_.square(m) / (radius_ * radius_);
+    Coefficients c{factors.solve(NodeBasis::conditions(conditions.kink, squareAlong - square)),
+                   factors.solve(NodeBasis::conditions(kinkAcross, squareAcross - square)),
+                   NodeBasis::Vector::Zero(),
+                   {}};
+    for (int k = 0; k < 3; ++k) c.slope.col(k) = factors.solve(NodeBasis::derivative(k)) / radius_;
+    c.shift = c.slope * smoothing_.shift(m);
+    c.slope *= conditions.slope * support_;
+    return c;
+}
+
+void NodeFluidMap::findCoefficients(const Cells& cells, const NodeLayout& layout, MPI_Comm comm) {
     const std::size_t nodes = layout.nodes();
     std::vector<double> sums(moments * nodes, 0.0);
     for (std::size_t m = 0; m < nodes; ++m)
-        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
-            const Polynomial of = basis(own_.entries[k].q);
+        for (std::size_t k = firstNear_[m]; k < firstNear_[m + 1]; ++k) {
+            const NodeBasis::Vector of = NodeBasis::at(near_[k].q, normal_[m]);
             double* sum = &sums[moments * m];
             for (int a = 0; a < of.size(); ++a)
-                for (int b = a; b < of.size(); ++b) *sum++ += own_.entries[k].along * of[a] * of[b];
+                for (int b = a; b < of.size(); ++b) *sum++ += near_[k].weight * of[a] * of[b];
             *sum += 1;
         }
     sums_.addUp(sums, moments);
-    along_.assign(nodes, Polynomial::Zero()), extra_.assign(nodes, Polynomial::Zero());
+    coefficients_.assign(nodes, {});
     std::vector<double> absolute(2 * nodes, 0.0);  // sum |w|, sum |w'|
-    for (std::size_t m = 0; m < nodes; ++m) {
-        const double* sum = &sums[moments * m];
-        Eigen::Matrix<double, 5, 5> A;
-        for (int a = 0; a < A.rows(); ++a)
-            for (int b = a; b < A.cols(); ++b) A(a, b) = A(b, a) = *sum++;
-        if (*sum < fewest) {
-            absolute[2 * m] = std::numeric_limits<double>::infinity();
-            continue;
+    for (std::size_t c = 0; c < layout.cells(); ++c)
+        for (std::size_t m = layout.first(c); m < layout.last(c); ++m) {
+            const double* sum = &sums[moments * m];
+            if (sum[moments - 1] < fewest) {
+                absolute[2 * m] = std::numeric_limits<double>::infinity();
+                continue;
+            }
+            coefficients_[m] = solve(cells[c], m, sum);
+            for (std::size_t k = firstNear_[m]; k < firstNear_[m + 1]; ++k) {
+                const NodeBasis::Vector of = NodeBasis::at(near_[k].q, normal_[m]);
+                absolute[2 * m] += std::abs(near_[k].weight * coefficients_[m].along.dot(of));
+                absolute[2 * m + 1] += std::abs(near_[k].weight * coefficients_[m].across.dot(of));
+            }
         }
-        const auto factors = A.ldlt();
-        along_[m] = factors.solve(Polynomial(1, 0, 0, 0, momentAlong));
-        extra_[m] = factors.solve(Polynomial(0, 0, 0, 0, momentAcross - momentAlong));
-        for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
-            const Entry& e = own_.entries[k];
-            const double w = e.along * along_[m].dot(basis(e.q));
-            absolute[2 * m] += std::abs(w);
-            absolute[2 * m + 1] += std::abs(w + e.along * extra_[m].dot(basis(e.q)));
-        }
-    }
     sums_.addUp(absolute, 2);
     const Communicator ranks(comm);
     long fallbacks = 0, dry = 0;
@@ -124,21 +145,23 @@ void NodeFluidMap::findWeights(const Cells& cells, const NodeLayout& layout, MPI
             if (!(all > 0) && dry++ == 0)
                 fault = fmt::format("node {} of the membrane '{}' has no fluid within {} m: the run has diverged",
                                     m - layout.first(c), cells[c].membrane.name, radius_);
-            if (!(absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights)) {
-                along_[m] = Polynomial(1 / all, 0, 0, 0, 0), extra_[m] = Polynomial::Zero();
-                fallbacks += cells[c].isOwnedBy(ranks.rank()) ? 1 : 0;
-            }
-            for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
-                Entry& e = own_.entries[k];
-                const Polynomial of = basis(e.q);
-                e.extra = e.along * extra_[m].dot(of);
-                e.along *= along_[m].dot(of);
-            }
+            if (absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights) continue;
+            const NodeBasis::Vector mean = NodeBasis::Vector::Unit(0) / all;
+            coefficients_[m] = {mean, mean, NodeBasis::Vector::Zero(), decltype(Coefficients::slope)::Zero()};
+            fallbacks += cells[c].isOwnedBy(ranks.rank()) ? 1 : 0;
         }
     const std::vector<long> counts = ranks.sum(std::vector<long>{fallbacks, dry});
     if (counts[1] > 0) throwTogether(comm, dry > 0, fault, ExitCode::numerics);
     fallbacks_ = counts[0];
     mostFallbacks_ = std::max(mostFallbacks_, fallbacks_);
+}
+
+void NodeFluidMap::add(const Near& near, std::size_t m, Weights& weights) const {
+    const NodeBasis::Vector of = near.weight * NodeBasis::at(near.q, normal_[m]);
+    const Coefficients& c = coefficients_[m];
+    const double along = c.along.dot(of);
+    weights.entries.push_back({near.particle, along, c.across.dot(of) - along, c.shift.dot(of)});
+    if (hasSlopes()) weights.slopes.push_back(c.slope.transpose() * of);
 }
 
 void NodeFluidMap::Weights::findTouched(const NodeLayout& layout, std::size_t particles) {
@@ -175,10 +198,7 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
                     const double* record = records.data() + 4 * (own + static_cast<std::size_t>(ghost));
                     const Vec3 q = (Vec3::Map(record) - image) / radius_;
                     if (q.squaredNorm() >= 1) return;
-                    const double weight = record[3] * wendland(q.norm());
-                    const Polynomial of = basis(q);
-                    others_.entries.push_back(
-                        {static_cast<int>(entry), weight * along_[m].dot(of), weight * extra_[m].dot(of), q});
+                    add({static_cast<int>(entry), record[3] * NodeBasis::weight(q.norm()), q}, m, others_);
                 });
             });
             others_.first.push_back(others_.entries.size());
@@ -188,7 +208,7 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
 
 template <class Real>
 NodeVectors NodeFluidMap::interpolate(const Real* u) {
-    NodeVectors v(normal_.size(), Vec3::Zero());
+    NodeVectors v(normal_.size(), Vec3::Zero()), shifts(smoothing_.isIdentity() ? 0 : v.size(), Vec3::Zero());
     for (std::size_t m = 0; m < v.size(); ++m) {
         const Vec3& n = normal_[m];
         double across = 0;
@@ -196,11 +216,19 @@ NodeVectors NodeFluidMap::interpolate(const Real* u) {
             const Entry& e = own_.entries[k];
             const Real* of = u + 4 * static_cast<std::size_t>(e.particle);
             const Vec3 here(of[0], of[1], of[2]);
+            const double normal = n.dot(here);
             v[m] += e.along * here;
-            across += e.extra * n.dot(here);
+            across += e.extra * normal;
+            if (!shifts.empty()) shifts[m] += e.shift * here;
+            if (own_.slopes.empty()) continue;
+            const Vec3& g = own_.slopes[k];
+            const double slope = n.dot(g);
+            v[m] += slope * (here - normal * n) + normal * (g - slope * n);
         }
         v[m] += across * n;
     }
+    smoothing_.apply(v);
+    for (std::size_t m = 0; m < shifts.size(); ++m) v[m] += shifts[m];
     sums_.addUp({reinterpret_cast<double*>(v.data()), 3 * v.size()}, 3);
     return v;
 }
@@ -208,12 +236,17 @@ template NodeVectors NodeFluidMap::interpolate(const double*);
 template NodeVectors NodeFluidMap::interpolate(const float*);
 
 void NodeFluidMap::spreadBy(const Weights& weights, const NodeVectors& f, particles::RealArray& force) const {
+    NodeVectors mean = f;
+    smoothing_.transpose(mean);
     for (std::size_t m = 0; m + 1 < weights.first.size(); ++m) {
-        const Vec3 across = normal_[m].dot(f[m]) * normal_[m];
+        const Vec3& n = normal_[m];
+        const Vec3 across = n.dot(mean[m]) * n, along = mean[m] - across;
         for (std::size_t k = weights.first[m]; k < weights.first[m + 1]; ++k) {
             const Entry& e = weights.entries[k];
+            Vec3 sum = e.along * mean[m] + e.extra * across + e.shift * f[m];
+            if (!weights.slopes.empty()) sum += n.dot(weights.slopes[k]) * along + weights.slopes[k].dot(along) * n;
             double* to = force.data() + 4 * static_cast<std::size_t>(e.particle);
-            for (int a = 0; a < 3; ++a) to[a] += e.along * f[m][a] + e.extra * across[a];
+            for (int a = 0; a < 3; ++a) to[a] += sum[a];
         }
     }
 }

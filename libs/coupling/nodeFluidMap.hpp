@@ -1,19 +1,27 @@
 // What nodes of membranes find of a field in the fluid around them, and how their forces go to that fluid: the same
 // weights both ways.
 //
-//     S : u_m = sum_j [w_mj (1 - n n^T) + w'_mj n n^T] u_j,   n the membrane's normal at the node
-//     w_mj = V_j W(r/R) (c0 + c.q + c2 q^2),   W Wendland C2,   q = d_j/R,  r = |d_j|,  d_j = x_j - x_m,  R = 2.5 dx
-//     sum_j w_mj = 1,   sum_j w_mj q = 0,   sum_j w_mj q^2 = s along the membrane (w), s' across it (w')
-// Constant and linear fields are found exactly. The second moments make up for the reach of the weights: those of W
-// itself, 0.2, would leave a node behind the membrane, since the velocity bends there where the membrane pulls along
-// it, and what the weights spread is weaker by as much (docs/coupling.md; tests/implicit/loadedSphere.cpp has the
-// figures). Where sum_j |w_mj| > 4, as on one side of fluid alone, or fewer than 10 particles are near: c = 0, c2 = 0
-// (Shepard).
+//     S : u_m = sum_n M_mn s_n + (x_m - sum_n M_mn x_n).grad u
+//         s_m = sum_j [w_mj (1 - n n^T) + w'_mj n n^T] u_j + t H [(du/dn)_along + grad_along (u.n)],   n: normal at m
+// symbol | meaning
+// w, w'  | V_j W(r/R) (c.b(q)),  W Wendland C2,  q = d_j/R,  r = |d_j|,  d_j = x_j - x_m,  R = 2 dx;  b: nodeBasis.hpp
+//        | sum w = 1,   sum w q = 0,   sum w phi = v along the membrane (w) and v' across it (w'),
+//        | sum w rho^2 = r - s and sum w' rho^2 = r' - s
+// s      | mean square of M at the node, in R^2, so that M and w together have the second moments r, r'
+// M      | mean along the membrane (membraneSmoothing.hpp); the identity where edges are longer than 1.2 dx
+// grad   | by weights of the same form that have 1 for q_k and 0 for the rest
+// v, t   | so that nodes move as in the exact flow along a flat membrane between two fluids (flatMembrane.hpp)
+// v',r,r'| 0.23, -0.07, 0.02, by the responses of a sphere to loads of all kinds (tests/implicit/loadedSphere.cpp)
+// Constant and linear fields are found exactly. Where sum_j |w_mj| > 4, as on one side of fluid alone, or fewer than 10
+// particles are near, s_m is the mean by V_j W (Shepard).
 //
 // A rank has the entries of its own particles for the nodes of the cells that it holds. Sums over the particles of a
 // node are added up among the holders of its cell (holderSums.hpp).
 #pragma once
+#include "coupling/flatMembrane.hpp"
 #include "coupling/holderSums.hpp"
+#include "coupling/membraneSmoothing.hpp"
+#include "coupling/nodeBasis.hpp"
 #include "coupling/nodeLayout.hpp"
 #include "particles/sharedParticles.hpp"
 
@@ -21,10 +29,15 @@ namespace corpuscle::coupling {
 
 class NodeFluidMap {
   public:
-    static constexpr double radiusInSpacings = 2.5, largestWeights = 4.0;
-    static constexpr double momentAlong = -0.04, momentAcross = 0.04;  // s, s'
+    static constexpr double radiusInSpacings = 2, largestWeights = 4.0;
+    static constexpr double kinkAcross = 0.23, squareAlong = -0.07, squareAcross = 0.02;  // v', r, r'
 
-    explicit NodeFluidMap(double spacing) : radius_(radiusInSpacings * spacing) {}
+    // conditions: of the nodes of each type of cell. support: of the fluid's kernel [m].
+    NodeFluidMap(double spacing, double support, std::vector<NodeConditions> conditions)
+        : radius_(radiusInSpacings * spacing),
+          support_(support),
+          conditions_(std::move(conditions)),
+          smoothing_(spacing) {}
 
     // Weights where particles and nodes are now; lists are up to date. volume: of each particle [m^3]. Collective.
     // Throws Failure(numerics), on all ranks, where a node has no fluid around it.
@@ -50,30 +63,46 @@ class NodeFluidMap {
     long mostFallbacks() const { return mostFallbacks_; }  // of any
 
   private:
+    struct Near {  // a particle within R of a node
+        int particle;
+        double weight;  // V W
+        Vec3 q;
+    };
     struct Entry {
         int particle;
-        double along, extra;  // w, w' - w
-        Vec3 q;
+        double along, extra, shift;  // w, w' - w, (x_m - sum M x).grad
     };
     struct Weights {
         std::vector<std::size_t> first;  // of each node in `entries`, and one behind the last
         std::vector<Entry> entries;
+        NodeVectors slopes;  // t H grad of each entry; none where no cell has a t
         std::vector<int> touched;
         std::vector<std::vector<int>> touchedBy;  // of each cell
 
-        void clear() { first.assign(1, 0), entries.clear(), touched.clear(), touchedBy.clear(); }
+        void clear() { first.assign(1, 0), entries.clear(), slopes.clear(), touched.clear(), touchedBy.clear(); }
         void findTouched(const NodeLayout& layout, std::size_t particles);
     };
-    using Polynomial = Eigen::Matrix<double, 5, 1>;  // c0, c, c2
-    void findEntries(const Cells& cells, const particles::ParticleSystem& system, const std::vector<double>& volume);
-    void findWeights(const Cells& cells, const NodeLayout& layout, MPI_Comm comm);
+    struct Coefficients {  // c of a node's weights
+        NodeBasis::Vector along, across, shift;
+        Eigen::Matrix<double, NodeBasis::size, 3> slope;
+    };
+    void findNormals(const Cells& cells);
+    void findNear(const Cells& cells, const particles::ParticleSystem& system, const std::vector<double>& volume);
+    void findCoefficients(const Cells& cells, const NodeLayout& layout, MPI_Comm comm);
+    Coefficients solve(const Cell& cell, std::size_t m, const double* moments) const;
+    void add(const Near& near, std::size_t m, Weights& weights) const;
+    bool hasSlopes() const;
     void spreadBy(const Weights& weights, const NodeVectors& f, particles::RealArray& force) const;
 
-    double radius_;
+    double radius_, support_;
+    std::vector<NodeConditions> conditions_;
+    MembraneSmoothing smoothing_;
     HolderSums sums_;
+    std::vector<std::size_t> firstNear_;  // of each node in near_, and one behind the last
+    std::vector<Near> near_;              // own particles
     Weights own_, others_;
-    std::vector<Polynomial> along_, extra_;  // of each node
-    NodeVectors normal_;                     // of each node; 0 where it has no area
+    std::vector<Coefficients> coefficients_;  // of each node
+    NodeVectors normal_;                      // of each node; 0 where it has no area
     long fallbacks_ = 0, mostFallbacks_ = 0;
 };
 

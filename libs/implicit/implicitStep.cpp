@@ -24,7 +24,7 @@ using particles::vectorAt;
 namespace {
 
 std::unique_ptr<Immersed> immersedIn(Scene& scene) {
-    return !scene.cells.exist() ? nullptr : std::make_unique<Immersed>(scene.cells, scene.spacing);
+    return !scene.cells.exist() ? nullptr : std::make_unique<Immersed>(scene.cells, scene.model(), *scene.system);
 }
 std::unique_ptr<coupling::NoFlux> noFluxIn(Scene& scene) {
     return !scene.cells.exist() ? nullptr : std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
@@ -37,7 +37,8 @@ class Step final : public ImplicitStep {
         : ImplicitStep(immersedIn(scene), noFluxIn(scene)),
           scene_(scene),
           options_(options),
-          system_(scene, options.form, options_.settings, immersed_.get(), isOnGrid(options.settings.preconditioner)),
+          system_(scene, options.form, options_.settings, immersed_.get(), noFlux_.get(),
+                  isOnGrid(options.settings.preconditioner)),
           preconditioner_(makePreconditioner(options.settings.preconditioner, system_)),
           movement_(system_, options.shifting, noFlux_.get()),
           budget_(system_) {
@@ -81,7 +82,6 @@ class Step final : public ImplicitStep {
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
         movement_.depart(time);
         system_.prepare(time);
-        movement_.findNear();
         system_.findGuess(velocity_);
         system_.findResidual(velocity_, residual_);
         takeDivergence(divergence_.value);

@@ -35,11 +35,6 @@ void Movement<Real>::takeBack(const TimeDifference& time) {
 }
 
 template <class Real>
-void Movement<Real>::findNear() {
-    if (noFlux_) noFlux_->find(*system_.scene().system, *system_.immersed());
-}
-
-template <class Real>
 void Movement<Real>::arrive(const Field& velocity) {
     const TimeDifference& time = system_.time();
     const double dt = time.dt;

@@ -29,8 +29,6 @@ class Movement {
     // To the places at which forces are taken, and lists there. Collective.
     void depart(const TimeDifference& time);
     void takeBack(const TimeDifference& time);
-    // Who is near a membrane, once the terms have been prepared.
-    void findNear();
     // With the velocity v found: places, velocities and accelerations at the end of the step. Collective.
     void arrive(const Field& v);
 

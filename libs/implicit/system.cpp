@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupling/insideShares.hpp"
+
 namespace corpuscle::implicit {
 
 using particles::ParticleStore;
@@ -10,8 +12,8 @@ using particles::vectorAt;
 
 template <class Real>
 System<Real>::System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
-                     coupling::Immersed* immersed, bool onGrid)
-    : scene_(scene), immersed_(immersed), fluid_(scene, form) {
+                     coupling::Immersed* immersed, coupling::NoFlux* noFlux, bool onGrid)
+    : scene_(scene), immersed_(immersed), noFlux_(noFlux), fluid_(scene, form) {
     if (immersed_) {
         membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(), settings);
         terms_.push_back(membranes_.get());
@@ -28,6 +30,8 @@ template <class Real>
 void System<Real>::prepare(const TimeDifference& time) {
     time_ = time;
     for (auto term = terms_.rbegin(); term != terms_.rend(); ++term) (*term)->prepare(time.reach);  // the fluid's first
+    if (noFlux_) noFlux_->find(*scene_.system, *immersed_);
+    operators().setInside(*scene_.system, coupling::insideShares(scene_, noFlux_));
     findDiagonal();
 }
 

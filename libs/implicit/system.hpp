@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "coupling/immersed.hpp"
+#include "coupling/noFlux.hpp"
 #include "implicit/conjugateGradients.hpp"
 #include "implicit/fluidTerm.hpp"
 #include "implicit/implicitSettings.hpp"
@@ -30,12 +31,12 @@ class System {
     using Field = particles::AlignedVector<Real>;
     using RealArray = particles::RealArray;
 
-    // immersed: null without cells. onGrid: the preconditioner has a part on the background grid. All must stay where
-    // they are.
+    // immersed, noFlux: null without cells. onGrid: the preconditioner has a part on the background grid. All must stay
+    // where they are.
     System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
-           coupling::Immersed* immersed, bool onGrid);
+           coupling::Immersed* immersed, coupling::NoFlux* noFlux, bool onGrid);
 
-    // At x*, where lists are up to date: the terms, and the diagonal. Collective.
+    // At x*, where lists are up to date: the terms, who is near a membrane, and the diagonal. Collective.
     void prepare(const TimeDifference& time);
 
     // Extrapolated from the last two steps, for all entries and bodies. Collective.
@@ -102,6 +103,7 @@ class System {
 
     coupling::Scene& scene_;
     coupling::Immersed* immersed_;
+    coupling::NoFlux* noFlux_;
     FluidTerm<Real> fluid_;
     std::unique_ptr<MembraneTerm<Real>> membranes_;
     std::unique_ptr<RigidUnknowns<Real>> rigid_;

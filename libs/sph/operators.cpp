@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "core/together.hpp"
@@ -15,7 +16,7 @@ using particles::ParticleStore;
 using particles::ParticleSystem;
 
 namespace {
-constexpr int rateFields = 16, momentFields = 4, stressAt = 4;
+constexpr int rateFields = 16, momentFields = 4, stressAt = 4, stressFields = 10, varyingStressFields = 13;
 constexpr particles::Halo::Part velocityPart{3, 6};
 constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14, gapAt = 15;
 constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
@@ -47,8 +48,9 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
     : model_(model),
       form_(form),
       viscosity_(kindOf(model, system)),
-      stressFields_(stressAt + (isVarying() ? 9 : 6)),
-      kernels_(kernelsOf<Real>(model.kernel->kind(), viscosity_)) {
+      uniform_(kernelsOf<Real>(model.kernel->kind(), ViscosityKind::uniform)),
+      varying_(kernelsOf<Real>(model.kernel->kind(), viscosity_)),
+      excess_(model) {
     const double H = system.support(), gradient = model.kernel->gradientNormalisation(H);
     unitVolume_ = model.mass / model.density;
     const double atSpacing = model.kernel->value(system.spacing() / H);
@@ -71,6 +73,54 @@ void Operators<Real>::build(ParticleSystem& system) {
     }
     findMoments(system);
     packRecords(system);
+    if (!isTwoFluids()) sortBlocks(system, [&](std::size_t) { return isLayered(); });
+    hasInside_ = false;
+}
+
+template <class Real>
+template <class HasStress>
+void Operators<Real>::sortBlocks(const ParticleSystem& system, HasStress&& hasStress) {
+    const particles::PairList& list = system.list();
+    const particles::PairView view = list.view();
+    const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
+    std::vector<char> stressed(all, 0), touched(all, 0);
+    for (std::size_t i = 0; i < n; ++i) stressed[i] = hasStress(i) ? 1 : 0;
+    for (std::size_t g = n; g < all; ++g)
+        if (const std::size_t own = shared_.entry(static_cast<int>(g - n)); own < n) stressed[g] = stressed[own];
+    const auto forBoth = [&](int block, auto&& f) {
+        for (int i = block * list.lanes(), end = std::min(view.owned, i + list.lanes()); i < end; ++i)
+            f(static_cast<std::size_t>(i));
+        std::for_each(view.j + view.begin(block), view.j + view.end(block),
+                      [&](int j) { f(static_cast<std::size_t>(j)); });
+    };
+    const auto sort = [&](const std::vector<int>& blocks, Blocks& into) {
+        into.uniform.clear(), into.varying.clear();
+        for (const int block : blocks) {
+            bool isVarying = false;
+            forBoth(block, [&](std::size_t k) { isVarying = isVarying || stressed[k] != 0; });
+            (isVarying ? into.varying : into.uniform).push_back(block);
+            if (isVarying) forBoth(block, [&](std::size_t k) { touched[k] = 1; });
+        }
+    };
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+        sort(list.blocks(static_cast<particles::PairList::Group>(g)), groups_[g]);
+    for (auto [from, to] : {std::pair{&shared_.reaching(), &reaching_}, std::pair{&shared_.rest(), &rest_}})
+        sort(from->away, to->away), sort(from->atWall, to->atWall);
+
+    touched_.clear(), place_.assign(n, -1);
+    for (std::size_t k = 0; k < all; ++k) {
+        if (!touched[k]) continue;
+        if (k < n) place_[k] = static_cast<int>(touched_.size());
+        touched_.push_back(k);
+    }
+    const bool any = !touched_.empty();
+    gradientSums_.assign(any ? gradientSums * all : 0, 0.0);
+    stress_.resize(touched_.size());
+    if (!any) return varyingStressRecords_.clear();
+    varyingStressRecords_.assign(varyingStressFields * all, Real(0));
+    for (std::size_t k = 0; k < all; ++k)
+        std::copy_n(stressRecords_.data() + stressFields * k, stressAt,
+                    varyingStressRecords_.data() + varyingStressFields * k);
 }
 
 template <class Real>
@@ -85,7 +135,7 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
         frame.position(i, r);
         r[3] = static_cast<Real>(volume_[i] / unitVolume_);
     }
-    particles::sumOverPairs(system, kernels_.moments, kernels_.moments, moments_, momentRecords_, momentFields, sums_,
+    particles::sumOverPairs(system, uniform_.moments, uniform_.moments, moments_, momentRecords_, momentFields, sums_,
                             results, static_cast<int>(moment_.size()));
 
     disorder_.resize(n), viscous_.resize(n), bulk_.resize(n), correction_.resize(n);
@@ -114,16 +164,24 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
         const double mu = isLayered() ? system.store().viscosity[i] : model_.viscosity;
         viscous_[i] = 2 * mu * volume_[i] * scale_[i] * m(Moments::strength);
         bulk_[i] = m(Moments::square) * volume_[i] / 3;
-        if (isVarying()) viscous_[i] += (isLayered() ? 1 : 4) * excessViscosity(system, i) * bulk_[i];
+        if (isLayered()) viscous_[i] += layerExcess(system, i) * bulk_[i];
     }
     throwTogether(system.comm(), !fault.empty(), fault, ExitCode::numerics);
+}
+
+template <class Real>
+void Operators<Real>::setInside(ParticleSystem& system, const std::vector<Inside>& inside) {
+    if (!isTwoFluids()) return;
+    excess_.build(system, shared_, volume_, inside);
+    hasInside_ = true;
+    sortBlocks(system, [&](std::size_t i) { return excess_.hasStress(i); });
+    for (std::size_t i = 0; i < volume_.size(); ++i) viscous_[i] += 4 * excess_.viscosity(i) * bulk_[i];
 }
 
 template <class Real>
 void Operators<Real>::packRecords(ParticleSystem& system) {
     const std::size_t n = volume_.size(), all = n + static_cast<std::size_t>(system.ghosts());
     rateRecords_.assign(all * rateFields, Real(0));
-    const auto stressFields = static_cast<std::size_t>(stressFields_);
     stressRecords_.assign(all * stressFields, Real(0));
     model_.walls.findDistances(boundary::pointsOf(system.store()), gap_);
     for (std::size_t i = 0; i < n; ++i) {
@@ -141,60 +199,59 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
     particles::Halo& halo = system.halo();
     halo.begin(rateRecords_.data(), system.owned(), rateFields, scale);
     halo.finish(rateRecords_.data(), system.owned(), rateFields);
-    halo.begin(stressRecords_.data(), system.owned(), stressFields_, scale);
-    halo.finish(stressRecords_.data(), system.owned(), stressFields_);
+    halo.begin(stressRecords_.data(), system.owned(), stressFields, scale);
+    halo.finish(stressRecords_.data(), system.owned(), stressFields);
 }
 
-// `count` sums a record. Ghosts' velocities that are not known are fetched behind interior blocks.
+// Ghosts' velocities that are not known are fetched behind interior blocks.
 template <class Real>
-void Operators<Real>::sumRates(ParticleSystem& system, const Field& u, Known known, particles::RealArray& sums,
-                               int count) {
+void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known) {
     using particles::PairList;
     const auto put = [&](std::size_t record, std::size_t entry) {
         std::copy_n(u.data() + width * entry, 3, rateRecords_.data() + rateFields * record + 3);
     };
+    const PairList& list = system.list();
     const auto work = [&](PairList::Group group) {
-        particles::addPairs(PairList::isAtWall(group) ? kernels_.ratesAtWall : kernels_.rates, noSlip_, system.list(),
-                            system.list().blocks(group), rateRecords_, sums);
+        const bool atWall = PairList::isAtWall(group);
+        const Blocks& blocks = groups_[group];
+        particles::addPairs(atWall ? uniform_.ratesAtWall : uniform_.rates, noSlip_, list, blocks.uniform, rateRecords_,
+                            sums_);
+        if (!blocks.varying.empty())
+            particles::addPairs(atWall ? varying_.ratesAtWall : varying_.rates, noSlip_, list, blocks.varying,
+                                rateRecords_, gradientSums_);
     };
     const std::size_t n = volume_.size();
     for (std::size_t i = 0; i < n; ++i) put(i, i);
-    sums.assign((n + static_cast<std::size_t>(system.ghosts())) * static_cast<std::size_t>(count), 0.0);
+    sums_.assign((n + static_cast<std::size_t>(system.ghosts())) * width, 0.0);
+    for (const std::size_t k : touched_) std::fill_n(gradientSums_.data() + gradientSums * k, gradientSums, 0.0);
     if (known == Known::allVelocities) {
         for (int g = 0; g < system.ghosts(); ++g) put(n + static_cast<std::size_t>(g), shared_.entry(g));
         for (int group = 0; group < PairList::groups; ++group) work(static_cast<PairList::Group>(group));
     } else
         system.forEachPair(rateRecords_.data(), rateFields, velocityPart, work);
-    system.halo().foldImages(sums.data(), system.owned(), count);
-}
-
-template <class Real>
-void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known) {
-    if (isVarying()) {
-        sums_.assign((volume_.size() + static_cast<std::size_t>(system.ghosts())) * width, 0.0);
-        sumRates(system, u, known, gradientSums_, gradientSums);
-        takeGradients(system);
-        return;
-    }
-    sumRates(system, u, known, sums_, width);
-    for (std::size_t i = 0; i < volume_.size(); ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
+    system.halo().foldImages(sums_.data(), system.owned(), width);
+    if (!touched_.empty()) system.halo().foldImages(gradientSums_.data(), system.owned(), gradientSums);
+    for (std::size_t i = 0; i < n; ++i) divergence_[i] = rateUnit_ * sums_[width * i + 3] / volume_[i];
+    takeGradients(system);
 }
 
 template <class Real>
 void Operators<Real>::takeGradients(const ParticleSystem& system) {
-    stress_.resize(volume_.size());
-    for (std::size_t i = 0; i < volume_.size(); ++i) {
+    if (isTwoFluids() && !hasInside_) throw std::logic_error("Operators: setInside comes after build");
+    const std::size_t n = volume_.size();
+    for (std::size_t k = 0; k < touched_.size() && touched_[k] < n; ++k) {
+        const std::size_t i = touched_[k];
         const double* s = gradientSums_.data() + gradientSums * i;
-        std::copy_n(s, 3, sums_.data() + width * i);
+        for (std::size_t c = 0; c < 3; ++c) sums_[width * i + c] += s[c];
         const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> products(s + gradientAt);
         const Mat3 gradient = rateUnit_ / volume_[i] * (matrix(correction_[i]) * products);
-        divergence_[i] = gradient.trace();
-        if (!isLayered())
-            stress_[i] = excessViscosity(system, i) * (gradient + gradient.transpose());
+        divergence_[i] += gradient.trace();
+        if (isTwoFluids())
+            stress_[k] = excess_.stress(i, gradient);
         else if (wall_[i])
-            stress_[i].setZero();
+            stress_[k].setZero();
         else
-            stress_[i] = excessViscosity(system, i) * gradient;
+            stress_[k] = layerExcess(system, i) * gradient;
     }
 }
 
@@ -202,7 +259,7 @@ template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
     force_.assign(width * shared_.entries(), 0.0);
     findRates(system, u, Known::ownVelocities);
-    if (isVarying()) {
+    if (isTwoFluids() || isLayered()) {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, 0);
         addStress(system, force_);
     } else
@@ -213,38 +270,52 @@ void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
 template <class Real>
 void Operators<Real>::setPressure(std::size_t i, double pressure) {
     const double unit = rateUnit_ / viscousUnit_, p = pressure * unit;
-    Real* stress = stressRecords_.data() + static_cast<std::size_t>(stressFields_) * i + stressAt;
-    if (!isVarying()) {
-        for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
-        return;
-    }
-    const Mat3 T = (p * Mat3::Identity() - unit * stress_[i]) * matrix(correction_[i]);
-    for (int k = 0; k < 9; ++k) stress[k] = static_cast<Real>(T(k / 3, k % 3));
+    Real* stress = stressRecords_.data() + stressFields * i + stressAt;
+    for (std::size_t k = 0; k < 6; ++k) stress[k] = static_cast<Real>(p * correction_[i][k]);
+    const int place = place_[i];
+    if (place < 0) return;
+    const Mat3 T = (p * Mat3::Identity() - unit * stress_[static_cast<std::size_t>(place)]) * matrix(correction_[i]);
+    Real* varying = varyingStressRecords_.data() + varyingStressFields * i + stressAt;
+    for (int k = 0; k < 9; ++k) varying[k] = static_cast<Real>(T(k / 3, k % 3));
 }
 
 // Of the stresses of own particles and their images alone: ghosts have none here, the ranks that own them have it.
 template <class Real>
 void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& force) {
     const std::size_t n = volume_.size(), ghosts = static_cast<std::size_t>(system.ghosts());
-    const auto fields = static_cast<std::size_t>(stressFields_);
-    for (std::size_t g = 0; g < ghosts; ++g)
-        if (const std::size_t own = shared_.entry(static_cast<int>(g)); own < n) {
-            const Real* from = stressRecords_.data() + fields * own;
-            std::copy(from + stressAt, from + fields, stressRecords_.data() + fields * (n + g) + stressAt);
-        }
+    if (isTwoFluids())
+        excess_.addForces(
+            shared_,
+            [&](std::size_t record) -> Vec3 {
+                const Real* u = rateRecords_.data() + rateFields * record + velocityPart.first;
+                return {u[0], u[1], u[2]};
+            },
+            width, force);
+    const auto copyToImages = [&](Field& records, std::size_t fields) {
+        for (std::size_t g = 0; g < ghosts; ++g)
+            if (const std::size_t own = shared_.entry(static_cast<int>(g)); own < n) {
+                const Real* from = records.data() + fields * own;
+                std::copy(from + stressAt, from + fields, records.data() + fields * (n + g) + stressAt);
+            }
+    };
+    copyToImages(stressRecords_, stressFields);
+    if (!touched_.empty()) copyToImages(varyingStressRecords_, varyingStressFields);
     std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // what rates left to others
-    const auto work = [&](const particles::SharedParticles::Blocks& blocks) {
-        particles::addPairs(kernels_.stress, noSlip_, system.list(), blocks.away, stressRecords_, sums_);
-        particles::addPairs(kernels_.stressAtWall, noSlip_, system.list(), blocks.atWall, stressRecords_, sums_);
+    const auto work = [&](const BlocksByWall& blocks) {
+        const particles::PairList& list = system.list();
+        particles::addPairs(uniform_.stress, noSlip_, list, blocks.away.uniform, stressRecords_, sums_);
+        particles::addPairs(uniform_.stressAtWall, noSlip_, list, blocks.atWall.uniform, stressRecords_, sums_);
+        particles::addPairs(varying_.stress, noSlip_, list, blocks.away.varying, varyingStressRecords_, sums_);
+        particles::addPairs(varying_.stressAtWall, noSlip_, list, blocks.atWall.varying, varyingStressRecords_, sums_);
         system.halo().foldImages(sums_.data(), system.owned(), width);
     };
-    work(shared_.reaching());
+    work(reaching_);
     for (const std::size_t e : shared_.shared())
         if (e < n) takeForces(e, e, force);
     for (std::size_t g = 0; g < ghosts; ++g)
         if (const std::size_t e = shared_.entry(static_cast<int>(g)); e >= n) takeForces(n + g, e, force);
     shared_.beginSum(force.data(), {width, 3});
-    work(shared_.rest());
+    work(rest_);
     for (std::size_t i = 0; i < n; ++i) takeForces(i, i, force);
     shared_.finishSum(force.data(), {width, 3});
 }

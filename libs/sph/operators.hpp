@@ -8,9 +8,9 @@
 // Morris' form is the divergence of mu grad u, which is that of 2 mu e, e the symmetric part of the gradient, only
 // where mu is uniform: at a jump it would put a torque on what turns rigidly. Where viscosity varies, L has the fluid's
 // mu, and the rest is a stress by the corrected gradient and its transpose,
-//     tau_i = 2 (mu_i - mu) e_i,   (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,
-//         force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
-// so that mu_i belongs to the particle's side and no mean is taken across a jump.
+//     (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,   force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
+// which is 2 (mu_i - mu) e_i away from the jump, and what excessStress.hpp says near it. Gradients cost as much again:
+// only the blocks of pairs in which a particle has such a stress find them.
 // In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so
 // that the layer beside a wall meets it by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i -
 // mu_low) (grad u)_i^T, force by first index: nothing in a plane shear flow along the layers. mu_low, their lowest
@@ -34,7 +34,7 @@
 
 #include "particles/sharedParticles.hpp"
 #include "particles/sumOverPairs.hpp"
-#include "sph/fluidForces.hpp"
+#include "sph/excessStress.hpp"
 
 namespace corpuscle::sph {
 
@@ -51,6 +51,8 @@ class Operators {
     // For the particles at their present positions, whose lists have just been built there. Collective.
     // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
     void build(particles::ParticleSystem& system);
+    // Where viscosity varies, but not in layers: after `build`, of owned particles. Collective.
+    void setInside(particles::ParticleSystem& system, const std::vector<Inside>& inside);
 
     // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i)
     // [Pa] of owned particles. u: of the owned particles. Collective.
@@ -95,11 +97,19 @@ class Operators {
         addStress(system, force);
     }
     bool isLayered() const { return viscosity_ == ViscosityKind::layers; }
-    bool isVarying() const { return viscosity_ != ViscosityKind::uniform; }
-    // Over that of the fluid, or of the lowest layer [Pa s].
-    double excessViscosity(const particles::ParticleSystem& system, std::size_t i) const {
-        return system.store().viscosity[i] - (isLayered() ? model_.lowestLayer : model_.viscosity);
+    bool isTwoFluids() const { return viscosity_ == ViscosityKind::sides; }
+    double layerExcess(const particles::ParticleSystem& system, std::size_t i) const {  // over the lowest [Pa s]
+        return system.store().viscosity[i] - model_.lowestLayer;
     }
+    // Blocks of pairs by whether one of their particles has a stress by the gradient.
+    struct Blocks {
+        std::vector<int> uniform, varying;
+    };
+    struct BlocksByWall {
+        Blocks away, atWall;
+    };
+    template <class HasStress>
+    void sortBlocks(const particles::ParticleSystem& system, HasStress&& hasStress);
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
     void findRates(particles::ParticleSystem& system, const Field& u, Known known);
@@ -110,23 +120,26 @@ class Operators {
             force[width * entry + k] += viscousUnit_ * std::exchange(sums_[width * from + k], 0.0);
     }
     void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ of gradientSums_
-    void sumRates(particles::ParticleSystem& system, const Field& u, Known known, particles::RealArray& sums,
-                  int count);
 
     FluidModel model_;
     OperatorForm form_;
     ViscosityKind viscosity_;
-    int stressFields_;
-    PairKernels::Operators<Real> kernels_;
+    PairKernels::Operators<Real> uniform_, varying_;
     MomentConstants moments_;
     NoSlip noSlip_;
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
-    Field momentRecords_, rateRecords_, stressRecords_;
+    Field momentRecords_, rateRecords_, stressRecords_, varyingStressRecords_;
     particles::SharedParticles shared_;
     long plannedAt_ = -1;  // builds of the system's lists
     particles::RealArray sums_, force_, divergence_;
-    particles::RealArray gradientSums_;  // where viscosity varies
-    std::vector<Mat3> stress_;           // tau there
+    std::array<Blocks, particles::PairList::groups> groups_;
+    BlocksByWall reaching_, rest_;       // of shared_
+    std::vector<std::size_t> touched_;   // records of own particles in varying blocks, in order, then of ghosts
+    std::vector<int> place_;             // of an own particle in touched_, -1: not there
+    particles::RealArray gradientSums_;  // 0 but in touched_
+    std::vector<Mat3> stress_;           // tau of touched_
+    ExcessStress excess_;
+    bool hasInside_ = false;
     std::array<particles::RealArray, Moments::count> moment_;
     std::vector<double> volume_, viscous_, bulk_;
     std::vector<std::array<double, 6>> correction_;  // B: xx yy zz xy xz yz

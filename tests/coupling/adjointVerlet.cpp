@@ -114,7 +114,7 @@ struct TwoSpheres : SphereScene {
     // masses 1.
     template <class F>
     double largest(F&& product) const {
-        Immersed immersed(const_cast<coupling::Cells&>(scene.cells), 1);
+        Immersed immersed(const_cast<coupling::Cells&>(scene.cells), scene.model(), *scene.system);
         std::vector<double> volume(scene.store().size(), 1.0);
         for (std::size_t i = 0; i < volume.size(); ++i) volume[i] = 1 / scene.store().density[i];
         immersed.place(*scene.system, volume);

@@ -78,6 +78,7 @@ double ofOperators(double disorder, bool viscous, sph::OperatorForm form, double
     const ParticleStore& s = f.scene.store();
     sph::Operators<double> operators(f.scene.model(), *f.scene.system, form);
     operators.build(*f.scene.system);
+    if (inside != 1) operators.setInside(*f.scene.system, sph::insideByCentre(s, 1));
     sph::Operators<double>::Field u(4 * s.size(), 0.0);
     for (std::size_t i = 0; i < s.size(); ++i) u[4 * i] = s.u[i], u[4 * i + 1] = s.v[i], u[4 * i + 2] = s.w[i];
     operators.apply(*f.scene.system, u, [&](std::size_t i, double) { return viscous ? 0 : pressure(s.position(i)); });

@@ -88,7 +88,7 @@ struct LoadedSphere {
         const Vec3 centre = Vec3::Constant(0.5 * length) + Vec3(0.13, -0.21, 0.07);
         for (Vec3& x : mesh.nodes) x = a * x + centre;
         cells.add({.membrane = membrane::Membrane("sphere", 1, mesh.nodes, mesh.triangles, laws, a), .radius = a});
-        immersed = std::make_unique<coupling::Immersed>(cells, 1);
+        immersed = std::make_unique<coupling::Immersed>(cells, model, *f.scene.system);
         immersed->place(*f.scene.system, term.operators().volumes());
         areas = membrane::volumeGradient(mesh.nodes, mesh.triangles);
         for (const Vec3& g : areas) area += g.norm() / (4 * std::numbers::pi * a * a);

@@ -106,7 +106,7 @@ struct Membranes : coupling::testing::SphereScene {
 
     Membranes()
         : SphereScene({10, 10, 10}, {Vec3(5, 5, 5)}, true),
-          immersed(cells, 1),
+          immersed(cells, corpuscle::sph::testing::model("wendlandC2"), *system),
           volumes(system->store().size(), 1.0),
           term(immersed, *system, volumes, settings) {
         for (Vec3& x : cells[0].membrane.position) x[0] += 0.05 * (x[0] - 5);

@@ -1,4 +1,4 @@
-// A ball of another viscosity, without membrane or tension, in shear flow: inside, the strain rate is uniform,
+// A ball of another viscosity, within a membrane without stiffness, in shear flow: inside, the strain rate is uniform,
 //
 //     E_in = 5/(2 lambda + 3) E,    lambda = mu_in/mu_out
 // and the rotation that of the flow: Eshelby's inclusion (Proc. R. Soc. A 241 (1957) 376) for incompressible viscous
@@ -7,8 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
 #include "coupling/fluidScene.hpp"
+#include "coupling/sphereScene.hpp"
 #include "implicit/implicitStep.hpp"
 
 using namespace corpuscle;
@@ -25,6 +29,29 @@ struct Inclusion {
     double strain, rotation;  // of the inside over those of the flow
 };
 
+// The membrane, which says how much of a particle lies inside; its volume is that of the ball.
+coupling::Cells passive(double radius, double lambda, const Vec3& centre) {
+    membrane::MembraneSettings laws;
+    laws.bonds = coupling::testing::choice<membrane::BondLaw>(
+        "{type: harmonic, k: 1e-15 N/m}");  // over mu rate a: 2e-9 and less
+    auto mesh = membrane::testing::icosphere(radius < 6 ? 3 : 4);
+    double volume = 0;
+    for (const Index3& t : mesh.triangles)
+        volume += mesh.nodes[static_cast<std::size_t>(t[0])].dot(
+                      mesh.nodes[static_cast<std::size_t>(t[1])].cross(mesh.nodes[static_cast<std::size_t>(t[2])])) /
+                  6;
+    for (Vec3& x : mesh.nodes) x *= radius * std::cbrt(4 * std::numbers::pi / 3 / volume);
+    coupling::CellType type{.name = "ball",
+                            .laws = "ball",
+                            .nodes = mesh.nodes,
+                            .triangles = mesh.triangles,
+                            .settings = laws,
+                            .radius = radius,
+                            .viscosityRatio = lambda};
+    type.places.push_back({.centre = centre});
+    return coupling::Cells({type});
+}
+
 // Periodic along the flow and the vorticity, walls six radii apart.
 Inclusion measure(int radius, double lambda) {
     const int length = 6 * radius;
@@ -40,11 +67,18 @@ Inclusion measure(int radius, double lambda) {
     auto all = coupling::testing::sheared(size, jitter, model.walls, flow);
     for (auto& p : all) p.viscosity = (p.x - centre).norm() < radius ? lambda : 1;
     ParticleStore::Optional fields;
-    fields.viscosity = true;
+    fields.viscosity = fields.side = true;
     FluidScene f(all, size, model, rate, 0, MPI_COMM_WORLD, particles::Precision::full, fields);
     f.scene.fluidBox.low[2] = low, f.scene.fluidBox.high[2] = high;
     f.scene.flow.shearRate = rate;
     f.scene.flow.velocity = flow;
+    ParticleStore& store = f.scene.store();
+    for (std::size_t i = 0; i < store.size(); ++i) store.side[i] = (store.position(i) - centre).norm() < radius ? 1 : 0;
+    f.scene.cells = passive(radius, lambda, centre);
+    f.scene.cells.placeAtStart(*f.scene.system);
+    for (coupling::Cell& cell : f.scene.cells)
+        for (std::size_t m = 0; m < cell.membrane.position.size(); ++m)
+            cell.membrane.velocity[m] = flow(cell.membrane.position[m]);
     ImplicitStep::Options options;
     options.settings.step = stepStrain, options.settings.tolerance = 1e-4;
     options.shifting = 1;

@@ -15,7 +15,7 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from runs import CELL_CASE, IMPLICIT_CASE, make, run, table
 
-SPHERE = "{{name: {}, membrane: rbc, shape: {{type: sphere, radius: {} um}}, edge: {} um, centre: [{} um, {} um, {} um]}}"
+SPHERE = "{{name: {}, membrane: rbc, shape: {{type: sphere, radius: {} um}}, edge: {} um, enclose: surface, centre: [{} um, {} um, {} um]}}"
 BOX = "domain: {size: [16 um, 12 um, 12 um], periodic: [true, true, false]}\n"
 
 
@@ -94,7 +94,7 @@ def test_during(folder):
         "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
         "constant/flow.yaml": "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n"})
     ready(case)
-    run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=4.5", ranks=2)
+    run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=2.5", ranks=2)
     for ranks in (1, 2):
         copy = folder / f"shear{ranks}"
         shutil.copytree(case, copy)
@@ -168,7 +168,8 @@ def test_tailed(folder):
                                                ("xy", "immersed", (10, 10, 8), "[1, 1, 0]", (1, -4)), ("x12dual", "dual", (12.5, 8, 8), "[1, 0, 0]", (0, 0)),
                                                ("x18dual", "dual", (18.5, 8, 8), "[1, 0, 0]", (0, 0))):
         mesh = (f"domain: {{size: [{size[0]} um, {size[1]} um, {size[2]} um], periodic: [true, true, false]}}\n"
-                f"cells: [{{name: rbc, shape: {{type: file, file: tailed.off}}, edge: 0.5 um, centre: [{centre[0]} um, {centre[1]} um, 0 um], axis: {axis}}}]\n")
+                f"cells: [{{name: rbc, shape: {{type: file, file: tailed.off}}, edge: 0.5 um, centre: [{centre[0]} um, {centre[1]} um, 0 um], axis: {axis}}}]\n"
+                "fill: {jitter: 0}\n")
         case = make(folder / name, IMPLICIT_CASE, **{"system/mesh.yaml": mesh, "system/numerics.yaml": numerics[coupling],
                                                      "system/observers.yaml": "balance: {type: conservation, every: 0.01 strain}\n"})
         tailed(case / "tailed.off")

@@ -281,8 +281,8 @@ def test_implicit(folder):
         run(case, "dmpFlow", ranks=ranks)
         losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
     assert losses[0] == losses[1] > 0, losses
-    # Of second order in the step. From a lattice: jittered particles are first evened out, at a pace that depends on the step. The steps are as long as
-    # they are since D12 has 2e-5 of another kind, by where particles happen to be.
+    # Of second order in the step. From a lattice: jittered particles are first evened out, at a pace that depends on the step. The steps are
+    # so long that their error stands out: where particles happen to be changes D12 by 2e-5.
     lattice = IMPLICIT_CASE["system/mesh.yaml"] + "fill: {jitter: 0}\n"
     start = prepared(folder / "lattice", {**IMPLICIT_CASE, "system/mesh.yaml": lattice})
     D = []

@@ -1,0 +1,71 @@
+#include "coupling/membraneSmoothing.hpp"
+
+#include <algorithm>
+
+namespace corpuscle::coupling {
+
+void MembraneSmoothing::place(const Cells& cells, const NodeLayout& layout, const NodeVectors& areas) {
+    first_.assign(1, 0), members_.clear(), shift_.clear(), square_.clear();
+    for (std::size_t c = 0; c < layout.cells(); ++c) placeCell(cells[c], layout.first(c), areas);
+}
+
+void MembraneSmoothing::placeCell(const Cell& cell, std::size_t first, const NodeVectors& areas) {
+    const std::vector<Vec3>& x = cell.membrane.position;
+    std::vector<std::vector<int>> neighbours(x.size());
+    for (const Index3& t : cell.membrane.network().triangles())
+        for (std::size_t k = 0; k < 3; ++k) {  // both ways, as the rim of a hole has no second triangle
+            neighbours[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);
+            neighbours[static_cast<std::size_t>(t[(k + 1) % 3])].push_back(t[k]);
+        }
+    std::vector<std::size_t> seenFrom(x.size(), x.size()), found;
+    for (std::size_t m = 0; m < x.size(); ++m) {
+        found.assign(1, m), seenFrom[m] = m;
+        double sum = 0;
+        Vec3 mean = Vec3::Zero();
+        double square = 0;
+        for (std::size_t k = 0; k < found.size(); ++k) {  // grows as it goes
+            const std::size_t n = found[k];
+            const Vec3 d = x[n] - x[m];
+            const double r = d.norm() / reach_, w = areas[first + n].norm() * (1 - r) * (1 - r) * (1 + 2 * r);
+            members_.push_back({first + n, w});
+            sum += w, mean += w * d, square += w * d.squaredNorm();
+            for (const int next : neighbours[n]) {
+                const auto j = static_cast<std::size_t>(next);
+                if (seenFrom[j] == m || (x[j] - x[m]).squaredNorm() >= reach_ * reach_) continue;
+                seenFrom[j] = m, found.push_back(j);
+            }
+        }
+        for (std::size_t k = first_.back(); k < members_.size(); ++k)
+            members_[k].weight = sum > 0 ? members_[k].weight / sum : members_[k].node == first + m ? 1 : 0;
+        shift_.push_back(sum > 0 ? Vec3(-mean / sum) : Vec3(Vec3::Zero()));
+        square_.push_back(sum > 0 ? square / sum : 0);
+        first_.push_back(members_.size());
+    }
+}
+
+void MembraneSmoothing::apply(NodeVectors& u) const {
+    if (isIdentity()) return;
+    NodeVectors mean(u.size(), Vec3::Zero());
+    for (std::size_t m = 0; m < u.size(); ++m)
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) mean[m] += members_[k].weight * u[members_[k].node];
+    u.swap(mean);
+}
+
+void MembraneSmoothing::transpose(NodeVectors& f) const {
+    if (isIdentity()) return;
+    NodeVectors spread(f.size(), Vec3::Zero());
+    for (std::size_t m = 0; m < f.size(); ++m)
+        for (std::size_t k = first_[m]; k < first_[m + 1]; ++k) spread[members_[k].node] += members_[k].weight * f[m];
+    f.swap(spread);
+}
+
+std::vector<char> MembraneSmoothing::reached(const std::vector<char>& marks) const {
+    std::vector<char> found(marks.size(), 0);
+    for (std::size_t m = 0; m < marks.size(); ++m)
+        found[m] = std::any_of(members_.begin() + static_cast<std::ptrdiff_t>(first_[m]),
+                               members_.begin() + static_cast<std::ptrdiff_t>(first_[m + 1]),
+                               [&](const Member& member) { return marks[member.node] != 0; });
+    return found;
+}
+
+}  // namespace corpuscle::coupling

@@ -1,0 +1,46 @@
+// A mean along the membrane, by which nodes nearer to each other than the particles of the fluid are do not take hold
+// of it one by one: edges finer than dx would otherwise keep a stiff membrane's fluid from all that is not smooth on
+// their scale, and the membrane would act as a thicker one.
+//
+//     (M u)_m = sum_n M_mn u_n,   M_mn = A_n (1 - r)^2 (1 + 2 r) / sum of these,   r = |x_n - x_m|/s < 1,  s = 1.2 dx
+// over the nodes n that are joined to m by edges through nodes within s; A_n: area of the node. With edges of s and
+// more M is the identity. What the mean moves is made up for: the mean place of the nodes is not that of m (`shift`),
+// and the mean square of their distance (`square`) is taken off the weights' (nodeFluidMap.hpp).
+#pragma once
+#include "coupling/nodeLayout.hpp"
+
+namespace corpuscle::coupling {
+
+class MembraneSmoothing {
+  public:
+    static constexpr double reachInSpacings = 1.2;
+
+    explicit MembraneSmoothing(double spacing) : reach_(reachInSpacings * spacing) {}
+
+    // Where nodes are now; areas: of each node of the cells that this rank holds, as vectors.
+    void place(const Cells& cells, const NodeLayout& layout, const NodeVectors& areas);
+
+    bool isIdentity() const { return members_.size() == shift_.size(); }
+    void apply(NodeVectors& u) const;      // u = M u
+    void transpose(NodeVectors& f) const;  // f = M^T f
+
+    const Vec3& shift(std::size_t node) const { return shift_[node]; }  // x_m - sum M x_n [m]
+    double square(std::size_t node) const { return square_[node]; }     // sum M |x_n - x_m|^2 [m^2]
+    // Whether one of those that a node's mean is made of is marked; marks of all nodes.
+    std::vector<char> reached(const std::vector<char>& marks) const;
+
+  private:
+    struct Member {
+        std::size_t node;
+        double weight;
+    };
+    void placeCell(const Cell& cell, std::size_t first, const NodeVectors& areas);
+
+    double reach_;
+    std::vector<std::size_t> first_;  // of each node in members_, and one behind the last
+    std::vector<Member> members_;
+    NodeVectors shift_;
+    std::vector<double> square_;
+};
+
+}  // namespace corpuscle::coupling
