@@ -7,7 +7,7 @@ STRAIN = 5
 
 
 class Capsules(Sheared):
-    """law: settings of the membrane, where it is not the tutorial's. boxes: of a Ca by resolution, from each on, where they are not BOX."""
+    """law: settings of the membrane, where it is not the tutorial's. values: of Ca, or of what is varied. boxes: of a value by resolution, from each on, where they are not BOX."""
 
-    def __init__(self, name, capillary, law=(), boxes={}):
-        super().__init__(name, TUTORIALS / "capsuleShear", {Ca: (STRAIN, {6: BOX, **boxes.get(Ca, {})}) for Ca in capillary}, law)
+    def __init__(self, name, values, law=(), boxes={}, **varied):
+        super().__init__(name, TUTORIALS / "capsuleShear", {value: (STRAIN, {6: BOX, **boxes.get(value, {})}) for value in values}, law, **varied)

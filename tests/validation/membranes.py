@@ -66,33 +66,38 @@ def worst(course, reference, key, strains, scale=1.0):
 
 
 class Sheared:
-    """A case: one membrane in shear flow over Ca, against curves reference_Ca*.csv.
+    """A case: one membrane in shear flow over Ca, or another number that is varied, against curves reference_Ca*.csv.
 
     name: the folder of the curves. source: the tutorial. scenes: by Ca (a word), strain of the end and boxes by the resolution from which on they hold.
     more: settings of every run. edge: of the mesh, in spacings. coarse: the only Ca that is run at the coarsest resolution; all without it.
+    varied: the name of what is varied, and where it is set.
     """
 
-    def __init__(self, name, source, scenes, more, edge=1.0, programs=PROGRAMS, coarse=None):
+    def __init__(self, name, source, scenes, more, edge=1.0, programs=PROGRAMS, coarse=None, varied=("Ca", "constant/flow.yaml:/Ca")):
         self.folder, self.source, self.scenes, self.more = HERE / name, source, scenes, more
         self.edge, self.programs, self.coarse = edge, programs, coarse
+        self.varied, self.place = varied
 
     def runs(self, n):
-        return [Run(f"Ca{Ca}", self.source, settings(n, fromOn(boxes, n), strain, [f"constant/flow.yaml:/Ca={Ca}", *self.more], self.edge),
+        return [Run(f"{self.varied}{value}", self.source, settings(n, fromOn(boxes, n), strain, [f"{self.place}={value}", *self.more], self.edge),
                     self.programs)
-                for Ca, (strain, boxes) in self.scenes.items() if n > COARSEST or self.coarse in (None, Ca)]
+                for value, (strain, boxes) in self.scenes.items() if n > COARSEST or self.coarse in (None, value)]
+
+    def label(self, value):
+        return f"{self.varied} {value}"
 
     def courses(self, done):
         """(Ca, its course) of runs that have ended."""
-        return [(Ca, Course(done[f"Ca{Ca}"])) for Ca in self.scenes if f"Ca{Ca}" in done]
+        return [(value, Course(done[f"{self.varied}{value}"])) for value in self.scenes if f"{self.varied}{value}" in done]
 
-    def reference(self, Ca, end=math.inf):
-        return [row for row in rows(self.folder / f"reference_Ca{Ca}.csv") if row["strain"] <= end]
+    def reference(self, value, end=math.inf):
+        return [row for row in rows(self.folder / f"reference_{self.varied}{value}.csv") if row["strain"] <= end]
 
     def drawn(self, done, ylabel, every, extra, others=lambda Ca, end: []):
         """D12_inertia of each course and its reference; others: more curves of others at a Ca to a strain, (strains, values)."""
         ours, theirs = [], []
         for Ca, course in self.courses(done):
-            ours.append((f"Ca {Ca}", *course.curve("D12_inertia", every)))
+            ours.append((self.label(Ca), *course.curve("D12_inertia", every)))
             end = course.end + 1e-6
             table = self.reference(Ca, end)
             theirs += [("", *curve) for curve in others(Ca, end)]

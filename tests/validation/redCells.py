@@ -16,9 +16,9 @@ class RedCells(Sheared):
     recorded: by resolution and Ca, D12_inertia and the inclination [degrees] at the end of an earlier run. A coarse resolution is far from the
     reference, so that what is allowed there hides a fault of the program that is smaller; that it still gives what it gave shows it."""
 
-    def __init__(self, name, scenes, allowed, law, edge=1.0, programs=PROGRAMS, recorded=None):
+    def __init__(self, name, scenes, allowed, law, edge=1.0, programs=PROGRAMS, recorded=None, **varied):
         super().__init__(name, TUTORIALS / "rbcShear" / "Ca0.02", scenes, [
-            "constant/flow.yaml:/inertia/Re=0.01", f"system/observers.yaml:/deformation/every={EVERY} strain", *law], edge, programs, coarse="3")
+            "constant/flow.yaml:/inertia/Re=0.01", f"system/observers.yaml:/deformation/every={EVERY} strain", *law], edge, programs, coarse="3" if "3" in scenes else None, **varied)
         self.allowed, self.recorded = allowed, recorded or {}
 
     def figures(self, done, n):
@@ -29,11 +29,11 @@ class RedCells(Sheared):
 
     def unchanged(self, Ca, course, deformation, inclination):
         D, angle = course.at(course.end, "D12_inertia"), -course.at(course.end, "angle_deg")
-        return [Figure(f"Ca {Ca}: D12 by inertia at the end, against an earlier run", D - deformation, 0.002, "", D, deformation, earlier=True),
-                Figure(f"Ca {Ca}: inclination at the end, against an earlier run", angle - inclination, 0.1, "degrees", angle, inclination, earlier=True)]
+        return [Figure(f"{self.label(Ca)}: D12 by inertia at the end, against an earlier run", D - deformation, 0.002, "", D, deformation, earlier=True),
+                Figure(f"{self.label(Ca)}: inclination at the end, against an earlier run", angle - inclination, 0.1, "degrees", angle, inclination, earlier=True)]
 
     def compared(self, Ca, course, dD, dAngle, dTurn, dArea):
-        theirs, label = self.reference(Ca), f"Ca {Ca}"
+        theirs, label = self.reference(Ca), self.label(Ca)
         end = 0.5 * int(2 * self.scenes[Ca][0] + 1e-6)  # a run that has not got there has no figures
         strains = [EVERY * k for k in range(1, round(end / EVERY) + 1)]
         found = [Figure(f"{label}: D12 by inertia to strain {end:g}, worst", worst(course, theirs, "D12_inertia", strains), dD, "")]
