@@ -206,6 +206,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
 // Ghosts' velocities that are not known are fetched behind interior blocks.
 template <class Real>
 void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known) {
+    if (isTwoFluids() && !hasInside_) throw std::logic_error("Operators: setInside comes after build");
     using particles::PairList;
     const auto put = [&](std::size_t record, std::size_t entry) {
         std::copy_n(u.data() + width * entry, 3, rateRecords_.data() + rateFields * record + 3);
@@ -237,7 +238,6 @@ void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known kn
 
 template <class Real>
 void Operators<Real>::takeGradients(const ParticleSystem& system) {
-    if (isTwoFluids() && !hasInside_) throw std::logic_error("Operators: setInside comes after build");
     const std::size_t n = volume_.size();
     for (std::size_t k = 0; k < touched_.size() && touched_[k] < n; ++k) {
         const std::size_t i = touched_[k];
