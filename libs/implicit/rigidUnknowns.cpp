@@ -56,25 +56,19 @@ void RigidUnknowns<Real>::takeBack() {
     scene_.bodies->place(*scene_.system);
 }
 
-// L of the depths of the bodies' particles, 0 elsewhere, has -sum_j l_ij depth_j at a particle of the fluid; L of 1
-// within bodies has at their particles the sum of l_ij over all others.
+// L of 1 within bodies has at their particles the sum of l_ij over all others.
 template <class Real>
 void RigidUnknowns<Real>::prepare(const Reach&) {
     scene_.bodies->moved(*scene_.system, 0, true);
     findOthers();
     Field marks(width * scene_.store().size(), Real(0));
-    for (const auto& m : members()) {
-        Real* mark = marks.data() + width * static_cast<std::size_t>(m.particle);
-        mark[0] = static_cast<Real>(m.depth / scene_.spacing), mark[1] = Real(1);
-    }
+    for (const auto& m : members()) marks[width * static_cast<std::size_t>(m.particle)] = Real(1);
     operators_.applyViscosity(*scene_.system, marks);
-    kappa_.clear(), outward_.clear();
-    for (const auto& near : scene_.bodies->groups().near)
-        kappa_.push_back(vectorAt(operators_.force(), static_cast<std::size_t>(near.particle))[0] * scene_.spacing *
-                         near.inverseDistance);
+    layer_.prepare();
+    outward_.clear();
     for (const auto& m : members()) {
         const auto i = static_cast<std::size_t>(m.particle);
-        outward_.push_back(std::clamp(-vectorAt(operators_.force(), i)[1] / operators_.viscousDiagonal(i), 0.0, 1.0));
+        outward_.push_back(std::clamp(-vectorAt(operators_.force(), i)[0] / operators_.viscousDiagonal(i), 0.0, 1.0));
     }
 }
 
@@ -130,15 +124,8 @@ double RigidUnknowns<Real>::largestDifference(double h, const Field& u) const {
 template <class Real>
 void RigidUnknowns<Real>::addProduct(const Field& u, Forces& force) {
     reaction_.assign(bodies().size(), {});
-    const auto& near = scene_.bodies->groups().near;
-    for (std::size_t k = 0; k < near.size(); ++k) {
-        const auto b = static_cast<std::size_t>(near[k].group);
-        const std::size_t at = width * static_cast<std::size_t>(near[k].particle);
-        const Vec3 w = vectorAt(u, static_cast<std::size_t>(near[k].particle)) - motion(u, b).at(near[k].arm),
-                   f = kappa_[k] * w;
-        for (int c = 0; c < 3; ++c) force[at + static_cast<std::size_t>(c)] -= f[c];
-        add(reaction_[b], near[k].arm, f);
-    }
+    layer_.addProduct(
+        u, [&](std::size_t b) { return motion(u, b); }, force, reaction_);
 }
 
 // row(body, P^T of the forces) of free bodies; the rest 0.
@@ -209,9 +196,7 @@ auto RigidUnknowns<Real>::square(const Vec3& arm) -> Matrix6 {
 template <class Real>
 auto RigidUnknowns<Real>::continuationBlocks() const -> std::vector<Matrix6> {
     std::vector<Matrix6> blocks(bodies().size(), Matrix6::Zero());
-    const auto& near = scene_.bodies->groups().near;
-    for (std::size_t k = 0; k < near.size(); ++k)
-        blocks[static_cast<std::size_t>(near[k].group)] += kappa_[k] * square(near[k].arm);
+    layer_.forEachResistance([&](std::size_t b, const Vec3& arm, double k) { blocks[b] += k * square(arm); });
     return blocks;
 }
 

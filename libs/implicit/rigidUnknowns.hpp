@@ -21,14 +21,8 @@
 // torque 2 mu V Omega, which the traction mu du/dn lacks (sph/rigidGroups.hpp adds it as D Omega), is that of the pairs
 // within the body, and arms are those of the particles.
 //
-// The surface lies somewhere between its particles and those of the fluid. What the fluid's velocity w_i = u_i - U -
-// Omega x r_i in the frame of the body stands for beyond it is continued as in fluidPair.hpp, symmetrically, by the
-// energy
-//
-//     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij depth_j/distance_i
-//         l_ij: coefficient of the pair in L, j in bodies
-// of the fluid particles near it (bodies/bodies.hpp): with the pairs' own l_ij w_i it is Morris' factor 1 +
-// depth/distance, and it vanishes when everything turns as one piece.
+// The surface lies somewhere between its particles and those of the fluid: what L lacks there is SurfaceLayer
+// (surfaceLayer.hpp), and this term of the system is it.
 //
 // In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega,
 // 0. Of a velocity every rank has all of them, and the particles of bodies have theirs; of forces every rank has its
@@ -39,6 +33,7 @@
 #include <Eigen/Cholesky>
 
 #include "coupling/scene.hpp"
+#include "implicit/surfaceLayer.hpp"
 #include "implicit/term.hpp"
 #include "particles/vectorField.hpp"
 #include "sph/budget.hpp"
@@ -55,7 +50,7 @@ class RigidUnknowns final : public Term<Real> {
     // operators: built at x* before prepare. onGrid: the preconditioner has a part that acts on particles of bodies
     // (coarseGrid.hpp).
     RigidUnknowns(coupling::Scene& scene, sph::Operators<Real>& operators, bool onGrid)
-        : scene_(scene), operators_(operators), onGrid_(onGrid) {}
+        : scene_(scene), operators_(operators), onGrid_(onGrid), layer_(scene, operators) {}
 
     std::size_t length() const { return perBody * bodies().size(); }  // what stands behind the particles
 
@@ -64,10 +59,11 @@ class RigidUnknowns final : public Term<Real> {
     void depart(double seconds);
     void takeBack();
 
-    // As a term: the continuation. It adds -kappa_i w_i to the fluid's forces; bodies get theirs in the next rows.
+    // As a term: what the surfaces add. Bodies get theirs in the next rows.
     void prepare(const Reach& reach) override;
     void addForces(const Field& u, Forces& forces) override { addProduct(u, forces); }
     void addProduct(const Field& u, Forces& forces) override;
+    double diagonal(std::size_t i) const override { return layer_.diagonal(i); }
 
     // First guess: the velocity extrapolated over h.
     void extrapolate(double h, Field& u) const;
@@ -142,7 +138,7 @@ class RigidUnknowns final : public Term<Real> {
     };
     std::vector<OtherMember> others_;               // particles of bodies that other ranks have
     std::vector<bodies::RigidState> saved_;         // at the beginning of the step
-    std::vector<double> kappa_;                     // of groups().near [N s/m]
+    SurfaceLayer<Real> layer_;                      // beside the surfaces
     std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies
     std::vector<Vec3> gyroscopic_;                  // torque that the system has of each body, on the root
     std::vector<sph::Wrench> reaction_, residual_;  // of the continuation, this rank's part; of the last r, whole

@@ -78,6 +78,8 @@ class Operators {
 
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
     const std::vector<double>& volumes() const { return volume_; }
+    double viscousScale(std::size_t i) const { return scale_[i]; }  // 1/S2
+    double wallGap(std::size_t i) const { return gap_[i]; }         // distance from the nearest wall [m]
     bool isWall(std::size_t i) const { return wall_[i] != 0; }
     // Of momentPair.hpp:
     const Vec3& disorder(std::size_t i) const { return disorder_[i]; }              // R [1/m]
