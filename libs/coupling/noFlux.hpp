@@ -40,10 +40,10 @@ class NoFlux {
     void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
         for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
     }
-    // f(particle, cell, its distance from the membrane, positive outside [m])
+    // f(particle, cell, the point of the membrane nearest to it), ordered by cells
     template <class F>
-    void forDistances(F&& f) const {
-        for (const Near& near : near_) f(near.particle, std::as_const(cells_)[near.cell], near.at.distance);
+    void forNearest(F&& f) const {
+        for (const Near& near : near_) f(near.particle, std::as_const(cells_)[near.cell], near.at);
     }
     // After particles and nodes have moved.
     void keepSides(particles::ParticleSystem& system);

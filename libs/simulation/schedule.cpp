@@ -230,9 +230,9 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         record_.set("extremes", "mostNodesWithoutLinearWeights", integrator_.mostFallbacks());
         if (const long nodes = integrator_.mostFallbacks(); nodes > 0)
             app_.log().warning(
-                "{} nodes of membranes at once had too few particles of the fluid around them for weights that are "
-                "exact "
-                "on linear fields, and moved with a plain mean: a finer spacing would help",
+                "{} nodes of membranes at once moved with a plain mean of the fluid around them: there, weights exact "
+                "on linear fields were too large, or particles too few. A few nodes for a few steps do no harm; if "
+                "there are many, take a finer spacing",
                 nodes);
         record_.set("result", "guardMoves", guardMoves_);
         record_.set("result", "brokenBonds", brokenBonds_);
