@@ -31,6 +31,7 @@ sys.path.insert(0, str(TUTORIALS))
 MARKS = ("<!-- results: written by the script -->", "<!-- end of results -->")
 PROGRAMS = ("membraneMesh", "particleFill", "dmpFlow")  # of a case with cells or bodies
 SIZE = "system/mesh.yaml:/domain/size="
+NO_LIMIT = ("-set", "system/control.yaml:/stop/wallClock=never")  # tutorials have one
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
                "OMPI_MCA_hwloc_base_binding_policy": "none"}  # two runs at a time would be bound to the same core
 
@@ -189,7 +190,7 @@ def execute(run, folder, binaries, ranks):
         parts.write_text(json.dumps(earlier))
         record.unlink()
     if not record.exists():
-        subprocess.run(["mpirun", "-np", str(ranks), binaries / run.programs[-1], *options], check=True, env=ENVIRONMENT)
+        subprocess.run(["mpirun", "-np", str(ranks), binaries / run.programs[-1], *options, *NO_LIMIT], check=True, env=ENVIRONMENT)
     found = json.loads(record.read_text())
     found["performance"]["processorSeconds"] += sum(earlier)
     return found

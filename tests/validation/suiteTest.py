@@ -72,13 +72,13 @@ def test_execute():
               "machine": {"cores": 2, "processor": "AMD EPYC"}, "build": {"git": "0123abc"}, "performance": {"processorSeconds": 1.0, "instructionSet": "avx2"}}
     assert suite.origin(record) == ("2 cores, AMD EPYC, AVX2", "2026-01-02", "0123abc")
     with tempfile.TemporaryDirectory() as folder:
-        source, case, count = pathlib.Path(folder) / "source", pathlib.Path(folder) / "case", pathlib.Path(folder) / "count"
+        source, case, count, words = (pathlib.Path(folder) / name for name in ("source", "case", "count", "words"))
         for part in ("system", "constant"):
             (source / part).mkdir(parents=True)
         mesh = source / "cell.off"
         for file in (source / "system/mesh.yaml", mesh):
             file.write_text("a")
-        (pathlib.Path(folder) / "mpirun").write_text(f"#!/bin/sh\necho >>{count}\ncat >{case}/run.json <<E\n{json.dumps(record)}\nE\n")
+        (pathlib.Path(folder) / "mpirun").write_text(f"#!/bin/sh\necho >>{count}\necho $* >{words}\ncat >{case}/run.json <<E\n{json.dumps(record)}\nE\n")
         (pathlib.Path(folder) / "mpirun").chmod(0o755)
 
         def prepare(folder):
@@ -105,6 +105,7 @@ def test_execute():
             (case / "run.json").write_text(json.dumps(part))
             runs("b=2", earlier=1)
         assert runs("b=2", earlier=1) == 7 and runs("b=3") == 8
+        assert words.read_text().endswith(" -set b=3 -set system/control.yaml:/stop/wallClock=never\n"), "no limit of its tutorial ends it"
 
 
 def test_executeTogether():
