@@ -7,17 +7,18 @@
 // z_ij      | depth of the body's particle j below the surface as i sees it                         | m
 // l_ij      | coefficient of the pair in L                                                          | N s/m
 //
-// Continuation. Through the surface the velocity goes on as -w_i z_ij/(s_i g_ij), so that it vanishes on it. i takes
+// Continuation. Beyond the surface the velocity is taken as -w_i z_ij/(s_i g_ij), so that it vanishes on it. i takes
 // the surface for the plane or the sphere that has its curvature there: with d = x_j - x_i
 //     g_ij = sqrt(1 + 2 q n.d + q^2 d^2),   z_ij = -s_i - (2 n.d + q d^2)/(1 + g_ij), at least 0
-// g is the ratio of the distances of j and i from the sphere's centre. The flow about a turning sphere goes on exactly.
-// A particle within a thin body lies as deep as it is from that side, however near the other side is. The energy is
+// g is the ratio of the distances of j and i from the sphere's centre. The flow about a turning sphere is continued
+// exactly. A particle within a thin body lies as deep as it is from that side, however near the other side is. The
+// energy is
 //     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij z_ij/(s_i g_ij)          over the body's particles
 // which makes Morris' factor 1 + z/s of the pairs.
 //
 // Means and values. Of a velocity that is a parabola across the layer, w = G s + w'' s^2/2, a linear continuation
 // misses a force: that on i is too small by the part
-//     T_i = sum_j l_ij z_ij (s_i + z_ij)/(2 mu V_i)
+//     T_i = sum_j l_ij z_ij (s_i + z_ij)/(2 mu V_i),   with z_ij/g_ij for z_ij where the surface is curved,
 // of mu w'' V_i, and the fluid slips by 0.09 dx^2 w''. Taking this part off what drives the particle, pressure
 // included, is to conserve the flux of (1 - T_i) w_i in place of that of w_i (divergence and pressure force are
 // adjoint), which is an error of the same size and the opposite sign. Half of it makes flux and force in a gap right
