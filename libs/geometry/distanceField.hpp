@@ -4,6 +4,7 @@
 // eight nodes around a point are interpolated linearly. Error: at most spacing^2/4 (k1 + k2), k the curvatures of the
 // surface; negative inside.
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "geometry/triangleMesh.hpp"
@@ -17,6 +18,9 @@ class DistanceField {
 
     // In the mesh's frame; at most `reach` away from 0.
     double at(const Vec3& x) const;
+    // By how much the exact distance may differ from `at` where that is less than the reach [m]: the nodes between which
+    // it is interpolated are no further away than a cell's diagonal, and a distance changes no faster than one moves.
+    double margin() const { return std::sqrt(3.0) * spacing_; }
 
   private:
     Vec3 low_;

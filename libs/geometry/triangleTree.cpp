@@ -125,9 +125,10 @@ void TriangleTree::computeBoxes() {
     }
 }
 
-SurfacePoint TriangleTree::nearest(const Vec3& x) const {
+SurfacePoint TriangleTree::nearest(const Vec3& x, double within) const {
     SurfacePoint best;
-    double least2 = reach_ * reach_;
+    const double most = std::min(reach_, within);
+    double least2 = most * most;
     struct Waiting {
         int box;
         double distance2;

@@ -7,6 +7,7 @@
 // there: of the triangle inside it, the sum of two triangles' normals on an edge, the angle-weighted sum at a node
 // (Baerentzen and Aanaes 2005); right at edges and nodes of any closed surface.
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "geometry/triangleMesh.hpp"
@@ -33,8 +34,9 @@ class TriangleTree {
     void update(const std::vector<Vec3>& nodes);
 
     // Coordinates of the mesh: near a periodic boundary the caller passes the image of the point that is nearest to the
-    // mesh.
-    SurfacePoint nearest(const Vec3& x) const;
+    // mesh. `within` [m]: nothing further away is of interest; a distance that is known not to be exceeded spares most
+    // of the way.
+    SurfacePoint nearest(const Vec3& x, double within = std::numeric_limits<double>::infinity()) const;
 
     double reach() const { return reach_; }
 

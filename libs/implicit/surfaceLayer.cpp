@@ -120,7 +120,9 @@ auto SurfaceLayer<Real>::sideOf(std::size_t b, const Vec3& arm) const -> Side {
     const bodies::Body& body = scene_.bodies->all()[b];
     const double dx = scene_.spacing;
     const Vec3 x = body.inBody(arm);
-    const geometry::SurfacePoint at = surfaces_[b]->nearest(x);
+    const double known = std::abs(body.distance.at(x)) + body.distance.margin();
+    geometry::SurfacePoint at = surfaces_[b]->nearest(x, known);
+    if (!at) at = surfaces_[b]->nearest(x);  // the grid knows nothing beyond its reach
     Side side{at ? at.distance : body.distance.at(x), 0.5 * bodies::curvature(body.distance, x, dx), Vec3::Zero()};
     if (at && at.distance > normalByFoot * dx)
         side.normal = x - at.point;

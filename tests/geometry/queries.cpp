@@ -90,6 +90,11 @@ TEST(TriangleTree, agreesWithBruteForce) {
                    p.point)
                       .norm(),
                   1e-18);
+        const SurfacePoint bounded = grid.nearest(x, std::abs(p.distance) * (1 + 1e-12));
+        EXPECT_EQ(bounded.triangle, p.triangle);
+        EXPECT_EQ(bounded.point, p.point);
+        EXPECT_EQ(bounded.distance, p.distance);
+        EXPECT_FALSE(grid.nearest(x, std::abs(p.distance) * (1 - 1e-6)));
     }
     EXPECT_GT(within, 300);
 }
