@@ -1,0 +1,194 @@
+#include "contact/contacts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace corpuscle::contact {
+namespace {
+
+enum Kind { onTriangle, onEdge, onNode };
+
+}  // namespace
+
+void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
+                    std::span<const geometry::ImagePair> pairs, double margin) {
+    surfaces_.assign(surfaces.begin(), surfaces.end());
+    firstNode_ = firstNodes(surfaces);
+    found_.assign(x.begin(), x.end());
+    margin_ = margin;
+    candidates_ = findCandidates(surfaces, x, pairs, law_->range() + margin);
+    evaluate(x);
+}
+
+double Contacts::moved(std::span<const Vec3> x) const {
+    double most2 = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) most2 = std::max(most2, (x[n] - found_[n]).squaredNorm());
+    return std::sqrt(most2);
+}
+
+bool Contacts::covers(std::span<const Vec3> x) const { return x.size() == found_.size() && 2 * moved(x) <= margin_; }
+
+std::array<int, 4> Contacts::nodesOf(const NodeRow& row, int triangle) const {
+    const Index3& t = surfaces_[row.target]->triangles()[triangle];
+    const int first = firstNode_[row.target];
+    return {row.node, first + t[0], first + t[1], first + t[2]};
+}
+
+std::array<int, 4> Contacts::nodesOf(const EdgePair& pair) const {
+    const geometry::ImagePair& both = candidates_.pairs[pair.pair];
+    const Edge &e = surfaces_[both.first]->edges()[pair.first], &o = surfaces_[both.second]->edges()[pair.second];
+    const int first = firstNode_[both.first], second = firstNode_[both.second];
+    return {first + e[0], first + e[1], second + o[0], second + o[1]};
+}
+
+void Contacts::evaluate(std::span<const Vec3> x) {
+    points_.clear(), turnings_.clear(), springs_.clear();
+    energy_ = 0;
+    virial_.setZero();
+    leastGap_ = std::numeric_limits<double>::infinity();
+    for (const NodeRow& row : candidates_.rows) addNode(row, x);
+    for (const EdgePair& pair : candidates_.edgePairs) addEdges(pair, x);
+}
+
+void Contacts::addNode(const NodeRow& row, std::span<const Vec3> x) {
+    places_.clear();
+    addTriangles(row, x);
+    if (places_.empty()) return;  // edges and nodes are no nearer than their triangles
+    addRims(row, x);
+    const Surface &own = *surfaces_[row.own], &target = *surfaces_[row.target];
+    const double share = nodeShare * target.meanNodeArea() / (own.meanNodeArea() + target.meanNodeArea());
+    const double area = share * own.nodeArea()[row.node - firstNode_[row.own]];
+    for (const Place& place : places_)
+        if (place.coefficient != 0) addPoint(place.nodes, place.gap, area * place.coefficient);
+}
+
+void Contacts::addTriangles(const NodeRow& row, std::span<const Vec3> x) {
+    const Surface& target = *surfaces_[row.target];
+    const Vec3 at = x[row.node] + row.offset;
+    for (int n = row.triangles[0]; n < row.triangles[1]; ++n) {
+        const int number = candidates_.triangles[n];
+        const std::array<int, 4> nodes = nodesOf(row, number);
+        const Gap gap = nodeToTriangle(at, x[nodes[1]], x[nodes[2]], x[nodes[3]]);
+        leastGap_ = std::min(leastGap_, gap.distance - law_->thickness);
+        if (gap.distance >= law_->range()) continue;
+        const std::array<bool, 3> counts{gap.weights[1] != 0, gap.weights[2] != 0, gap.weights[3] != 0};
+        const int corners = counts[0] + counts[1] + counts[2];
+        if (corners == 3) {
+            addPlace(onTriangle, number, 1, nodes, gap);
+        } else if (corners == 2) {  // the side after the corner behind the one that does not count
+            const std::size_t without = !counts[0] ? 0 : !counts[1] ? 1 : 2;
+            addPlace(onEdge, target.sides()[number][(without + 1) % 3], 1, nodes, gap);
+        } else {
+            const std::size_t corner = counts[0] ? 0 : counts[1] ? 1 : 2;
+            addPlace(onNode, target.triangles()[number][corner], 1, nodes, gap);
+        }
+    }
+}
+
+// Edges and nodes of the triangles, with their coefficients.
+void Contacts::addRims(const NodeRow& row, std::span<const Vec3> x) {
+    const Surface& target = *surfaces_[row.target];
+    const int first = firstNode_[row.target];
+    const Vec3 at = x[row.node] + row.offset;
+    for (int n = row.edges[0]; n < row.edges[1]; ++n) {
+        const int number = candidates_.edges[n];
+        const Edge& edge = target.edges()[number];
+        const std::array<int, 4> nodes{row.node, first + edge[0], first + edge[1], row.node};
+        const Gap gap = nodeToEdge(at, x[nodes[1]], x[nodes[2]]);
+        if (gap.distance >= law_->range()) continue;
+        const bool inside = gap.weights[1] != 0 && gap.weights[2] != 0;
+        const int end = gap.weights[1] != 0 ? edge[0] : edge[1];
+        addPlace(inside ? onEdge : onNode, inside ? number : end, target.edgeCoefficient()[number], nodes, gap);
+    }
+    for (int n = row.nodes[0]; n < row.nodes[1]; ++n) {
+        const int number = candidates_.nodes[n];
+        const Gap gap = nodeToNode(at, x[first + number]);
+        if (gap.distance >= law_->range()) continue;
+        addPlace(onNode, number, target.nodeCoefficient()[number], {row.node, first + number, row.node, row.node}, gap);
+    }
+}
+
+void Contacts::addPlace(int kind, int number, int coefficient, const std::array<int, 4>& nodes, const Gap& gap) {
+    for (Place& place : places_)
+        if (place.kind == kind && place.number == number) {
+            place.coefficient += coefficient;
+            return;
+        }
+    places_.push_back({kind, number, coefficient, nodes, gap});
+}
+
+void Contacts::addPoint(const std::array<int, 4>& nodes, const Gap& gap, double weight) {
+    const ContactLaw::Value psi = law_->at(gap.distance - law_->thickness);
+    points_.push_back({nodes, gap, weight, psi});
+    energy_ += weight * psi.energy;
+    virial_ -= (weight * psi.slope * gap.distance) * gap.normal * gap.normal.transpose();
+    if (const double c = weight * psi.curvature; c > 0) springs_.push_back({nodes, gap.weights, gap.normal, c});
+}
+
+void Contacts::addEdges(const EdgePair& pair, std::span<const Vec3> x) {
+    const geometry::ImagePair& both = candidates_.pairs[pair.pair];
+    const std::array<int, 4> nodes = nodesOf(pair);
+    const FourNodes at{x[nodes[0]] - both.shift, x[nodes[1]] - both.shift, x[nodes[2]], x[nodes[3]]};
+    const CrossingFactor m = crossingFactor(at[0], at[1], at[2], at[3]);
+    if (!(m.value > 0)) return;  // the ends are nearer, and are nodes of triangles
+    const Gap gap = edgeToEdge(at[0], at[1], at[2], at[3]);
+    leastGap_ = std::min(leastGap_, gap.distance - law_->thickness);
+    if (gap.distance >= law_->range()) return;
+    const double width =
+        std::min(surfaces_[both.first]->edgeWidth()[pair.first], surfaces_[both.second]->edgeWidth()[pair.second]);
+    const double weight = edgeShare / crossingMean * width * width;
+    addPoint(nodes, gap, weight * m.value);
+    Turning turning{nodes, {}};
+    for (std::size_t k = 0; k < 4; ++k) {
+        turning.force[k] = -weight * points_.back().psi.energy * m.slope[k];
+        virial_ += at[k] * turning.force[k].transpose();
+    }
+    turnings_.push_back(turning);
+}
+
+void Contacts::addForces(std::span<Vec3> f) const {
+    for (const Point& point : points_) {
+        const Vec3 force = -(point.weight * point.psi.slope) * point.gap.normal;
+        for (std::size_t k = 0; k < 4; ++k) f[point.nodes[k]] += point.gap.weights[k] * force;
+    }
+    for (const Turning& turning : turnings_)
+        for (std::size_t k = 0; k < 4; ++k) f[turning.nodes[k]] += turning.force[k];
+}
+
+void Contacts::addStiffness(double factor, std::span<const Vec3> u, std::span<Vec3> f) const {
+    for (const Spring& spring : springs_) {
+        double stretch = 0;
+        for (std::size_t k = 0; k < 4; ++k) stretch += spring.weights[k] * spring.normal.dot(u[spring.nodes[k]]);
+        const Vec3 force = (factor * spring.stiffness * stretch) * spring.normal;
+        for (std::size_t k = 0; k < 4; ++k) f[spring.nodes[k]] += spring.weights[k] * force;
+    }
+}
+
+double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share) const {
+    if (!covers(x)) return 0;
+    double longest2 = 0;
+    for (const Vec3& one : u) longest2 = std::max(longest2, one.squaredNorm());
+    const double listed = 0.5 * (1 - share) * (law_->reach() + margin_ - 2 * moved(x));
+    double free = longest2 > listed * listed ? listed / std::sqrt(longest2) : 1;
+    const Keep keep{law_->thickness, share};
+    const auto pick = [](std::span<const Vec3> all, const std::array<int, 4>& nodes) {
+        return FourNodes{all[nodes[0]], all[nodes[1]], all[nodes[2]], all[nodes[3]]};
+    };
+    for (const NodeRow& row : candidates_.rows)
+        for (int n = row.triangles[0]; n < row.triangles[1]; ++n) {
+            const std::array<int, 4> nodes = nodesOf(row, candidates_.triangles[n]);
+            FourNodes at = pick(x, nodes);
+            at[0] += row.offset;
+            free = nodeTriangleTravel(at, pick(u, nodes), keep, free);
+        }
+    for (const EdgePair& pair : candidates_.edgePairs) {
+        const std::array<int, 4> nodes = nodesOf(pair);
+        const Vec3& shift = candidates_.pairs[pair.pair].shift;
+        FourNodes at = pick(x, nodes);
+        at[0] -= shift, at[1] -= shift;
+        free = edgeEdgeTravel(at, pick(u, nodes), keep, free);
+    }
+    return free;
+}
+
+}  // namespace corpuscle::contact

@@ -1,0 +1,130 @@
+// Contact of surfaces with each other and with themselves: its energy, forces, stiffness, and how far nodes may move.
+//
+//     E = sum over pairs of surfaces (A, B) and their images of   E_nodes(A, B) + E_nodes(B, A) + E_edges(A, B)
+//     E_nodes(A, B) = sum_v a_v q_A sum_F c_F psi(d(v, F) - thickness)          v: nodes of A,  F: pieces of B
+//     E_edges(A, B) = sum_e,e' w_ee' m(e, e') psi(d(e, e') - thickness)         e: edges of A,  e': edges of B
+// symbol | meaning                                                                       | unit | file
+// psi    | energy per area of the law                                                    | J/m^2| contactLaw.hpp
+// d      | distance of two pieces                                                        | m    | gap.hpp
+// a_v    | area of a node in the reference state                                         | m^2  | surface.hpp
+// c_F    | coefficient of a triangle, edge or node: counts pieces that overlap once      | 1    | surface.hpp
+// q_A    | nodeShare a_B/(a_A + a_B), a_A: mean node area of A                           | 1    |
+// w_ee'  | edgeShare/crossingMean min(b_e, b_e')^2, b: width of an edge                  | m^2  | surface.hpp
+// m      | factor of two edges: 0 where they are parallel or do not cross inside         | 1    | gap.hpp
+//
+// Nodes: the sum over F is the integral of -psi'(r) times the Euler characteristic of what lies of B in the ball of
+// radius r around v. It is psi of the distance of v from B wherever B is flat, convex towards v, or smooth on the scale
+// of the reach, so a node that slides over a surface does not feel its triangles. The coefficients add up to at least 1
+// among the pieces that are nearest, whatever the mesh: the sum diverges where a node approaches a triangle, an edge
+// or a node of B.
+// (Li et al. 2023, Convergent incremental potential contact, count pieces in this way.)
+// Edges: without them, two ridges could cross between the nodes. Every term has the sign of psi, and diverges where two
+// edges cross away from their ends; at the ends and where edges are parallel, nodes are near triangles. (To count edges
+// of B by inclusion and exclusion as well is not possible with a factor m: sum_e' m psi - (n - 1) psi at a node with n
+// edges has no lower bound.)
+// Weights: two flat sheets at the gap g have the energy psi(g) per area. Its part nodeShare is exact, of a fine and a
+// coarse mesh mostly on the nodes of the fine one. The part edgeShare is the mean over positions and directions, of
+// meshes with edges of the same length (crossingMean of gap.hpp: the mean of m, by the number of crossings).
+//
+// Stiffness: K = sum c (w w^T) x (n n^T), c = weight times psi'' where that is above 0. The pieces' coefficients are
+// added up for each place on B that is nearest to a node before the sign is looked at. K is positive semi-definite; the
+// turning of normals and the slope of m are left out.
+//
+// Contact of a surface with itself: pieces that share a node are left out. reach + thickness of the law must not exceed
+// largestReach (surface.hpp), or pieces of an undeformed mesh may count as contacts: this is for the caller to check.
+//
+// All surfaces are numbered through: node n of surface s is node firstNode(s) + n of every array. Forces on an image
+// of a node act on the node.
+#pragma once
+#include <memory>
+
+#include "contact/candidates.hpp"
+#include "contact/contactLaw.hpp"
+#include "contact/gap.hpp"
+#include "contact/travel.hpp"
+
+namespace corpuscle::contact {
+
+constexpr double nodeShare = 0.92, edgeShare = 0.08;
+
+// One term c (w w^T) x (n n^T) of the stiffness.
+struct Spring {
+    std::array<int, 4> nodes;
+    std::array<double, 4> weights;  // sum 0; 0 of those that are not needed
+    Vec3 normal;
+    double stiffness;  // c > 0, N/m
+};
+
+class Contacts {
+  public:
+    explicit Contacts(std::shared_ptr<const ContactLaw> law) : law_(std::move(law)) {}
+
+    // Lists the pieces within range + margin [m] of each other, and evaluates. The surfaces must outlive the lists.
+    // pairs: of geometry::neighbours with a margin of at least range + margin; (s, s, 0) is a surface and itself.
+    void find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
+              std::span<const geometry::ImagePair> pairs, double margin);
+    // Whether the lists hold every contact of these places: no node has moved by more than margin/2 since `find`.
+    bool covers(std::span<const Vec3> x) const;
+    int firstNode(std::size_t surface) const { return firstNode_[surface]; }
+    const Candidates& candidates() const { return candidates_; }
+
+    // Energy, forces, springs, gap and virial of these places [m], for the functions below.
+    void evaluate(std::span<const Vec3> x);
+    double energy() const { return energy_; }             // J
+    void addForces(std::span<Vec3> f) const;              // N
+    const Mat3& virial() const { return virial_; }        // sum_k x_k f_k^T, x_k: of the images that touch [J]
+    double leastGap() const { return leastGap_; }         // distance - thickness [m]; infinite: nothing is listed
+    std::size_t count() const { return points_.size(); }  // of contacts: gaps below the reach
+    const std::vector<Spring>& springs() const { return springs_; }
+    void addStiffness(double factor, std::span<const Vec3> u, std::span<Vec3> f) const;  // f += factor K u
+
+    // Largest fraction in [0, 1] of the displacements u [m] from x after which every gap is at least `share` of what it
+    // is at x, on the whole way: nothing crosses. It is also limited by what the lists cover: no node moves by
+    // more than (1 - share) (reach + margin - 2 moved)/2, `moved` since `find`. 0 where the lists do not cover x.
+    double freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share = 0.1) const;
+
+  private:
+    // One place where a node or an edge is within reach.
+    struct Point {
+        std::array<int, 4> nodes;
+        Gap gap;
+        double weight;  // m^2: area times coefficients, or w m
+        ContactLaw::Value psi;
+    };
+    // The force by the slope of m.
+    struct Turning {
+        std::array<int, 4> nodes;
+        std::array<Vec3, 4> force;
+    };
+    // The place on the target that is nearest: by its kind (corners that count) and number.
+    struct Place {
+        int kind, number, coefficient;
+        std::array<int, 4> nodes;
+        Gap gap;
+    };
+    void addNode(const NodeRow& row, std::span<const Vec3> x);
+    void addTriangles(const NodeRow& row, std::span<const Vec3> x);
+    void addRims(const NodeRow& row, std::span<const Vec3> x);
+    void addPlace(int kind, int number, int coefficient, const std::array<int, 4>& nodes, const Gap& gap);
+    void addPoint(const std::array<int, 4>& nodes, const Gap& gap, double weight);
+    void addEdges(const EdgePair& pair, std::span<const Vec3> x);
+    std::array<int, 4> nodesOf(const NodeRow& row, int triangle) const;
+    std::array<int, 4> nodesOf(const EdgePair& pair) const;
+    double moved(std::span<const Vec3> x) const;
+
+    std::shared_ptr<const ContactLaw> law_;
+    std::vector<const Surface*> surfaces_;
+    std::vector<int> firstNode_;
+    std::vector<Vec3> found_;  // places at `find`
+    double margin_ = 0;
+    Candidates candidates_;
+
+    double energy_ = 0, leastGap_ = 0;
+    Mat3 virial_ = Mat3::Zero();
+    std::vector<Point> points_;
+    std::vector<Turning> turnings_;
+    std::vector<Spring> springs_;
+    std::vector<Place> places_;  // of the present row
+};
+
+}  // namespace corpuscle::contact
