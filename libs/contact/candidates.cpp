@@ -55,22 +55,22 @@ struct Selection {
 
 class Finder {
   public:
-    Finder(std::span<const Surface* const> surfaces, std::span<const Vec3> x, double within) : within_(within) {
+    Finder(std::span<const Surface* const> surfaces, std::span<const Vec3> x) {
         const std::vector<int> first = firstNodes(surfaces);
         for (std::size_t s = 0; s < surfaces.size(); ++s) {
             const std::span<const Vec3> own = x.subspan(first[s], surfaces[s]->nodes());
             placed_.push_back({*surfaces[s], own, static_cast<int>(s), first[s], finiteBounds(own)});
         }
-        found_.within = within;
     }
 
-    void add(const geometry::ImagePair& pair) {
+    void add(const geometry::ImagePair& pair, double within) {
+        within_ = within;
         const Placed &first = placed_[pair.first], &second = placed_[pair.second];
         isSelf_ = pair.first == pair.second && pair.shift.isZero(0);
         addRows(first, second, -pair.shift);
         if (!isSelf_) addRows(second, first, pair.shift);
         addEdgePairs(first, second, pair.shift);
-        found_.pairs.push_back(pair);
+        found_.pairs.push_back(pair), found_.within.push_back(within);
     }
     Candidates take() { return std::move(found_); }
 
@@ -160,7 +160,7 @@ class Finder {
         return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
     }
 
-    double within_;
+    double within_ = 0;  // of the present pair
     bool isSelf_ = false;
     std::vector<Placed> placed_;
     Candidates found_;
@@ -176,9 +176,9 @@ std::vector<int> firstNodes(std::span<const Surface* const> surfaces) {
 }
 
 Candidates findCandidates(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-                          std::span<const geometry::ImagePair> pairs, double within) {
-    Finder finder(surfaces, x, within);
-    for (const geometry::ImagePair& pair : pairs) finder.add(pair);
+                          std::span<const geometry::ImagePair> pairs, std::span<const double> within) {
+    Finder finder(surfaces, x);
+    for (std::size_t p = 0; p < pairs.size(); ++p) finder.add(pairs[p], within[p]);
     return finder.take();
 }
 

@@ -1,5 +1,5 @@
 // Which pieces of surfaces may touch: every node and triangle, and every two edges, of surfaces that are near each
-// other, or of one surface, whose distance is at most `within`.
+// other, or of one surface, whose distance is at most `within`, a length of each pair.
 //
 // 1. Of two surfaces only what lies in the bounds of both, grown by `within`, is looked at.
 // 2. There, triangles (or edges) of one surface are listed in a grid of cubes about as large as they are, and each
@@ -33,7 +33,7 @@ struct EdgePair {
 };
 
 struct Candidates {
-    double within = 0;  // m
+    std::vector<double> within;  // of each pair of surfaces [m]
     std::vector<geometry::ImagePair> pairs;
     std::vector<NodeRow> rows;
     std::vector<int> triangles, edges, nodes;  // numbers in the surface `target` of their row, ascending in each row
@@ -43,9 +43,9 @@ struct Candidates {
 // The first node of each surface, and behind the last their sum.
 std::vector<int> firstNodes(std::span<const Surface* const> surfaces);
 
-// pairs: of geometry::neighbours with a margin of at least `within`; (s, s, 0) is a surface and itself, of which pieces
-// that share a node are left out.
+// pairs: of geometry::neighbours; (s, s, 0) is a surface and itself, of which pieces that share a node are left out.
+// within: of each pair [m].
 Candidates findCandidates(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-                          std::span<const geometry::ImagePair> pairs, double within);
+                          std::span<const geometry::ImagePair> pairs, std::span<const double> within);
 
 }  // namespace corpuscle::contact

@@ -1,6 +1,7 @@
 #include "contact/contacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace corpuscle::contact {
@@ -8,25 +9,64 @@ namespace {
 
 enum Kind { onTriangle, onEdge, onNode };
 
-}  // namespace
-
-void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-                    std::span<const geometry::ImagePair> pairs, double margin) {
-    surfaces_.assign(surfaces.begin(), surfaces.end());
-    firstNode_ = firstNodes(surfaces);
-    found_.assign(x.begin(), x.end());
-    margin_ = margin;
-    candidates_ = findCandidates(surfaces, x, pairs, law_->range() + margin);
-    evaluate(x);
-}
-
-double Contacts::moved(std::span<const Vec3> x) const {
+double longest(std::span<const Vec3> all) {
     double most2 = 0;
-    for (std::size_t n = 0; n < x.size(); ++n) most2 = std::max(most2, (x[n] - found_[n]).squaredNorm());
+    for (const Vec3& one : all) most2 = std::max(most2, one.squaredNorm());
     return std::sqrt(most2);
 }
 
-bool Contacts::covers(std::span<const Vec3> x) const { return x.size() == found_.size() && 2 * moved(x) <= margin_; }
+}  // namespace
+
+void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
+                    std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel) {
+    surfaces_.assign(surfaces.begin(), surfaces.end());
+    firstNode_ = firstNodes(surfaces);
+    found_.assign(x.begin(), x.end());
+    expectedOfOthers_ = pairMargin(spare, travel) - law_->range();
+    expected_.assign(pairs.size(), spare);
+    if (!travel.empty()) {
+        const std::vector<Motion> motions = motionsOf(travel);
+        for (std::size_t p = 0; p < pairs.size(); ++p) expected_[p] += approach(pairs[p], motions);
+    }
+    std::vector<double> within = expected_;
+    for (double& one : within) one += law_->range();
+    candidates_ = findCandidates(surfaces, x, pairs, within);
+    evaluate(x);
+}
+
+double Contacts::pairMargin(double spare, std::span<const Vec3> travel) const {
+    return law_->range() + spare + 2 * longest(travel);
+}
+
+std::vector<Contacts::Motion> Contacts::motionsOf(std::span<const Vec3> u) const {
+    std::vector<Motion> motions(surfaces_.size());
+    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+        const auto own = u.subspan(static_cast<std::size_t>(firstNode_[s]), surfaces_[s]->nodes());
+        Motion& motion = motions[s];
+        for (const Vec3& one : own) motion.mean += one;
+        motion.mean /= static_cast<double>(std::max<std::size_t>(own.size(), 1));
+        double most2 = 0;
+        for (const Vec3& one : own) most2 = std::max(most2, (one - motion.mean).squaredNorm());
+        motion.spread = std::sqrt(most2);
+    }
+    return motions;
+}
+
+std::vector<Vec3> Contacts::since(std::span<const Vec3> x) const {
+    std::vector<Vec3> d(x.begin(), x.end());
+    for (std::size_t n = 0; n < d.size(); ++n) d[n] -= found_[n];
+    return d;
+}
+
+bool Contacts::covers(std::span<const Vec3> x) const {
+    if (x.size() != found_.size()) return false;
+    const std::vector<Vec3> d = since(x);
+    if (2 * longest(d) > expectedOfOthers_) return false;
+    const std::vector<Motion> motions = motionsOf(d);
+    for (std::size_t p = 0; p < expected_.size(); ++p)
+        if (approach(candidates_.pairs[p], motions) > expected_[p]) return false;
+    return true;
+}
 
 std::array<int, 4> Contacts::nodesOf(const NodeRow& row, int triangle) const {
     const Index3& t = surfaces_[row.target]->triangles()[triangle];
@@ -166,10 +206,16 @@ void Contacts::addStiffness(double factor, std::span<const Vec3> u, std::span<Ve
 
 double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share) const {
     if (!covers(x)) return 0;
-    double longest2 = 0;
-    for (const Vec3& one : u) longest2 = std::max(longest2, one.squaredNorm());
-    const double listed = 0.5 * (1 - share) * (law_->reach() + margin_ - 2 * moved(x));
-    double free = longest2 > listed * listed ? listed / std::sqrt(longest2) : 1;
+    const std::vector<Vec3> d = since(x);
+    double free = 1;
+    const auto limit = [&](double expected, double before, double more) {
+        const double room = (1 - share) * (law_->reach() + expected - before);
+        if (more * free > room) free = room / more;
+    };
+    limit(expectedOfOthers_, 2 * longest(d), 2 * longest(u));
+    const std::vector<Motion> before = motionsOf(d), more = motionsOf(u);
+    for (std::size_t p = 0; p < expected_.size(); ++p)
+        limit(expected_[p], approach(candidates_.pairs[p], before), approach(candidates_.pairs[p], more));
     const Keep keep{law_->thickness, share};
     const auto pick = [](std::span<const Vec3> all, const std::array<int, 4>& nodes) {
         return FourNodes{all[nodes[0]], all[nodes[1]], all[nodes[2]], all[nodes[3]]};

@@ -59,11 +59,15 @@ class Contacts {
   public:
     explicit Contacts(std::shared_ptr<const ContactLaw> law) : law_(std::move(law)) {}
 
-    // Lists the pieces within range + margin [m] of each other, and evaluates. The surfaces must outlive the lists.
-    // pairs: of geometry::neighbours with a margin of at least range + margin; (s, s, 0) is a surface and itself.
+    // Lists the pieces that may come within the law's range, and evaluates: for each pair of surfaces those within
+    //     range + spare + the most by which their nodes approach each other with the displacements `travel` [m]
+    // (no travel: 0). The surfaces must outlive the lists. pairs: of geometry::neighbours with a margin of at least
+    // pairMargin; (s, s, 0) is a surface and itself.
     void find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-              std::span<const geometry::ImagePair> pairs, double margin);
-    // Whether the lists hold every contact of these places: no node has moved by more than margin/2 since `find`.
+              std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel = {});
+    double pairMargin(double spare, std::span<const Vec3> travel) const;
+    // Whether the lists hold every contact of these places: no two surfaces have approached each other by more than
+    // `find` expected.
     bool covers(std::span<const Vec3> x) const;
     int firstNode(std::size_t surface) const { return firstNode_[surface]; }
     const Candidates& candidates() const { return candidates_; }
@@ -79,8 +83,9 @@ class Contacts {
     void addStiffness(double factor, std::span<const Vec3> u, std::span<Vec3> f) const;  // f += factor K u
 
     // Largest fraction in [0, 1] of the displacements u [m] from x after which every gap is at least `share` of what it
-    // is at x, on the whole way: nothing crosses. It is also limited by what the lists cover: no node moves by
-    // more than (1 - share) (reach + margin - 2 moved)/2, `moved` since `find`. 0 where the lists do not cover x.
+    // is at x, on the whole way: nothing crosses. It is also limited by what the lists cover: two surfaces approach
+    // each other by no more than (1 - share) (reach + what `find` expected - what they have since). 0 where the lists
+    // do not cover x.
     double freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share = 0.1) const;
 
   private:
@@ -110,13 +115,25 @@ class Contacts {
     void addEdges(const EdgePair& pair, std::span<const Vec3> x);
     std::array<int, 4> nodesOf(const NodeRow& row, int triangle) const;
     std::array<int, 4> nodesOf(const EdgePair& pair) const;
-    double moved(std::span<const Vec3> x) const;
+    // How the nodes of a surface move: all of them by `mean`, and each by no more than `spread` besides [m].
+    struct Motion {
+        Vec3 mean = Vec3::Zero();
+        double spread = 0;
+    };
+    std::vector<Motion> motionsOf(std::span<const Vec3> u) const;
+    // The most by which nodes of the two surfaces approach each other.
+    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions) {
+        const Motion &a = motions[pair.first], &b = motions[pair.second];
+        return a.spread + b.spread + (a.mean - b.mean).norm();
+    }
+    std::vector<Vec3> since(std::span<const Vec3> x) const;  // `find`: displacements
 
     std::shared_ptr<const ContactLaw> law_;
     std::vector<const Surface*> surfaces_;
     std::vector<int> firstNode_;
-    std::vector<Vec3> found_;  // places at `find`
-    double margin_ = 0;
+    std::vector<Vec3> found_;       // places at `find`
+    std::vector<double> expected_;  // approach, of each pair in candidates_ [m]
+    double expectedOfOthers_ = 0;   // of surfaces that are no pair
     Candidates candidates_;
 
     double energy_ = 0, leastGap_ = 0;

@@ -108,7 +108,8 @@ Expected collected(const Candidates& found) {
 
 void compare(const Scene& scene, const std::vector<geometry::ImagePair>& pairs, double within, std::size_t atLeast) {
     const std::vector<const Surface*> pointers = scene.pointers();
-    const Expected found = collected(findCandidates(pointers, scene.x, pairs, within));
+    const Expected found =
+        collected(findCandidates(pointers, scene.x, pairs, std::vector<double>(pairs.size(), within)));
     const Expected expected = bruteForce(scene, pairs, within);
     EXPECT_EQ(found.triangles, expected.triangles);
     EXPECT_EQ(found.edges, expected.edges);
@@ -163,8 +164,8 @@ TEST(Candidates, orderDependsOnTheInputAlone) {
     const Scene all = scene();
     const std::vector<const Surface*> pointers = all.pointers();
     const std::vector<geometry::ImagePair> pairs{{0, 1, Vec3::Zero()}, {0, 0, Vec3::Zero()}};
-    const Candidates once = findCandidates(pointers, all.x, pairs, 0.3),
-                     again = findCandidates(pointers, all.x, pairs, 0.3);
+    const Candidates once = findCandidates(pointers, all.x, pairs, std::vector<double>(pairs.size(), 0.3)),
+                     again = findCandidates(pointers, all.x, pairs, std::vector<double>(pairs.size(), 0.3));
     EXPECT_EQ(once.triangles, again.triangles);
     for (std::size_t r = 1; r < once.rows.size(); ++r)
         if (once.rows[r].own == once.rows[r - 1].own && once.rows[r].target == once.rows[r - 1].target) {
@@ -180,7 +181,7 @@ TEST(Candidates, surfacesWithoutFinitePlacesAreNearToNothing) {
     all.x[3].x() = std::numeric_limits<double>::quiet_NaN();
     const std::vector<const Surface*> pointers = all.pointers();
     const std::vector<geometry::ImagePair> pairs{{0, 1, Vec3::Zero()}, {0, 0, Vec3::Zero()}};
-    EXPECT_TRUE(findCandidates(pointers, all.x, pairs, 0.3).rows.empty());
+    EXPECT_TRUE(findCandidates(pointers, all.x, pairs, std::vector<double>(pairs.size(), 0.3)).rows.empty());
 }
 
 TEST(Surface, coefficientsOfOpenAndClosedMeshes) {
@@ -215,7 +216,7 @@ TEST(Surface, largestReachOfAMesh) {
     EXPECT_NEAR(reach, 0.4 * shortest, 1e-12);
     const Surface* pointer = &surface;
     const std::vector<geometry::ImagePair> self{{0, 0, Vec3::Zero()}};
-    const Candidates found = findCandidates({&pointer, 1}, ball.nodes, self, reach);
+    const Candidates found = findCandidates({&pointer, 1}, ball.nodes, self, std::vector<double>{reach});
     EXPECT_TRUE(found.rows.empty());
     EXPECT_TRUE(found.edgePairs.empty());
     const std::vector<Vec3> thin{{0, 0, 0}, {1, 0, 0}, {0.5, 0.01, 0}};

@@ -281,7 +281,7 @@ TEST(Contacts, ridgesThatCrossRepelEachOther) {
         }
 }
 
-TEST(Contacts, listsHoldUntilNodesHaveMovedHalfTheMargin) {
+TEST(Contacts, listsHoldUntilSurfacesHaveApproachedByTheSpareLength) {
     Scene scene = twoSpheres(0.05);
     Contacts contacts(barrier(0.1, 0));
     const std::vector<const Surface*> pointers = scene.pointers();
@@ -323,6 +323,27 @@ TEST(Contacts, travelEndsBeforeAnythingMeets) {
     EXPECT_LE(contacts.leastGap(), 0.5 * before);
     for (Vec3& one : u) one = Vec3(10, 0, 0);
     EXPECT_LT(contacts.freeTravel(scene.x, u), 0.03) << "no farther than the lists cover";
+}
+
+// A flow carries both along, far beyond their distance: lists for that travel are no longer than for none, and hold.
+TEST(Contacts, surfacesThatAreCarriedAlongTogetherKeepShortLists) {
+    const Scene scene = twoSpheres(0.05);
+    const std::vector<const Surface*> pointers = scene.pointers();
+    const std::vector<Vec3> together(scene.x.size(), Vec3(10, 3, -2));
+    Contacts still(barrier(0.1, 0)), carried(barrier(0.1, 0));
+    still.find(pointers, scene.x, Pairs{{0, 1, none}}, 0.1);
+    carried.find(pointers, scene.x, Pairs{{0, 1, none}}, 0.1, together);
+    EXPECT_NEAR(carried.pairMargin(0.1, together), 0.2 + 2 * together[0].norm(), 1e-12);
+    EXPECT_EQ(carried.candidates().triangles, still.candidates().triangles);
+    EXPECT_EQ(carried.freeTravel(scene.x, together), 1);
+    std::vector<Vec3> x = scene.x;
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] += together[n];
+    EXPECT_TRUE(carried.covers(x));
+    EXPECT_FALSE(still.covers(x)) << "who else may be where these are now is not known";
+    carried.evaluate(x);
+    EXPECT_NEAR(carried.energy(), still.energy(), 1e-12 * still.energy());
+    for (std::size_t n = 0; n < scene.surfaces[0].nodes(); ++n) x[n] += Vec3(0.11, 0, 0);
+    EXPECT_FALSE(carried.covers(x));
 }
 
 }  // namespace
