@@ -209,7 +209,7 @@ double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, do
     const std::vector<Vec3> d = since(x);
     double free = 1;
     const auto limit = [&](double expected, double before, double more) {
-        const double room = (1 - share) * (law_->reach() + expected - before);
+        const double room = (1 - share) * law_->reach() + expected - before;
         if (more * free > room) free = room / more;
     };
     limit(expectedOfOthers_, 2 * longest(d), 2 * longest(u));

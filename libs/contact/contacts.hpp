@@ -83,9 +83,9 @@ class Contacts {
     void addStiffness(double factor, std::span<const Vec3> u, std::span<Vec3> f) const;  // f += factor K u
 
     // Largest fraction in [0, 1] of the displacements u [m] from x after which every gap is at least `share` of what it
-    // is at x, on the whole way: nothing crosses. It is also limited by what the lists cover: two surfaces approach
-    // each other by no more than (1 - share) (reach + what `find` expected - what they have since). 0 where the lists
-    // do not cover x.
+    // is at x, or of the reach, on the whole way: nothing crosses. It is also limited by what the lists cover: two
+    // surfaces approach each other by no more than (1 - share) reach and what `find` expected, less what they have
+    // since. 0 where the lists do not cover x.
     double freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share = 0.1) const;
 
   private:
