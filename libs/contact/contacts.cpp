@@ -1,5 +1,6 @@
 #include "contact/contacts.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,12 +27,20 @@ void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Ve
     expected_.assign(pairs.size(), spare);
     if (!travel.empty()) {
         const std::vector<Motion> motions = motionsOf(travel);
-        for (std::size_t p = 0; p < pairs.size(); ++p) expected_[p] += approach(pairs[p], motions);
+        for (std::size_t p = 0; p < pairs.size(); ++p) expected_[p] = expectedOf(pairs[p], motions, spare);
     }
     std::vector<double> within = expected_;
     for (double& one : within) one += law_->range();
-    candidates_ = findCandidates(surfaces, x, pairs, within);
+    candidates_ = std::make_shared<const Candidates>(findCandidates(surfaces, x, pairs, within));
     evaluate(x);
+}
+
+double Contacts::expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double spare) const {
+    const double any = approach(pair, motions);
+    const Motion& own = motions[pair.first];
+    if (!isOfOne(pair) || own.gradient > mostGradient) return spare + any;
+    const double within = (law_->range() + spare + 2 * own.rest) / (1 - own.gradient);
+    return std::min(spare + any, within - law_->range());
 }
 
 double Contacts::pairMargin(double spare, std::span<const Vec3> travel) const {
@@ -39,17 +48,36 @@ double Contacts::pairMargin(double spare, std::span<const Vec3> travel) const {
 }
 
 std::vector<Contacts::Motion> Contacts::motionsOf(std::span<const Vec3> u) const {
-    std::vector<Motion> motions(surfaces_.size());
+    std::vector<Motion> motions;
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-        const auto own = u.subspan(static_cast<std::size_t>(firstNode_[s]), surfaces_[s]->nodes());
-        Motion& motion = motions[s];
-        for (const Vec3& one : own) motion.mean += one;
-        motion.mean /= static_cast<double>(std::max<std::size_t>(own.size(), 1));
-        double most2 = 0;
-        for (const Vec3& one : own) most2 = std::max(most2, (one - motion.mean).squaredNorm());
-        motion.spread = std::sqrt(most2);
+        const auto first = static_cast<std::size_t>(firstNode_[s]), count = surfaces_[s]->nodes();
+        motions.push_back(motionOf(std::span<const Vec3>(found_).subspan(first, count), u.subspan(first, count)));
     }
     return motions;
+}
+
+Contacts::Motion Contacts::motionOf(std::span<const Vec3> x, std::span<const Vec3> u) const {
+    Motion motion;
+    if (u.empty()) return motion;
+    Vec3 middle = Vec3::Zero();
+    for (std::size_t n = 0; n < u.size(); ++n) middle += x[n], motion.mean += u[n];
+    middle /= static_cast<double>(u.size()), motion.mean /= static_cast<double>(u.size());
+    Mat3 spread = Mat3::Zero(), moved = Mat3::Zero();
+    for (std::size_t n = 0; n < u.size(); ++n) {
+        const Vec3 r = x[n] - middle;
+        spread += r * r.transpose(), moved += (u[n] - motion.mean) * r.transpose();
+    }
+    spread += 1e-9 * spread.trace() * Mat3::Identity();  // a flat sheet says nothing of what is across it
+    const Mat3 gradient = spread.trace() > 0 ? Mat3(moved * spread.inverse()) : Mat3(Mat3::Zero());
+    motion.gradient = gradient.norm();
+    double most2 = 0, rest2 = 0;
+    for (std::size_t n = 0; n < u.size(); ++n) {
+        const Vec3 d = u[n] - motion.mean;
+        most2 = std::max(most2, d.squaredNorm());
+        rest2 = std::max(rest2, (d - gradient * (x[n] - middle)).squaredNorm());
+    }
+    motion.spread = std::sqrt(most2), motion.rest = std::sqrt(rest2);
+    return motion;
 }
 
 std::vector<Vec3> Contacts::since(std::span<const Vec3> x) const {
@@ -64,7 +92,7 @@ bool Contacts::covers(std::span<const Vec3> x) const {
     if (2 * longest(d) > expectedOfOthers_) return false;
     const std::vector<Motion> motions = motionsOf(d);
     for (std::size_t p = 0; p < expected_.size(); ++p)
-        if (approach(candidates_.pairs[p], motions) > expected_[p]) return false;
+        if (approach(candidates_->pairs[p], motions, candidates_->within[p]) > expected_[p]) return false;
     return true;
 }
 
@@ -75,10 +103,20 @@ std::array<int, 4> Contacts::nodesOf(const NodeRow& row, int triangle) const {
 }
 
 std::array<int, 4> Contacts::nodesOf(const EdgePair& pair) const {
-    const geometry::ImagePair& both = candidates_.pairs[pair.pair];
+    const geometry::ImagePair& both = candidates_->pairs[pair.pair];
     const Edge &e = surfaces_[both.first]->edges()[pair.first], &o = surfaces_[both.second]->edges()[pair.second];
     const int first = firstNode_[both.first], second = firstNode_[both.second];
     return {first + e[0], first + e[1], second + o[0], second + o[1]};
+}
+
+void Contacts::markListed(std::span<char> marks) const {
+    const auto mark = [&](const std::array<int, 4>& nodes) {
+        for (const int n : nodes) marks[static_cast<std::size_t>(n)] = 1;
+    };
+    for (const NodeRow& row : candidates_->rows)
+        for (int n = row.triangles[0]; n < row.triangles[1]; ++n)
+            mark(nodesOf(row, candidates_->triangles[static_cast<std::size_t>(n)]));
+    for (const EdgePair& pair : candidates_->edgePairs) mark(nodesOf(pair));
 }
 
 void Contacts::evaluate(std::span<const Vec3> x) {
@@ -86,8 +124,8 @@ void Contacts::evaluate(std::span<const Vec3> x) {
     energy_ = 0;
     virial_.setZero();
     leastGap_ = std::numeric_limits<double>::infinity();
-    for (const NodeRow& row : candidates_.rows) addNode(row, x);
-    for (const EdgePair& pair : candidates_.edgePairs) addEdges(pair, x);
+    for (const NodeRow& row : candidates_->rows) addNode(row, x);
+    for (const EdgePair& pair : candidates_->edgePairs) addEdges(pair, x);
 }
 
 void Contacts::addNode(const NodeRow& row, std::span<const Vec3> x) {
@@ -106,7 +144,7 @@ void Contacts::addTriangles(const NodeRow& row, std::span<const Vec3> x) {
     const Surface& target = *surfaces_[row.target];
     const Vec3 at = x[row.node] + row.offset;
     for (int n = row.triangles[0]; n < row.triangles[1]; ++n) {
-        const int number = candidates_.triangles[n];
+        const int number = candidates_->triangles[n];
         const std::array<int, 4> nodes = nodesOf(row, number);
         const Gap gap = nodeToTriangle(at, x[nodes[1]], x[nodes[2]], x[nodes[3]]);
         leastGap_ = std::min(leastGap_, gap.distance - law_->thickness);
@@ -131,7 +169,7 @@ void Contacts::addRims(const NodeRow& row, std::span<const Vec3> x) {
     const int first = firstNode_[row.target];
     const Vec3 at = x[row.node] + row.offset;
     for (int n = row.edges[0]; n < row.edges[1]; ++n) {
-        const int number = candidates_.edges[n];
+        const int number = candidates_->edges[n];
         const Edge& edge = target.edges()[number];
         const std::array<int, 4> nodes{row.node, first + edge[0], first + edge[1], row.node};
         const Gap gap = nodeToEdge(at, x[nodes[1]], x[nodes[2]]);
@@ -141,7 +179,7 @@ void Contacts::addRims(const NodeRow& row, std::span<const Vec3> x) {
         addPlace(inside ? onEdge : onNode, inside ? number : end, target.edgeCoefficient()[number], nodes, gap);
     }
     for (int n = row.nodes[0]; n < row.nodes[1]; ++n) {
-        const int number = candidates_.nodes[n];
+        const int number = candidates_->nodes[n];
         const Gap gap = nodeToNode(at, x[first + number]);
         if (gap.distance >= law_->range()) continue;
         addPlace(onNode, number, target.nodeCoefficient()[number], {row.node, first + number, row.node, row.node}, gap);
@@ -166,7 +204,7 @@ void Contacts::addPoint(const std::array<int, 4>& nodes, const Gap& gap, double 
 }
 
 void Contacts::addEdges(const EdgePair& pair, std::span<const Vec3> x) {
-    const geometry::ImagePair& both = candidates_.pairs[pair.pair];
+    const geometry::ImagePair& both = candidates_->pairs[pair.pair];
     const std::array<int, 4> nodes = nodesOf(pair);
     const FourNodes at{x[nodes[0]] - both.shift, x[nodes[1]] - both.shift, x[nodes[2]], x[nodes[3]]};
     const CrossingFactor m = crossingFactor(at[0], at[1], at[2], at[3]);
@@ -215,21 +253,22 @@ double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, do
     limit(expectedOfOthers_, 2 * longest(d), 2 * longest(u));
     const std::vector<Motion> before = motionsOf(d), more = motionsOf(u);
     for (std::size_t p = 0; p < expected_.size(); ++p)
-        limit(expected_[p], approach(candidates_.pairs[p], before), approach(candidates_.pairs[p], more));
+        limit(expected_[p], approach(candidates_->pairs[p], before, candidates_->within[p]),
+              approach(candidates_->pairs[p], more, candidates_->within[p]));
     const Keep keep{law_->thickness, share};
     const auto pick = [](std::span<const Vec3> all, const std::array<int, 4>& nodes) {
         return FourNodes{all[nodes[0]], all[nodes[1]], all[nodes[2]], all[nodes[3]]};
     };
-    for (const NodeRow& row : candidates_.rows)
+    for (const NodeRow& row : candidates_->rows)
         for (int n = row.triangles[0]; n < row.triangles[1]; ++n) {
-            const std::array<int, 4> nodes = nodesOf(row, candidates_.triangles[n]);
+            const std::array<int, 4> nodes = nodesOf(row, candidates_->triangles[n]);
             FourNodes at = pick(x, nodes);
             at[0] += row.offset;
             free = nodeTriangleTravel(at, pick(u, nodes), keep, free);
         }
-    for (const EdgePair& pair : candidates_.edgePairs) {
+    for (const EdgePair& pair : candidates_->edgePairs) {
         const std::array<int, 4> nodes = nodesOf(pair);
-        const Vec3& shift = candidates_.pairs[pair.pair].shift;
+        const Vec3& shift = candidates_->pairs[pair.pair].shift;
         FourNodes at = pick(x, nodes);
         at[0] -= shift, at[1] -= shift;
         free = edgeEdgeTravel(at, pick(u, nodes), keep, free);

@@ -36,6 +36,7 @@
 // All surfaces are numbered through: node n of surface s is node firstNode(s) + n of every array. Forces on an image
 // of a node act on the node.
 #pragma once
+#include <algorithm>
 #include <memory>
 
 #include "contact/candidates.hpp"
@@ -70,7 +71,9 @@ class Contacts {
     // `find` expected.
     bool covers(std::span<const Vec3> x) const;
     int firstNode(std::size_t surface) const { return firstNode_[surface]; }
-    const Candidates& candidates() const { return candidates_; }
+    const Candidates& candidates() const { return *candidates_; }
+    // Marks the nodes of all pieces that are listed: no other has a force.
+    void markListed(std::span<char> marks) const;
 
     // Energy, forces, springs, gap and virial of these places [m], for the functions below.
     void evaluate(std::span<const Vec3> x);
@@ -115,17 +118,32 @@ class Contacts {
     void addEdges(const EdgePair& pair, std::span<const Vec3> x);
     std::array<int, 4> nodesOf(const NodeRow& row, int triangle) const;
     std::array<int, 4> nodesOf(const EdgePair& pair) const;
-    // How the nodes of a surface move: all of them by `mean`, and each by no more than `spread` besides [m].
+    // How the nodes of a surface move: all of them by `mean` and each by no more than `spread` besides; or all by a
+    // mean deformation whose gradient has the norm `gradient`, and each by no more than `rest` besides.
     struct Motion {
-        Vec3 mean = Vec3::Zero();
-        double spread = 0;
+        Vec3 mean = Vec3::Zero();                   // m
+        double spread = 0, gradient = 0, rest = 0;  // m, 1, m
     };
     std::vector<Motion> motionsOf(std::span<const Vec3> u) const;
+    Motion motionOf(std::span<const Vec3> x, std::span<const Vec3> u) const;
+    static constexpr double mostGradient = 0.4;  // up to which a mean deformation is looked at by itself
     // The most by which nodes of the two surfaces approach each other.
     static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions) {
         const Motion &a = motions[pair.first], &b = motions[pair.second];
         return a.spread + b.spread + (a.mean - b.mean).norm();
     }
+    // The same of pieces that are `within` of each other; those further apart do not get nearer than these. A mean
+    // deformation moves pieces of one surface that are near each other little against each other.
+    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double within) {
+        const Motion& own = motions[pair.first];
+        const double any = approach(pair, motions);
+        return isOfOne(pair) && own.gradient <= mostGradient ? std::min(any, 2 * own.rest + own.gradient * within)
+                                                             : any;
+    }
+    static bool isOfOne(const geometry::ImagePair& pair) { return pair.first == pair.second && pair.shift.isZero(0); }
+    // By how much pieces of a pair may approach each other, so that all that come within range are within range and
+    // this of each other now.
+    double expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double spare) const;
     std::vector<Vec3> since(std::span<const Vec3> x) const;  // `find`: displacements
 
     std::shared_ptr<const ContactLaw> law_;
@@ -134,7 +152,7 @@ class Contacts {
     std::vector<Vec3> found_;       // places at `find`
     std::vector<double> expected_;  // approach, of each pair in candidates_ [m]
     double expectedOfOthers_ = 0;   // of surfaces that are no pair
-    Candidates candidates_;
+    std::shared_ptr<const Candidates> candidates_ = std::make_shared<Candidates>();  // of copies, too
 
     double energy_ = 0, leastGap_ = 0;
     Mat3 virial_ = Mat3::Zero();

@@ -9,6 +9,10 @@ using particles::ParticleSystem;
 
 namespace {
 
+// Lists of contact hold for the rest of a step and the way to where the next one takes its forces, which may be twice
+// as long: in ways from the beginning of a step to there.
+constexpr double waysAhead = 3;
+
 std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidModel& model,
                                          const ParticleSystem& system) {
     std::map<double, NodeConditions> known;  // by the ratio of viscosities
@@ -26,8 +30,12 @@ std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidMod
 
 }  // namespace
 
-Immersed::Immersed(Cells& cells, const sph::FluidModel& model, const ParticleSystem& system)
-    : cells_(cells), map_(system.spacing(), system.support(), conditionsOf(cells, model, system)), layout_(cells) {}
+Immersed::Immersed(Cells& cells, const sph::FluidModel& model, const ParticleSystem& system, CellContacts* contacts)
+    : cells_(cells),
+      system_(system),
+      contacts_(contacts),
+      map_(system.spacing(), system.support(), conditionsOf(cells, model, system)),
+      layout_(cells) {}
 
 void Immersed::move(double seconds) {
     for (Cell& cell : cells_)
@@ -36,6 +44,7 @@ void Immersed::move(double seconds) {
 }
 
 void Immersed::depart(double seconds, bool onArc) {
+    if (contacts_) departure_ = positions(), outlook_ = waysAhead * seconds;
     move(seconds);
     if (!onArc) return;
     for (Cell& cell : cells_) {
@@ -51,6 +60,32 @@ void Immersed::takeBack(double seconds) {
         cell.arc = {};
     }
     move(-seconds);
+}
+
+double Immersed::freeDeparture() const {
+    if (!contacts_) return 1;
+    Vectors way = positions();
+    for (std::size_t m = 0; m < way.size(); ++m) way[m] -= departure_[m];
+    return contacts_->freeTravel(cells_, NodeLayout(cells_), system_, departure_, way);
+}
+
+double Immersed::freeArrival(double seconds, double dt, const Vectors& velocities, double more) const {
+    if (!contacts_) return 1;
+    const Vectors from = positions();
+    Vectors way(from.size());
+    for (std::size_t c = 0; c < layout_.cells(); ++c) {
+        const Cell& cell = cells_[c];
+        for (std::size_t n = 0, m = layout_.first(c); m < layout_.last(c); ++n, ++m)
+            way[m] =
+                cell.arc.toChord(from[m]) - seconds * cell.membrane.velocity[n] + (dt + more) * velocities[m] - from[m];
+    }
+    return contacts_->freeTravel(cells_, layout_, system_, from, way);
+}
+
+Immersed::Vectors Immersed::positions() const {
+    Vectors all;
+    for (const Cell& cell : cells_) all.insert(all.end(), cell.membrane.position.begin(), cell.membrane.position.end());
+    return all;
 }
 
 Immersed::Vectors Immersed::velocities() const {
@@ -77,6 +112,18 @@ void Immersed::place(const ParticleSystem& system, const std::vector<double>& vo
         m.force.assign(m.force.size(), Vec3::Zero());
         m.addElasticForces(m.position, m.force);
     }
+    if (contacts_) addContact();
+}
+
+void Immersed::addContact() {
+    Vectors ahead = velocities();
+    for (Vec3& one : ahead) one *= outlook_;
+    contacts_->place(cells_, layout_, system_, ahead);
+    Vectors f(layout_.nodes(), Vec3::Zero());
+    contacts_->addForces(f);
+    for (std::size_t c = 0; c < layout_.cells(); ++c)
+        for (std::size_t n = 0, m = layout_.first(c); m < layout_.last(c); ++n, ++m)
+            cells_[c].membrane.force[n] += f[m];
 }
 
 void Immersed::build(const ParticleSystem& system, const std::vector<double>& volume) {

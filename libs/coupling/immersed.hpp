@@ -5,13 +5,14 @@
 // symbol | meaning
 // S      | from the fluid to the nodes (nodeFluidMap.hpp)
 // P      | the volume of closed cells kept (volumeProjection.hpp); it ends when a cell opens
-// K, C   | stiffness and damping of the membranes (membraneStiffness.hpp)
+// K, C   | stiffness and damping of the membranes (membraneStiffness.hpp); K with that of contact (cellContacts.hpp)
 // Power is neither made nor lost. The stiffness that the fluid feels is S^T P K P S, symmetric and positive
 // semi-definite as K is.
 //
 // A rank knows the nodes of the cells that it holds, the same bits as their other holders, and the weights of its own
 // particles. Whoever needs forces on ghosts (particles/sharedParticles.hpp) asks for their weights as well.
 #pragma once
+#include "coupling/cellContacts.hpp"
 #include "coupling/membraneStiffness.hpp"
 #include "coupling/nodeFluidMap.hpp"
 #include "coupling/volumeProjection.hpp"
@@ -30,8 +31,10 @@ class Immersed {
         return radiusInSpacings * spacing + support + 2 * skin;
     }
 
-    // model: of the fluid around them.
-    Immersed(Cells& cells, const sph::FluidModel& model, const particles::ParticleSystem& system);
+    // model: of the fluid around them. contacts: null where membranes do not feel each other. All must stay where they
+    // are.
+    Immersed(Cells& cells, const sph::FluidModel& model, const particles::ParticleSystem& system,
+             CellContacts* contacts = nullptr);
 
     Cells& cells() { return cells_; }
     const Cells& cells() const { return cells_; }
@@ -41,6 +44,11 @@ class Immersed {
     // middle of the arc on which each cell turns (arc.hpp).
     void depart(double seconds, bool onArc);
     void takeBack(double seconds);
+    // Which part of the way of the last `depart` was free of contact; of all ranks. Collective.
+    double freeDeparture() const;
+    // The same of the way to the end of a step of dt with these velocities, and for `more` seconds on, from where
+    // forces are taken. Collective.
+    double freeArrival(double seconds, double dt, const Vectors& velocities, double more) const;
     Vectors velocities() const;
     void setVelocities(const Vectors& velocities);
     void restoreVolume() { VolumeProjection::restore(cells_); }
@@ -65,8 +73,11 @@ class Immersed {
         volume_.apply(v);
         return v;
     }
-    Vectors force() const;  // of the membranes [N]
-    void addStiffness(double factor, const Vectors& u, Vectors& f) const { stiffness_.addStiffness(factor, u, f); }
+    Vectors force() const;                                                  // of the membranes [N]
+    void addStiffness(double factor, const Vectors& u, Vectors& f) const {  // collective among holders, with contact
+        stiffness_.addStiffness(factor, u, f);
+        if (contacts_) contacts_->addStiffness(factor, u, f);
+    }
     void addDamping(const Vectors& u, Vectors& f) const { stiffness_.addDamping(u, f); }
     void addResistance(double time, const Vectors& u, Vectors& f) const {  // f -= (time K + C) u
         addStiffness(-time, u, f);
@@ -79,7 +90,9 @@ class Immersed {
         MembraneStiffness::addViscousForces(cells_, layout_, u, f);
     }
     Vectors forceAt(const Vectors& displacement) const {  // of the membranes' elasticity, nodes displaced [N]
-        return MembraneStiffness::forceAt(cells_, layout_, displacement);
+        Vectors f = MembraneStiffness::forceAt(cells_, layout_, displacement);
+        if (contacts_) contacts_->addForcesAt(displacement, f);
+        return f;
     }
     // force_j += (S^T P f)_j, of four numbers a particle.
     void spread(Vectors f, particles::RealArray& force) const;
@@ -91,6 +104,8 @@ class Immersed {
         return layout_.sumOverOwned(cells_, rank_, [&](std::size_t m) { return a[m].dot(b[m]); });
     }
 
+    const CellContacts* contacts() const { return contacts_; }
+
     const std::vector<int>& touched() const { return map_.touched(); }  // particles of this rank with weights
     const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }  // of one held cell
     const std::vector<int>& touchedOthers() const { return map_.touchedOthers(); }              // entries of ghosts
@@ -99,7 +114,14 @@ class Immersed {
     long mostFallbacks() const { return map_.mostFallbacks(); }  // of any build
 
   private:
+    Vectors positions() const;
+    void addContact();
+
     Cells& cells_;
+    const particles::ParticleSystem& system_;
+    CellContacts* contacts_;
+    Vectors departure_;   // places before the last `depart`; with contact only
+    double outlook_ = 0;  // how far ahead the lists of contact look [s]
     NodeFluidMap map_;
     NodeLayout layout_;
     VolumeProjection volume_;

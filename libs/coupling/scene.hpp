@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bodies/bodies.hpp"
+#include "coupling/cellContacts.hpp"
 #include "coupling/dualIdentity.hpp"
 #include "particles/particleSystem.hpp"
 #include "sph/flow.hpp"
@@ -21,6 +22,7 @@ struct Scene {
     std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
     std::unique_ptr<sph::Shifting> shifting;   // none unless the case names it
     Cells cells;                               // none for a fluid alone
+    std::unique_ptr<CellContacts> contacts;    // none unless the case has contact
     std::unique_ptr<DualIdentity> coupling;    // none without cells
     std::vector<RuptureEvent> broken;          // at the last step, of the cells that this rank holds
     sph::Budget budget;                        // of energy and momentum; not kept unless an observer asks for it

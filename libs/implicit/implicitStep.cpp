@@ -24,7 +24,9 @@ using particles::vectorAt;
 namespace {
 
 std::unique_ptr<Immersed> immersedIn(Scene& scene) {
-    return !scene.cells.exist() ? nullptr : std::make_unique<Immersed>(scene.cells, scene.model(), *scene.system);
+    return !scene.cells.exist()
+               ? nullptr
+               : std::make_unique<Immersed>(scene.cells, scene.model(), *scene.system, scene.contacts.get());
 }
 std::unique_ptr<coupling::NoFlux> noFluxIn(Scene& scene) {
     return !scene.cells.exist() ? nullptr : std::make_unique<coupling::NoFlux>(scene.cells, scene.spacing);
@@ -81,6 +83,11 @@ class Step final : public ImplicitStep {
         const TimeDifference time = backward ? TimeDifference::backwardEuler(dt, state)
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
         movement_.depart(time);
+        if (immersed_ && immersed_->freeDeparture() < 1) {
+            fault_ = "membranes would meet on the way to where forces are taken";
+            movement_.takeBack(time);
+            return false;
+        }
         system_.prepare(time);
         system_.findGuess(velocity_);
         system_.findResidual(velocity_, residual_);
@@ -94,6 +101,7 @@ class Step final : public ImplicitStep {
             immersed_ ? largestOfRanks(largestBondRate(*immersed_, system_.membranes()->velocities())) : 0;
         allowed_ = allowedSteps(options_.settings, scene_.flow.rate, {dt, planned, isBackward()},
                                 hasAcceleration() ? unevenness() * difference() : 0, bondRate);
+        allowed_.contact = allowedByContact(time);
         finish();
         return true;
     }
@@ -177,6 +185,15 @@ class Step final : public ImplicitStep {
         if (freeBodies) largest = std::max(largest, rigid->largestDifference(h, velocity_));
         return largest;
     }
+    // So that the way to where the next step takes its forces is free: of x* to the end of this step and dt more.
+    double allowedByContact(const TimeDifference& time) const {
+        if (!immersed_ || !immersed_->contacts()) return 0;
+        const double rest = time.dt - time.begin();
+        const double free = immersed_->freeArrival(time.begin(), time.dt, system_.membranes()->velocities(), time.dt);
+        if (free == 1) return 0;
+        const double ahead = 0.9 * free * (rest + time.dt) - rest;  // free way beyond the end of this step
+        return std::max(ahead / (time.isAtEnd() ? 1 : 0.5), 0.2 * time.dt);
+    }
     double largestOfRanks(double value) const { return Communicator(scene_.system->comm()).max(value); }
     double differenceOfFluid(double h) const {  // root mean square
         const ParticleStore& s = scene_.store();
@@ -204,6 +221,9 @@ class Step final : public ImplicitStep {
             if (system_.isPrescribed(i))
                 onWalls[static_cast<std::size_t>(walls.nearest(s.position(i)).number)] += vectorAt(residual_, i);
         }
+        if (immersed_)
+            for (const auto& on : system_.membranes()->forcesOnWalls())
+                onWalls[static_cast<std::size_t>(on.wall)] += on.force;
         scene_.forces->setWallForces(std::move(onWalls));
         if (scene_.budget.kept) budget_.keep(velocity_, residual_, rate_);
         state.reference = disturbanceOf(system_, velocity_, rate_);

@@ -46,17 +46,31 @@ template <class Real>
 std::string MembraneTerm<Real>::whyNot(const Field& v, double dt) {
     nodes_ = immersed_.interpolate(v.data());
     const double change = Communicator(system_.comm()).max(largestBondRate(immersed_, nodes_)) * dt;
-    if (change <= settings_.bondStrain) return {};
+    if (change <= settings_.bondStrain) {
+        if (immersed_.freeArrival(reach_.middle, dt, nodes_, 0) == 1) return {};
+        return "membranes would meet";
+    }
     return fmt::format("a bond would change its length by {:.3g}, more than 'implicit.bondStrain'", change);
 }
 
 template <class Real>
-void MembraneTerm<Real>::addDefect(Forces& forces) {
+auto MembraneTerm<Real>::displacement() const -> Vectors {
     Vectors displacement = nodes_;
     const Vectors before = immersed_.velocities();
     for (std::size_t m = 0; m < nodes_.size(); ++m)
         displacement[m] = reach_.middle * (nodes_[m] - before[m]) + reach_.lead * (nodes_[m] - extrapolated_[m]);
-    defect_ = immersed_.forceAt(displacement);
+    return displacement;
+}
+
+template <class Real>
+std::vector<coupling::CellContacts::OnWall> MembraneTerm<Real>::forcesOnWalls() const {
+    if (!immersed_.contacts()) return {};
+    return immersed_.contacts()->forcesOnWalls(immersed_.cells(), Communicator(system_.comm()).rank(), displacement());
+}
+
+template <class Real>
+void MembraneTerm<Real>::addDefect(Forces& forces) {
+    defect_ = immersed_.forceAt(displacement());
     Vectors linear = load_;
     immersed_.addStiffness(-reach_.total(), nodes_, linear);
     for (std::size_t m = 0; m < defect_.size(); ++m) defect_[m] -= linear[m];

@@ -35,7 +35,7 @@ class MembraneTerm final : public Term<Real> {
     void addFirstForces(const Field& v0, Forces& forces) override;
     void addForces(const Field& v, Forces& forces) override;
     void addProduct(const Field& v, Forces& forces) override;
-    std::string whyNot(const Field& v, double dt) override;  // a bond would change by more than the settings allow
+    std::string whyNot(const Field& v, double dt) override;  // a bond would change by too much, or membranes would meet
     bool isLinear() const override { return false; }
     void addDefect(Forces& forces) override;
     void takeDefect() override;
@@ -45,6 +45,9 @@ class MembraneTerm final : public Term<Real> {
     // against viscosity.
     void addRates(sph::Budget::Values& rates) const;
 
+    // What walls feel of membranes in contact with them, at the velocity found, of the cells that this rank owns.
+    std::vector<coupling::CellContacts::OnWall> forcesOnWalls() const;
+
     // Of the nodes of the cells that this rank holds, for the velocity last given to addFirstForces, addForces or
     // whyNot.
     const Vectors& velocities() const { return nodes_; }
@@ -52,6 +55,7 @@ class MembraneTerm final : public Term<Real> {
     const Vectors& extrapolated() const { return extrapolated_; }
 
   private:
+    Vectors displacement() const;                           // from x*, of the velocity last given
     void give(const Vectors& nodes, Forces& forces) const;  // those of the velocities of the nodes
     coupling::Immersed& immersed_;
     const particles::ParticleSystem& system_;

@@ -42,7 +42,13 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
         rates[Budget::ofSolver] += v.dot(left);
     }
     if (rigid) power += rigid->addRates(time.c1, time.c2, velocity, rates);
-    if (system_.membranes()) system_.membranes()->addRates(rates);
+    if (system_.membranes()) {
+        system_.membranes()->addRates(rates);
+        for (const auto& on : system_.membranes()->forcesOnWalls()) {  // along the normal: walls move across it
+            const boundary::Wall& wall = scene.model().walls[static_cast<std::size_t>(on.wall)];
+            Budget::addWall(rates, on.wall, wall.velocityAt(on.place), on.place - middle, -on.force);
+        }
+    }
     rates[Budget::viscous] = -power - rates[Budget::compression] - rates[Budget::elastic] - rates[Budget::inMembranes];
     scene.budget.add(time.dt, rates);
 }

@@ -20,6 +20,9 @@
 // start from a velocity that does not know of the forces is of first order: where `error` is below its default, the
 // first step is (error/default)^(1/2) as long as `step`, and the second twice that.
 //
+// Contact. Nodes move to where the next step takes its forces before these act: no further than nine tenths of the way
+// on which nothing meets.
+//
 // Bonds. No bond may change its length by more than bondStrain in one step: dt <= bondStrain/max |d/dt ln l|.
 #pragma once
 #include "coupling/immersed.hpp"
@@ -28,7 +31,7 @@
 namespace corpuscle::implicit {
 
 struct AllowedSteps {
-    double error = 0, bond = 0;  // [s]; 0: of any length
+    double error = 0, bond = 0, contact = 0;  // [s]; 0: of any length
 };
 
 // Of the first step.

@@ -65,6 +65,7 @@ BudgetTable::Content BudgetTable::contentOf(const Scene& scene) {
         for (const auto& cell :
              ofEachCell(scene, 1, [](const coupling::Cell&held, double*out) { *out = held.membrane.energy(); }))
             c.elastic += cell[0];
+    if (scene.contacts) c.elastic += ranks.sum(scene.contacts->energy(scene.cells, *scene.system));
     return c;
 }
 

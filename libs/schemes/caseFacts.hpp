@@ -7,6 +7,7 @@ namespace corpuscle::schemes {
 
 struct CaseFacts {
     bool hasCells = false, hasBodies = false;
+    bool hasContact = false;  // of membranes (constant/contact.yaml)
     // At rest until constant/flow.yaml has been resolved.
     sph::FlowState flow;
     double leastViscosity = 0, largestViscosity = 0;  // of the fluid outside cells [Pa s]

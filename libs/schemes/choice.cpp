@@ -20,10 +20,24 @@ NumericsSettings settled(const NumericsSettings& written, const CaseFacts& facts
     return n;
 }
 
+namespace {
+
+void checkScheme(const NumericsSettings& settled, const CaseFacts& facts, const std::string& integrator,
+                 Problems& problems) {
+    settled.scheme->check(facts, settled, problems);
+    if (facts.hasContact && !settled.scheme->traits().hasContact)
+        problems.add(numericsFile, "integrator",
+                     "found " + integrator +
+                         ", which knows no contact of membranes; write 'integrator: implicit', or remove "
+                         "constant/contact.yaml");
+}
+
+}  // namespace
+
 std::string whyNot(const NumericsSettings& written, const CaseFacts& facts, const std::string& integrator) {
     const NumericsSettings named = settled(written, facts, integrator);
     Problems problems;
-    named.scheme->check(facts, named, problems);
+    checkScheme(named, facts, integrator, problems);
     try {
         problems.throwIfAny();
     } catch (const CaseError& error) {
@@ -55,7 +69,7 @@ void check(const NumericsSettings& settled, const NumericsSettings& written, con
     if (settled.isAutomatic())
         checkAutomatic(written, facts, problems);
     else
-        settled.scheme->check(facts, settled, problems);
+        checkScheme(settled, facts, settled.integrator, problems);
     for (const Scheme::UnusedKey& key : settled.scheme->unused(settled))
         if (const Node* const found = facts.find(key.path))
             problems.add(found->mark, found->path,

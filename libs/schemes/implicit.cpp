@@ -57,6 +57,10 @@ class ImplicitStepper final : public Stepper {
                        "a bond changes its length faster than 'implicit.bondStrain' of system/numerics.yaml allows: "
                        "look for edges far below the spacing in 0/ (checkMesh), take a larger 'edge' in "
                        "system/mesh.yaml, or a larger bondStrain");
+        if (const double contact = step_->allowed().contact; contact > 0)
+            limits.add("contact", contact,
+                       "membranes come near each other or a wall faster than the law of constant/contact.yaml holds "
+                       "them off: take a larger reach, or more strength");
         return limits;
     }
 
@@ -98,6 +102,7 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
         return {.isAdjoint = true,
                 .listsEveryStep = true,
                 .solvesForBodies = true,
+                .hasContact = true,
                 .hasDampedSteps = true,
                 .stepsPerBalance = 1,
                 .stepsPerKeptState = 5,

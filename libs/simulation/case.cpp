@@ -172,6 +172,8 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
     readCells(app, misnamed, c, problems);
     readInto(c.fluid, "constant/fluid.yaml");
     if (!c.mesh.bodies.empty() || app.hasDictionary("constant/bodies.yaml")) readInto(c.bodies, "constant/bodies.yaml");
+    if (app.hasDictionary("constant/contact.yaml") && !misnamed.contains("constant/contact.yaml"))
+        c.contact = readFile<contact::ContactSettings>(app, "constant/contact.yaml", c, problems);
     if (!misnamed.contains("constant/flow.yaml")) {
         const std::size_t before = problems.count();
         const Node& node = c.files["constant/flow.yaml"] = app.dictionary("constant/flow.yaml", problems);
@@ -307,6 +309,7 @@ double Case::automaticSoundSpeed() const {
 schemes::CaseFacts Case::facts() const {
     schemes::CaseFacts facts;
     facts.hasCells = !mesh.cells.empty(), facts.hasBodies = !mesh.bodies.empty();
+    facts.hasContact = contact.has_value() && facts.hasCells;
     if (const auto file = files.find("system/numerics.yaml"); file != files.end()) facts.written = &file->second;
     const auto [least, largest] = viscosities();
     facts.leastViscosity = least, facts.largestViscosity = facts.mostViscous = largest;

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 
+#include "contact/contactSettings.hpp"
 #include "core/application.hpp"
 #include "observers/observers.hpp"
 #include "schemes/choice.hpp"
@@ -22,6 +23,7 @@ struct Case {
     FluidSettings fluid;
     MembranesSettings membranes;
     bodies::BodiesSettings bodies;
+    std::optional<contact::ContactSettings> contact;  // none unless the case has constant/contact.yaml
     Choice<sph::Flow> flowModel;
     observers::ObserversSettings observers;
     std::map<std::string, Node> files;   // the dictionaries as they were read

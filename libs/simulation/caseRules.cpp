@@ -258,6 +258,13 @@ void checkFirstBreak(const Case& c, Problems& problems) {
                 joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
 }
 
+void checkContact(const Case& c, Problems& problems) {
+    if (c.contact && c.mesh.cells.empty())
+        problems.add(
+            {"constant/contact.yaml", 0, 0}, "",
+            "there is contact of membranes, but system/mesh.yaml has no cells; remove the file, or name cells");
+}
+
 void checkSupport(const Case& c, Problems& problems) {
     const double support = c.support() / c.spacing();
     if (!(support >= leastSupport && support <= largestSupport))
@@ -276,6 +283,7 @@ void checkTogether(const Case& c, Problems& problems) {
     checkLayers(c, problems);
     schemes::check(c.numerics, c.written, c.facts(), problems);
     checkFirstBreak(c, problems);
+    checkContact(c, problems);
     checkSupport(c, problems);
 }
 

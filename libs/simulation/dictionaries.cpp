@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "contact/contactSettings.hpp"
 #include "core/atomicFile.hpp"
 #include "core/schemaJson.hpp"
 #include "observers/observers.hpp"
@@ -49,6 +50,7 @@ const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries() {
         {"constant/fluid.yaml", FluidSettings::schema().info()},
         {"constant/membranes.yaml", MembranesSettings::schema().info()},
         {"constant/bodies.yaml", bodies::BodiesSettings::schema().info()},
+        {"constant/contact.yaml", contact::ContactSettings::schema().info()},
         {"constant/flow.yaml", flowInfo()}};
     return all;
 }

@@ -184,7 +184,8 @@ std::vector<std::pair<std::string, FieldInfo>> restartDictionaries() {
             {"constant/fluid.yaml", dictionaryField([] { return FluidSettings::schema().info(); })},
             {"constant/flow.yaml", dictionaryField(sph::Flow::familyName)},
             {membranesFile, dictionaryField([] { return MembranesSettings::schema().info(); })},
-            {bodiesFile, dictionaryField([] { return bodies::BodiesSettings::schema().info(); })}};
+            {bodiesFile, dictionaryField([] { return bodies::BodiesSettings::schema().info(); })},
+            {"constant/contact.yaml", dictionaryField([] { return contact::ContactSettings::schema().info(); })}};
 }
 
 void writeOrigin(io::CheckpointWriter& file, const Case& input, const coupling::Scene& scene) {

@@ -1,5 +1,9 @@
 #include "simulation/sceneBuilder.hpp"
 
+#include <fmt/format.h>
+
+#include "contact/surface.hpp"
+#include "core/units.hpp"
 #include "coupling/immersed.hpp"
 #include "geometry/periodicSurface.hpp"
 #include "simulation/placement.hpp"
@@ -24,6 +28,20 @@ std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double s
 
 namespace {
 
+// Contact of a membrane with itself must not be that of neighbours in its mesh.
+void checkReach(const contact::ContactLaw& law, const CellType& type, Problems& problems) {
+    double least = 1;
+    for (const geometry::Place& place : type.places) least = std::min(least, place.scale);
+    const double largest = least * contact::largestReach(type.nodes, type.triangles);
+    if (law.range() <= largest) return;
+    problems.add(
+        {"constant/contact.yaml", 0, 0}, "law.reach",
+        fmt::format("reach and thickness are {} together; with the mesh of cell '{}' at most {} (0.4 of its "
+                    "shortest edge), or neighbours in the mesh would count as contacts of the membrane with "
+                    "itself. Take a smaller reach, a larger 'edge' in system/mesh.yaml, or self: false",
+                    formatQuantity(law.range(), unit::metre), type.name, formatQuantity(largest, unit::metre)));
+}
+
 std::vector<CellType> readTypes(const Case& input) {
     std::vector<CellType> types;
     Problems problems;
@@ -43,6 +61,7 @@ std::vector<CellType> readTypes(const Case& input) {
         if (!input.numerics.isImmersed())
             for (const double volume : nodeVolumes(mesh.vertexAreas(), input.spacing()))
                 type.nodeMass.push_back(input.flow.density * volume);
+        if (input.contact && input.contact->self) checkReach(*input.contact->law, type, problems);
         types.push_back(std::move(type));
     }
     input.throwIfAny(problems);
@@ -149,6 +168,8 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     }
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
+    if (input.contact && hasCells)
+        scene.contacts = std::make_unique<coupling::CellContacts>(*input.contact, scene.model().walls);
     if (input.numerics.shifting && !input.scheme().traits().isAdjoint)  // those shift within every step
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());

@@ -346,5 +346,27 @@ TEST(Contacts, surfacesThatAreCarriedAlongTogetherKeepShortLists) {
     EXPECT_FALSE(carried.covers(x));
 }
 
+// A surface that turns and is drawn out as a whole needs hardly longer lists for contact with itself.
+TEST(Contacts, aMeanDeformationKeepsListsOfOneSurfaceShort) {
+    const Scene scene = twoSpheres(0.05);
+    const std::vector<const Surface*> one{scene.pointers()[0]};
+    const std::vector<Vec3> x(scene.x.begin(), scene.x.begin() + static_cast<std::ptrdiff_t>(one[0]->nodes()));
+    Mat3 gradient;
+    gradient << 0.05, 0, 0.2, 0, -0.05, 0, -0.1, 0, 0;
+    std::vector<Vec3> travel;
+    for (const Vec3& place : x) travel.push_back(gradient * place + Vec3(7, 0, 0));
+    Contacts still(barrier(0.02, 0)), turning(barrier(0.02, 0));
+    still.find(one, x, Pairs{{0, 0, none}}, 0.01);
+    turning.find(one, x, Pairs{{0, 0, none}}, 0.01, travel);
+    EXPECT_LT(turning.candidates().within[0], 0.045);  // (0.02 + 0.01)/(1 - |gradient|); by the nodes' ways above 0.4
+    EXPECT_EQ(turning.candidates().rows.size(), still.candidates().rows.size());
+    EXPECT_EQ(turning.freeTravel(x, travel), 1);
+    std::vector<Vec3> there = x;
+    for (std::size_t n = 0; n < x.size(); ++n) there[n] += travel[n];
+    EXPECT_TRUE(turning.covers(there));
+    there[3] += Vec3(0.02, 0, 0);  // by itself
+    EXPECT_FALSE(turning.covers(there));
+}
+
 }  // namespace
 }  // namespace corpuscle::contact

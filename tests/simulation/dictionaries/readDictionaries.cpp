@@ -33,6 +33,7 @@ const std::map<std::string, std::function<void(const Node&, Problems&)>> readers
     {"constant/fluid.yaml", readAs<simulation::FluidSettings>},
     {"constant/membranes.yaml", readAs<simulation::MembranesSettings>},
     {"constant/bodies.yaml", readAs<bodies::BodiesSettings>},
+    {"constant/contact.yaml", readAs<contact::ContactSettings>},
     {"constant/cells/cell.yaml", readAs<simulation::ReadyCell>},
     {"constant/flow.yaml", [](const Node& node, Problems& problems) { readChoice<sph::Flow>(node, problems); }}};
 

@@ -1,0 +1,19 @@
+// constant/contact.yaml: how membranes act on each other, and on walls, where they come near each other.
+//
+//     law: {type: barrier, reach: 0.1 um, strength: 1 uN/m}
+//     self: true
+//     walls: true
+#pragma once
+#include "contact/contactLaw.hpp"
+#include "core/registry.hpp"
+
+namespace corpuscle::contact {
+
+struct ContactSettings {
+    Choice<ContactLaw> law;
+    bool self = true;   // also of a membrane with itself
+    bool walls = true;  // also of membranes with walls
+    static const Schema<ContactSettings>& schema();
+};
+
+}  // namespace corpuscle::contact

@@ -1,0 +1,232 @@
+#include "coupling/cellContacts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/communicator.hpp"
+
+namespace corpuscle::coupling {
+
+using particles::ParticleSystem;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double keptShare = 0.1;  // of a gap, on a way that is free
+constexpr int looksOnTheWay = 8;   // at walls, which are smooth on the scale of a step
+
+NodeVectors positionsOf(const Cells& cells) {
+    NodeVectors x;
+    for (const Cell& cell : cells) x.insert(x.end(), cell.membrane.position.begin(), cell.membrane.position.end());
+    return x;
+}
+
+std::shared_ptr<const contact::Surface> surfaceOf(const membrane::Network& network) {
+    std::vector<Index3> whole;
+    for (const int t : network.wholeTriangles()) whole.push_back(network.triangles()[static_cast<std::size_t>(t)]);
+    return std::make_shared<const contact::Surface>(network.stressFree(), whole);
+}
+
+}  // namespace
+
+CellContacts::CellContacts(const contact::ContactSettings& settings, const boundary::Walls& walls)
+    : settings_(settings), walls_(walls), contacts_(settings.law.model) {}
+
+CellContacts::Surfaces CellContacts::surfacesOf(const Cells& cells,
+                                                std::map<const membrane::Network*, Known>& known) const {
+    std::map<const membrane::Network*, Known> now;
+    Surfaces surfaces;
+    for (const Cell& cell : cells) {
+        const membrane::Network& network = cell.membrane.network();
+        auto [at, isNew] = now.try_emplace(&network);
+        if (isNew) {
+            const auto before = known.find(&network);
+            const bool holds = before != known.end() && before->second.broken == network.brokenTriangles() &&
+                               before->second.surface->nodes() == network.nodeCount();
+            at->second = holds ? before->second : Known{network.brokenTriangles(), surfaceOf(network)};
+        }
+        surfaces.push_back(at->second.surface);
+    }
+    known.swap(now);
+    return surfaces;
+}
+
+void CellContacts::list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
+                        const ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const {
+    const int rank = system.decomposition().rank();
+    std::vector<const contact::Surface*> pieces;
+    std::vector<geometry::Bounds> bounds;
+    for (std::size_t c = 0, first = 0; c < cells.heldCount(); first += surfaces[c]->nodes(), ++c) {
+        pieces.push_back(surfaces[c].get());
+        geometry::Bounds box;
+        for (std::size_t n = first; n < first + surfaces[c]->nodes(); ++n) box.extend(x[n]);
+        bounds.push_back(box);
+    }
+    const double spare = spareOfReach * settings_.law->reach();
+    std::vector<geometry::ImagePair> pairs;
+    for (const geometry::ImagePair& pair :
+         geometry::neighbours(bounds, system.periodicity(), contacts.pairMargin(spare, travel)))
+        if (lowestCommonHolder(cells[pair.first].holders, cells[pair.second].holders) == rank) pairs.push_back(pair);
+    if (settings_.self)
+        for (std::size_t c = 0; c < cells.heldCount(); ++c)
+            if (cells[c].isOwnedBy(rank)) pairs.push_back({c, c, Vec3::Zero()});
+    contacts.find(pieces, x, pairs, spare, travel);
+}
+
+void CellContacts::place(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
+                         const NodeVectors& travel) {
+    layout_ = layout;
+    x_ = positionsOf(cells);
+    surfaces_ = surfacesOf(cells, known_);
+    listed_.clear();
+    for (const Cell& cell : cells) listed_.push_back(cell.membrane.cell);
+    list(contacts_, cells, x_, system, travel, surfaces_);
+    std::vector<char> mine(x_.size(), 0);
+    contacts_.markListed(mine);
+    sums_.plan(
+        cells, system.comm(), [](const Cell& cell) { return cell.nodeCount(); }, mine);
+    atWalls_ = atWallsOf(layout_, x_, surfaces_);
+    leastGap_ = contacts_.leastGap();
+    if (settings_.walls)
+        forNearWalls(layout_, x_, settings_.law->range(), surfaces_,
+                     [&](std::size_t, std::size_t, const boundary::Wall&, double distance) {
+                         leastGap_ = std::min(leastGap_, distance - settings_.law->thickness);
+                     });
+}
+
+bool CellContacts::isListed(const Cells& cells) const {
+    return std::equal(cells.begin(), cells.end(), listed_.begin(), listed_.end(),
+                      [](const Cell& cell, int number) { return cell.membrane.cell == number; });
+}
+
+template <class F>
+void CellContacts::forNearWalls(const NodeLayout& layout, const NodeVectors& x, double within, const Surfaces& surfaces,
+                                F&& f) const {
+    if (!settings_.walls) return;
+    for (std::size_t c = 0; c < layout.cells(); ++c) {
+        geometry::Bounds box;
+        for (const Vec3& place : layout.of(c, x)) box.extend(place);
+        const double around = 0.5 * box.diagonal().norm();
+        for (const boundary::Wall& wall : walls_) {
+            if (wall.distance(box.center()) > around + within) continue;
+            for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
+                if (const double distance = wall.distance(x[m]);
+                    distance < within && surfaces[c]->nodeArea()[m - layout.first(c)] > 0)
+                    f(c, m, wall, distance);
+        }
+    }
+}
+
+std::vector<CellContacts::AtWall> CellContacts::atWallsOf(const NodeLayout& layout, const NodeVectors& x,
+                                                          const Surfaces& surfaces) const {
+    std::vector<AtWall> found;
+    const contact::ContactLaw& law = *settings_.law;
+    forNearWalls(layout, x, law.range(), surfaces,
+                 [&](std::size_t c, std::size_t m, const boundary::Wall& wall, double distance) {
+                     found.push_back({m, c, wall.number, wall.normal(x[m]),
+                                      surfaces[c]->nodeArea()[m - layout.first(c)], law.at(distance - law.thickness)});
+                 });
+    return found;
+}
+
+// add(part): of the pairs that this rank looks at.
+template <class Add>
+void CellContacts::addUp(NodeVectors& f, Add&& add) const {
+    NodeVectors part(f.size(), Vec3::Zero());
+    add(part);
+    sums_.addUp({reinterpret_cast<double*>(part.data()), 3 * part.size()}, 3);
+    for (std::size_t m = 0; m < f.size(); ++m) f[m] += part[m];
+}
+
+void CellContacts::addForces(NodeVectors& f) const {
+    addUp(f, [&](NodeVectors& part) { contacts_.addForces(part); });
+    for (const AtWall& at : atWalls_) f[at.node] -= at.area * at.psi.slope * at.normal;
+}
+
+void CellContacts::addStiffness(double factor, const NodeVectors& u, NodeVectors& f) const {
+    addUp(f, [&](NodeVectors& part) { contacts_.addStiffness(factor, u, part); });
+    for (const AtWall& at : atWalls_)
+        f[at.node] += factor * at.area * std::max(at.psi.curvature, 0.0) * at.normal.dot(u[at.node]) * at.normal;
+}
+
+void CellContacts::addForcesAt(const NodeVectors& displacement, NodeVectors& f) const {
+    NodeVectors x = x_;
+    for (std::size_t m = 0; m < x.size(); ++m) x[m] += displacement[m];
+    contact::Contacts there = contacts_;
+    there.evaluate(x);
+    addUp(f, [&](NodeVectors& part) { there.addForces(part); });
+    for (const AtWall& at : atWallsOf(layout_, x, surfaces_)) f[at.node] -= at.area * at.psi.slope * at.normal;
+}
+
+std::vector<CellContacts::OnWall> CellContacts::forcesOnWalls(const Cells& cells, int rank,
+                                                              const NodeVectors& displacement) const {
+    NodeVectors x = x_;
+    for (std::size_t m = 0; m < x.size(); ++m) x[m] += displacement[m];
+    std::vector<OnWall> forces;
+    for (const AtWall& at : atWallsOf(layout_, x, surfaces_))
+        if (cells[at.cell].isOwnedBy(rank)) forces.push_back({at.wall, x[at.node], at.area * at.psi.slope * at.normal});
+    return forces;
+}
+
+double CellContacts::freeOfWalls(const NodeLayout& layout, const NodeVectors& x,
+                                 const NodeVectors& displacement) const {
+    if (!settings_.walls) return 1;
+    const double thickness = settings_.law->thickness;
+    double free = 1;
+    for (std::size_t c = 0; c < layout.cells(); ++c) {
+        geometry::Bounds box;
+        double longest = 0;
+        for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
+            box.extend(x[m]), longest = std::max(longest, displacement[m].norm());
+        const double around = 0.5 * box.diagonal().norm() + longest + thickness;
+        for (const boundary::Wall& wall : walls_) {
+            if (wall.distance(box.center()) > around) continue;
+            for (std::size_t m = layout.first(c); m < layout.last(c); ++m) {
+                const double gap = wall.distance(x[m]) - thickness, kept = keptShare * gap;
+                double before = 0;
+                for (int k = 1; k <= looksOnTheWay && before < free; ++k) {
+                    const double now = static_cast<double>(k) / looksOnTheWay;
+                    if (wall.distance(x[m] + now * displacement[m]) - thickness < kept) {
+                        free = std::min(free, before);
+                        break;
+                    }
+                    before = now;
+                }
+            }
+        }
+    }
+    return free;
+}
+
+double CellContacts::freeTravel(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
+                                const NodeVectors& x, const NodeVectors& displacement) const {
+    double free = freeOfWalls(layout, x, displacement);
+    if (isListed(cells) && contacts_.covers(x)) {
+        free = std::min(free, contacts_.freeTravel(x, displacement, keptShare));
+    } else {
+        std::map<const membrane::Network*, Known> known = known_;
+        const Surfaces surfaces = surfacesOf(cells, known);
+        contact::Contacts there(settings_.law.model);
+        list(there, cells, x, system, displacement, surfaces);
+        free = std::min(free, there.freeTravel(x, displacement, keptShare));
+    }
+    return Communicator(system.comm()).min(free);
+}
+
+double CellContacts::energy(const Cells& cells, const ParticleSystem& system) const {
+    const NodeLayout layout(cells);
+    const NodeVectors x = positionsOf(cells);
+    std::map<const membrane::Network*, Known> known = known_;
+    const Surfaces surfaces = surfacesOf(cells, known);
+    contact::Contacts there = contacts_;
+    if (isListed(cells) && contacts_.covers(x))
+        there.evaluate(x);
+    else
+        list(there, cells, x, system, NodeVectors(x.size(), Vec3::Zero()), surfaces);
+    double sum = there.energy();
+    for (const AtWall& at : atWallsOf(layout, x, surfaces))
+        if (cells[at.cell].isOwnedBy(system.decomposition().rank())) sum += at.area * at.psi.energy;
+    return sum;
+}
+
+}  // namespace corpuscle::coupling

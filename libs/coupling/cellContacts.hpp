@@ -1,0 +1,92 @@
+// Contact of the cells of a scene with each other, with themselves and with walls (contact/contacts.hpp): a term of
+// their membranes' elasticity.
+//
+// A pair of cells is looked at by the lowest rank that holds both (where they are near each other there is one), a
+// cell with itself and its images by its owner; forces go to all holders of a cell (holderSums.hpp). Contact with walls
+// is that of nodes, of the same law,
+//     E = sum over nodes of a_v psi(d - thickness)        d: distance from the wall [m],  a_v: area of the node [m^2]
+// and every holder of a cell finds it. What a wall feels is the opposite.
+//
+// Nothing crosses on a way that freeTravel calls free, whatever the forces are: it is asked of every way that nodes go,
+// from the beginning of a step to where forces are taken, and from there to its end.
+#pragma once
+#include <map>
+#include <memory>
+
+#include "boundary/walls.hpp"
+#include "contact/contactSettings.hpp"
+#include "contact/contacts.hpp"
+#include "coupling/holderSums.hpp"
+#include "coupling/nodeLayout.hpp"
+#include "particles/particleSystem.hpp"
+
+namespace corpuscle::coupling {
+
+class CellContacts {
+  public:
+    // walls: of the fluid; they must stay where they are.
+    CellContacts(const contact::ContactSettings& settings, const boundary::Walls& walls);
+
+    // Where nodes are now. travel: by how much they may move before this is called again [m]. Collective.
+    void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
+               const NodeVectors& travel);
+
+    // Of the places at `place`, of all cells that the rank holds. Collective among holders.
+    void addForces(NodeVectors& f) const;                                          // N
+    void addStiffness(double factor, const NodeVectors& u, NodeVectors& f) const;  // f += factor K u
+    void addForcesAt(const NodeVectors& displacement, NodeVectors& f) const;       // nodes displaced from there [m]
+    double leastGap() const { return leastGap_; }  // of this rank [m]; infinite: none near
+    // What walls feel of the cells that this rank owns, nodes displaced [m] from their places at `place`.
+    struct OnWall {
+        int wall;           // its number
+        Vec3 place, force;  // m, N
+    };
+    std::vector<OnWall> forcesOnWalls(const Cells& cells, int rank, const NodeVectors& displacement) const;
+
+    // The largest fraction of a displacement [m] from x that is free for all nodes of the scene. Collective.
+    double freeTravel(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
+                      const NodeVectors& x, const NodeVectors& displacement) const;
+    // Where nodes are now, this rank's part [J].
+    double energy(const Cells& cells, const particles::ParticleSystem& system) const;
+
+  private:
+    static constexpr double spareOfReach = 0.5;  // by which cells may approach each other more than expected
+    struct AtWall {
+        std::size_t node, cell;
+        int wall;
+        Vec3 normal;  // into the fluid
+        double area;
+        contact::ContactLaw::Value psi;
+    };
+    struct Known {
+        int broken;
+        std::shared_ptr<const contact::Surface> surface;
+    };
+    using Surfaces = std::vector<std::shared_ptr<const contact::Surface>>;
+    Surfaces surfacesOf(const Cells& cells, std::map<const membrane::Network*, Known>& known) const;
+    // Lists for cells as they are held.
+    void list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
+              const particles::ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const;
+    bool isListed(const Cells& cells) const;
+    template <class F>
+    void forNearWalls(const NodeLayout& layout, const NodeVectors& x, double within, const Surfaces& surfaces,
+                      F&& f) const;  // f(cell, node, wall, distance)
+    std::vector<AtWall> atWallsOf(const NodeLayout& layout, const NodeVectors& x, const Surfaces& surfaces) const;
+    double freeOfWalls(const NodeLayout& layout, const NodeVectors& x, const NodeVectors& displacement) const;
+    template <class Add>
+    void addUp(NodeVectors& f, Add&& add) const;
+
+    contact::ContactSettings settings_;
+    const boundary::Walls& walls_;
+    contact::Contacts contacts_;
+    NodeLayout layout_;
+    NodeVectors x_;                                    // at `place`
+    std::vector<int> listed_;                          // numbers of the cells that lists are of
+    std::map<const membrane::Network*, Known> known_;  // whole cells of a type share one
+    Surfaces surfaces_;                                // of each held cell
+    std::vector<AtWall> atWalls_;
+    mutable HolderSums sums_;
+    double leastGap_ = 0;
+};
+
+}  // namespace corpuscle::coupling
