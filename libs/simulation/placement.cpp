@@ -85,9 +85,7 @@ class Clearance {
                 add(one.shapeKey, text + ": make the box longer");
             else
                 add(other.place,
-                    text +
-                        ": nothing but fluid keeps cells and bodies apart (there is no contact law in this "
-                        "version); move one of them away");
+                    text + ": surfaces have to be clear of each other at the start; move one of them away");
         };
         const bool isImage = pair.shift.norm() > 0;
         const std::string both = pair.first == pair.second ? fmt::format("the {} and its own periodic image", one.name)

@@ -26,7 +26,9 @@ constexpr double largestBondChange = 0.3;  // of ln l between two looks
 constexpr double sharpestFold = -0.5;      // cosine between the normals of neighbours
 constexpr double beyondWall = 2;           // spacings
 constexpr double mostPeriods = 3;          // of a cell's length
-constexpr const char* noContact = "there is no contact law in this version";
+constexpr const char* noContact = "nothing but fluid keeps them apart: give cells contact (constant/contact.yaml)";
+constexpr const char* isPassedBy =
+    "the contact of constant/contact.yaml, which cells have with cells and walls, has not kept them apart";
 constexpr const char* tooShort = "the box is too short for it";
 constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
 
@@ -254,10 +256,11 @@ Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
     const Periodicity& period = scene.system->periodicity();
     const auto faultOf = [&](const Meeting& meeting) {
         const Vec3 x = period.wrap(meeting.place), um = 1e6 * x;
-        return Fault{fmt::format("step {}, t = {:.6g} s{}: {} at ({:.4g}, {:.4g}, {:.4g}) um; {}", time.step, time.t,
-                                 time.shearRate > 0 ? fmt::format(", strain {:.4g}", time.strain()) : "", meeting.text,
-                                 um[0], um[1], um[2], meeting.cause),
-                     x, true};
+        return Fault{
+            fmt::format("step {}, t = {:.6g} s{}: {} at ({:.4g}, {:.4g}, {:.4g}) um; {}", time.step, time.t,
+                        time.shearRate > 0 ? fmt::format(", strain {:.4g}", time.strain()) : "", meeting.text, um[0],
+                        um[1], um[2], meeting.cause == noContact && scene.contacts ? isPassedBy : meeting.cause),
+            x, true};
     };
     std::vector<geometry::Bounds> bounds;
     for (std::size_t n = 0; n < surfaces.size(); ++n) {

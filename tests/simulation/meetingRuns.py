@@ -47,7 +47,7 @@ def test_pairs(folder):
     started(folder / "apartAcross", cells(sphere("a", 2.5, 6, 0, 0), sphere("b", 2.5, -4, 0, 0)), 0)
     both = "the cell 'a' and the cell 'b' "
     started(folder / "touching", cells(sphere("a", 2.5, -2.5, 0, 0), sphere("b", 2.5, 2.5, 0, 0)), 2,
-            "system/mesh.yaml:2:", "cells[1].centre: " + both + "touch at (", "no contact law in this version")
+            "system/mesh.yaml:2:", "cells[1].centre: " + both + "touch at (", "have to be clear of each other at the start")
     for name, at, depth in (("x", (3.5, 0, 0), 1.5), ("y", (0, -4, 0), 1), ("z", (-1, 1, 3), 1.68)):
         case = started(folder / ("overlapping" + name), cells(sphere("a", 2.5, 0, 0, -1), sphere("b", 2.5, *at[:2], at[2] - 1)), 2, both + "overlap at (")
         found = float(re.search(r"by up to ([\d.]+) um", run(case, "checkMesh", code=2).stderr)[1])
@@ -82,17 +82,22 @@ def test_others(folder):
         assert re.search(r"system/mesh.yaml:2:\d+: cells\[0\].shape: the cell .a. is [\d.]+ um long along x, longer than the box, which is periodic with 16 um", said), said
 
 
+RED = "{{name: {}, membrane: rbc, shape: {{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}}, edge: 0.7 um, centre: [{} um, 0 um, {} um]}}"
+NUMERICS = IMPLICIT_CASE["system/numerics.yaml"].replace("precision: double", "precision: mixed").replace("tolerance: 1e-5", "tolerance: 3e-3")
+TWO = {  # red cells that meet at strain 3.4 and cross unless something keeps them apart
+    **IMPLICIT_CASE,
+    "system/mesh.yaml": "domain: {size: [20 um, 12 um, 16 um], periodic: [true, true, false]}\ncells: [" + RED.format("a", -4.4, 0.4) + ", " + RED.format("b", 4.4, -0.4) + "]\n",
+    "system/numerics.yaml": NUMERICS.replace("spacing: 1 um", "spacing: 0.6667 um"),
+    "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("endStrain: 0.6", "endStrain: 8"),
+    "system/observers.yaml": "balance: {type: conservation, every: 0.5 strain}\n",
+    "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
+    "constant/flow.yaml": "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n"}
+CONTACT = "law: {type: barrier, reach: 0.15 um, strength: 1e-5 N/m}\n"
+
+
 def test_during(folder):
     """Cells that meet while a run goes on: exit code 3 at once, on 1 and 2 ranks, with a checkpoint from before."""
-    red = "{{name: {}, membrane: rbc, shape: {{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}}, edge: 0.7 um, centre: [{} um, 0 um, {} um]}}"
-    numerics = IMPLICIT_CASE["system/numerics.yaml"].replace("precision: double", "precision: mixed").replace("tolerance: 1e-5", "tolerance: 3e-3")
-    case = make(folder / "shear", IMPLICIT_CASE, **{
-        "system/mesh.yaml": "domain: {size: [20 um, 12 um, 16 um], periodic: [true, true, false]}\ncells: [" + red.format("a", -4.4, 0.4) + ", " + red.format("b", 4.4, -0.4) + "]\n",
-        "system/numerics.yaml": numerics.replace("spacing: 1 um", "spacing: 0.6667 um"),
-        "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("endStrain: 0.6", "endStrain: 8"),
-        "system/observers.yaml": "balance: {type: conservation, every: 0.5 strain}\n",
-        "constant/membranes.yaml": "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n",
-        "constant/flow.yaml": "type: shear\nCa: 0.02\ninertia: {Re: 0.1}\n"})
+    case = make(folder / "shear", TWO)
     ready(case)
     run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=2.5", ranks=2)
     for ranks in (1, 2):
@@ -101,7 +106,7 @@ def test_during(folder):
         met(copy, "the cells 'a' and 'b' touch or cross at (", ranks)
 
     # Put there between two steps: a wall, the cell's own image.
-    injected = {"system/numerics.yaml": numerics.replace("spacing: 1 um", "spacing: 0.8 um"), "system/observers.yaml": "",
+    injected = {"system/numerics.yaml": NUMERICS.replace("spacing: 1 um", "spacing: 0.8 um"), "system/observers.yaml": "",
                 "system/mesh.yaml": "domain: {size: [8 um, 8 um, 8 um], periodic: [true, true, false]}\ncells: [" + sphere("a", 3.2, 0, 0, 0) + "]\n"}
     short = make(folder / "short", IMPLICIT_CASE, **injected)
     ready(short)
@@ -110,6 +115,39 @@ def test_during(folder):
             copy = folder / f"{kind}{ranks}"
             shutil.copytree(short, copy)
             met(copy, words, ranks, "faultInjection", "-kind", kind, "-at", "5")
+
+
+def test_contact(folder):
+    """The cells of test_during with contact: they never cross, on 1, 2 and 4 ranks alike, and the energy of contact is in the budget."""
+    case = make(folder / "contact", TWO, **{"constant/contact.yaml": CONTACT, "system/observers.yaml": "balance: {type: conservation, every: 0.5 strain}\nform: {type: shape, every: 0.5 strain}\n"})
+    ready(case)
+    forms = {}
+    for ranks in (1, 2, 4):
+        copy = folder / f"contact{ranks}"
+        shutil.copytree(case, copy)
+        run(copy, "dmpFlow", "-set", "system/control.yaml:/endStrain=5", ranks=ranks)
+        record = json.loads((copy / "run.json").read_text())
+        assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] <= 2, record["performance"]
+        budget = table(copy, "balance", "budget.csv")[-1]
+        assert abs(budget["residualShare"]) < 2e-3, budget
+        forms[ranks] = [row for kind in ("a", "b") for row in table(copy, "form", kind + ".csv")]
+    for ranks in (2, 4):
+        for one, other in zip(forms[1], forms[ranks], strict=True):
+            assert abs(one["D12_inertia"] - other["D12_inertia"]) < 2e-3, (ranks, one, other)
+
+    (case / "constant/contact.yaml").write_text(CONTACT.replace("0.15", "0.4"))
+    said = run(case, "dmpFlow", code=2).stderr
+    assert "contact.yaml:1:29: law.reach: reach and thickness are 400 nm together; with the mesh of cell 'a' at most" in said, said
+
+    def refused(words, **changes):
+        said = run(make(folder / "refused", {**TWO, "constant/contact.yaml": CONTACT}, **changes), "membraneMesh", code=2).stderr
+        assert words in said, said
+
+    refused("integrator: found velocityVerlet, which knows no contact of membranes; write 'integrator: implicit'",
+            **{"system/numerics.yaml": TWO["system/numerics.yaml"].replace("integrator: implicit", "integrator: velocityVerlet").replace("implicit: {step: 0.05, tolerance: 3e-3, error: 1}\n", "")})
+    refused("system/mesh.yaml has no cells; remove the file, or name cells", **{
+        "system/mesh.yaml": "domain: {size: [8 um, 8 um, 8 um], periodic: [true, true, false]}\n", "constant/flow.yaml": "type: shear\nshearRate: 100 1/s\n", "system/observers.yaml": ""})
+    refused("Did you mean 'strength'?", **{"constant/contact.yaml": "law: {type: barrier, reach: 0.15 um, strengh: 1e-5 N/m}\n"})
 
 
 def ready(case):
@@ -121,7 +159,7 @@ def ready(case):
 def met(case, words, ranks, application="dmpFlow", *options):
     said = run(case, application, *options, ranks=ranks, code=3).stderr
     assert said.count(words) == 1 and ", strain " in said, said
-    assert "there is no contact law in this version" in said or "the box is too short for it" in said, said
+    assert "nothing but fluid keeps them apart" in said or "the box is too short for it" in said, said
     assert "take a smaller" not in said, said
     record = json.loads((case / "run.json").read_text())
     assert record["performance"]["rollbacks"] == 0 and len(record["fault"]["place_m"]) == 3, record

@@ -892,7 +892,7 @@ def test_rollback(folder):
     for ranks in (1, 2):  # no shorter step is tried
         harmed = copied(two, folder / f"two{ranks}")
         said = run(harmed, "faultInjection", "-kind", "cells", "-at", "7", ranks=ranks, code=3).stderr
-        assert "the cells 'left' and 'right' touch or cross at (" in said and "no contact law" in said and "take a smaller" not in said, said
+        assert "the cells 'left' and 'right' touch or cross at (" in said and "nothing but fluid keeps them apart" in said and "take a smaller" not in said, said
         assert json.loads((harmed / "run.json").read_text())["performance"]["rollbacks"] == 0
         run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
 
