@@ -200,16 +200,15 @@ double CellContacts::freeOfWalls(const NodeLayout& layout, const NodeVectors& x,
 
 double CellContacts::freeTravel(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
                                 const NodeVectors& x, const NodeVectors& displacement) const {
-    double free = freeOfWalls(layout, x, displacement);
-    if (isListed(cells) && contacts_.covers(x)) {
-        free = std::min(free, contacts_.freeTravel(x, displacement, keptShare));
-    } else {
+    double free = isListed(cells) && contacts_.covers(x) ? contacts_.freeTravel(x, displacement, keptShare) : 0;
+    if (free < 1) {  // perhaps by the lists, which were made for other ways
         std::map<const membrane::Network*, Known> known = known_;
         const Surfaces surfaces = surfacesOf(cells, known);
         contact::Contacts there(settings_.law.model);
         list(there, cells, x, system, displacement, surfaces);
-        free = std::min(free, there.freeTravel(x, displacement, keptShare));
+        free = there.freeTravel(x, displacement, keptShare);
     }
+    free = std::min(free, freeOfWalls(layout, x, displacement));
     return Communicator(system.comm()).min(free);
 }
 

@@ -18,8 +18,8 @@ class DistanceField {
 
     // In the mesh's frame; at most `reach` away from 0.
     double at(const Vec3& x) const;
-    // By how much the exact distance may differ from `at` where that is less than the reach [m]: the nodes between which
-    // it is interpolated are no further away than a cell's diagonal, and a distance changes no faster than one moves.
+    // By how much the exact distance may differ from `at` where that is less than the reach [m]: the nodes between
+    // which it is found are no further away than a cell's diagonal, and a distance changes no faster than one moves.
     double margin() const { return std::sqrt(3.0) * spacing_; }
 
   private:
