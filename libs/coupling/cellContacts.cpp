@@ -1,7 +1,6 @@
 #include "coupling/cellContacts.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/communicator.hpp"
 
@@ -11,7 +10,6 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double keptShare = 0.1;  // of a gap, on a way that is free
 constexpr int looksOnTheWay = 8;   // at walls, which are smooth on the scale of a step
 
@@ -86,12 +84,6 @@ void CellContacts::place(const Cells& cells, const NodeLayout& layout, const Par
     sums_.plan(
         cells, system.comm(), [](const Cell& cell) { return cell.nodeCount(); }, mine);
     atWalls_ = atWallsOf(layout_, x_, surfaces_);
-    leastGap_ = contacts_.leastGap();
-    if (settings_.walls)
-        forNearWalls(layout_, x_, settings_.law->range(), surfaces_,
-                     [&](std::size_t, std::size_t, const boundary::Wall&, double distance) {
-                         leastGap_ = std::min(leastGap_, distance - settings_.law->thickness);
-                     });
 }
 
 bool CellContacts::isListed(const Cells& cells) const {

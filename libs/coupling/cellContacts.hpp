@@ -35,7 +35,6 @@ class CellContacts {
     void addForces(NodeVectors& f) const;                                          // N
     void addStiffness(double factor, const NodeVectors& u, NodeVectors& f) const;  // f += factor K u
     void addForcesAt(const NodeVectors& displacement, NodeVectors& f) const;       // nodes displaced from there [m]
-    double leastGap() const { return leastGap_; }  // of this rank [m]; infinite: none near
     // What walls feel of the cells that this rank owns, nodes displaced [m] from their places at `place`.
     struct OnWall {
         int wall;           // its number
@@ -86,7 +85,6 @@ class CellContacts {
     Surfaces surfaces_;                                // of each held cell
     std::vector<AtWall> atWalls_;
     mutable HolderSums sums_;
-    double leastGap_ = 0;
 };
 
 }  // namespace corpuscle::coupling
