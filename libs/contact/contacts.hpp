@@ -126,7 +126,7 @@ class Contacts {
     };
     std::vector<Motion> motionsOf(std::span<const Vec3> u) const;
     Motion motionOf(std::span<const Vec3> x, std::span<const Vec3> u) const;
-    static constexpr double mostGradient = 0.4;  // up to which a mean deformation is looked at by itself
+    static constexpr double mostGradient = 0.4;  // largest norm with which a mean deformation is treated apart
     // The most by which nodes of the two surfaces approach each other.
     static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions) {
         const Motion &a = motions[pair.first], &b = motions[pair.second];

@@ -13,12 +13,6 @@ namespace {
 constexpr double keptShare = 0.1;  // of a gap, on a way that is free
 constexpr int looksOnTheWay = 8;   // at walls, which are smooth on the scale of a step
 
-NodeVectors positionsOf(const Cells& cells) {
-    NodeVectors x;
-    for (const Cell& cell : cells) x.insert(x.end(), cell.membrane.position.begin(), cell.membrane.position.end());
-    return x;
-}
-
 std::shared_ptr<const contact::Surface> surfaceOf(const membrane::Network& network) {
     std::vector<Index3> whole;
     for (const int t : network.wholeTriangles()) whole.push_back(network.triangles()[static_cast<std::size_t>(t)]);
@@ -91,33 +85,24 @@ bool CellContacts::isListed(const Cells& cells) const {
                       [](const Cell& cell, int number) { return cell.membrane.cell == number; });
 }
 
-template <class F>
-void CellContacts::forNearWalls(const NodeLayout& layout, const NodeVectors& x, double within, const Surfaces& surfaces,
-                                F&& f) const {
-    if (!settings_.walls) return;
+std::vector<CellContacts::AtWall> CellContacts::atWallsOf(const NodeLayout& layout, const NodeVectors& x,
+                                                          const Surfaces& surfaces) const {
+    std::vector<AtWall> found;
+    if (!settings_.walls) return found;
+    const contact::ContactLaw& law = *settings_.law;
     for (std::size_t c = 0; c < layout.cells(); ++c) {
         geometry::Bounds box;
         for (const Vec3& place : layout.of(c, x)) box.extend(place);
         const double around = 0.5 * box.diagonal().norm();
         for (const boundary::Wall& wall : walls_) {
-            if (wall.distance(box.center()) > around + within) continue;
-            for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
-                if (const double distance = wall.distance(x[m]);
-                    distance < within && surfaces[c]->nodeArea()[m - layout.first(c)] > 0)
-                    f(c, m, wall, distance);
+            if (wall.distance(box.center()) > around + law.range()) continue;
+            for (std::size_t m = layout.first(c); m < layout.last(c); ++m) {
+                const double distance = wall.distance(x[m]), area = surfaces[c]->nodeArea()[m - layout.first(c)];
+                if (distance < law.range() && area > 0)
+                    found.push_back({m, c, wall.number, wall.normal(x[m]), area, law.at(distance - law.thickness)});
+            }
         }
     }
-}
-
-std::vector<CellContacts::AtWall> CellContacts::atWallsOf(const NodeLayout& layout, const NodeVectors& x,
-                                                          const Surfaces& surfaces) const {
-    std::vector<AtWall> found;
-    const contact::ContactLaw& law = *settings_.law;
-    forNearWalls(layout, x, law.range(), surfaces,
-                 [&](std::size_t c, std::size_t m, const boundary::Wall& wall, double distance) {
-                     found.push_back({m, c, wall.number, wall.normal(x[m]),
-                                      surfaces[c]->nodeArea()[m - layout.first(c)], law.at(distance - law.thickness)});
-                 });
     return found;
 }
 

@@ -67,9 +67,6 @@ class CellContacts {
     void list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
               const particles::ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const;
     bool isListed(const Cells& cells) const;
-    template <class F>
-    void forNearWalls(const NodeLayout& layout, const NodeVectors& x, double within, const Surfaces& surfaces,
-                      F&& f) const;  // f(cell, node, wall, distance)
     std::vector<AtWall> atWallsOf(const NodeLayout& layout, const NodeVectors& x, const Surfaces& surfaces) const;
     double freeOfWalls(const NodeLayout& layout, const NodeVectors& x, const NodeVectors& displacement) const;
     template <class Add>

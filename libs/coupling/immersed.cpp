@@ -44,7 +44,7 @@ void Immersed::move(double seconds) {
 }
 
 void Immersed::depart(double seconds, bool onArc) {
-    if (contacts_) departure_ = positions(), outlook_ = waysAhead * seconds;
+    if (contacts_) departure_ = positionsOf(cells_), outlook_ = waysAhead * seconds;
     move(seconds);
     if (!onArc) return;
     for (Cell& cell : cells_) {
@@ -64,14 +64,14 @@ void Immersed::takeBack(double seconds) {
 
 double Immersed::freeDeparture() const {
     if (!contacts_) return 1;
-    Vectors way = positions();
+    Vectors way = positionsOf(cells_);
     for (std::size_t m = 0; m < way.size(); ++m) way[m] -= departure_[m];
     return contacts_->freeTravel(cells_, NodeLayout(cells_), system_, departure_, way);
 }
 
 double Immersed::freeArrival(double seconds, double dt, const Vectors& velocities, double more) const {
     if (!contacts_) return 1;
-    const Vectors from = positions();
+    const Vectors from = positionsOf(cells_);
     Vectors way(from.size());
     for (std::size_t c = 0; c < layout_.cells(); ++c) {
         const Cell& cell = cells_[c];
@@ -80,12 +80,6 @@ double Immersed::freeArrival(double seconds, double dt, const Vectors& velocitie
                 cell.arc.toChord(from[m]) - seconds * cell.membrane.velocity[n] + (dt + more) * velocities[m] - from[m];
     }
     return contacts_->freeTravel(cells_, layout_, system_, from, way);
-}
-
-Immersed::Vectors Immersed::positions() const {
-    Vectors all;
-    for (const Cell& cell : cells_) all.insert(all.end(), cell.membrane.position.begin(), cell.membrane.position.end());
-    return all;
 }
 
 Immersed::Vectors Immersed::velocities() const {

@@ -114,7 +114,6 @@ class Immersed {
     long mostFallbacks() const { return map_.mostFallbacks(); }  // of any build
 
   private:
-    Vectors positions() const;
     void addContact();
 
     Cells& cells_;

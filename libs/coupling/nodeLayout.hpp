@@ -9,6 +9,12 @@ namespace corpuscle::coupling {
 
 using NodeVectors = std::vector<Vec3>;  // one of every node of the cells that the rank holds, cell after cell
 
+inline NodeVectors positionsOf(const Cells& cells) {  // m
+    NodeVectors x;
+    for (const Cell& cell : cells) x.insert(x.end(), cell.membrane.position.begin(), cell.membrane.position.end());
+    return x;
+}
+
 class NodeLayout {
   public:
     NodeLayout() = default;

@@ -364,7 +364,7 @@ TEST(Contacts, aMeanDeformationKeepsListsOfOneSurfaceShort) {
     std::vector<Vec3> there = x;
     for (std::size_t n = 0; n < x.size(); ++n) there[n] += travel[n];
     EXPECT_TRUE(turning.covers(there));
-    there[3] += Vec3(0.02, 0, 0);  // by itself
+    there[3] += Vec3(0.02, 0, 0);  // this node alone
     EXPECT_FALSE(turning.covers(there));
 }
 
