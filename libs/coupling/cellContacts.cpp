@@ -11,7 +11,6 @@ using particles::ParticleSystem;
 namespace {
 
 constexpr double keptShare = 0.1;  // of a gap, on a way that is free
-constexpr int looksOnTheWay = 8;   // at walls, which are smooth on the scale of a step
 
 std::shared_ptr<const contact::Surface> surfaceOf(const membrane::Network& network) {
     std::vector<Index3> whole;
@@ -89,20 +88,11 @@ std::vector<CellContacts::AtWall> CellContacts::atWallsOf(const NodeLayout& layo
                                                           const Surfaces& surfaces) const {
     std::vector<AtWall> found;
     if (!settings_.walls) return found;
-    const contact::ContactLaw& law = *settings_.law;
-    for (std::size_t c = 0; c < layout.cells(); ++c) {
-        geometry::Bounds box;
-        for (const Vec3& place : layout.of(c, x)) box.extend(place);
-        const double around = 0.5 * box.diagonal().norm();
-        for (const boundary::Wall& wall : walls_) {
-            if (wall.distance(box.center()) > around + law.range()) continue;
-            for (std::size_t m = layout.first(c); m < layout.last(c); ++m) {
-                const double distance = wall.distance(x[m]), area = surfaces[c]->nodeArea()[m - layout.first(c)];
-                if (distance < law.range() && area > 0)
-                    found.push_back({m, c, wall.number, wall.normal(x[m]), area, law.at(distance - law.thickness)});
-            }
+    for (std::size_t c = 0; c < layout.cells(); ++c)
+        for (const contact::AtWall& at : contact::nodesAtWalls(*settings_.law, walls_, *surfaces[c], layout.of(c, x))) {
+            found.push_back({at, c});
+            found.back().node += layout.first(c);
         }
-    }
     return found;
 }
 
@@ -117,7 +107,7 @@ void CellContacts::addUp(NodeVectors& f, Add&& add) const {
 
 void CellContacts::addForces(NodeVectors& f) const {
     addUp(f, [&](NodeVectors& part) { contacts_.addForces(part); });
-    for (const AtWall& at : atWalls_) f[at.node] -= at.area * at.psi.slope * at.normal;
+    for (const AtWall& at : atWalls_) f[at.node] += at.force();
 }
 
 void CellContacts::addStiffness(double factor, const NodeVectors& u, NodeVectors& f) const {
@@ -132,7 +122,7 @@ void CellContacts::addForcesAt(const NodeVectors& displacement, NodeVectors& f) 
     contact::Contacts there = contacts_;
     there.evaluate(x);
     addUp(f, [&](NodeVectors& part) { there.addForces(part); });
-    for (const AtWall& at : atWallsOf(layout_, x, surfaces_)) f[at.node] -= at.area * at.psi.slope * at.normal;
+    for (const AtWall& at : atWallsOf(layout_, x, surfaces_)) f[at.node] += at.force();
 }
 
 std::vector<CellContacts::OnWall> CellContacts::forcesOnWalls(const Cells& cells, int rank,
@@ -141,37 +131,16 @@ std::vector<CellContacts::OnWall> CellContacts::forcesOnWalls(const Cells& cells
     for (std::size_t m = 0; m < x.size(); ++m) x[m] += displacement[m];
     std::vector<OnWall> forces;
     for (const AtWall& at : atWallsOf(layout_, x, surfaces_))
-        if (cells[at.cell].isOwnedBy(rank)) forces.push_back({at.wall, x[at.node], at.area * at.psi.slope * at.normal});
+        if (cells[at.cell].isOwnedBy(rank)) forces.push_back({at.wall, x[at.node], -at.force()});
     return forces;
 }
 
 double CellContacts::freeOfWalls(const NodeLayout& layout, const NodeVectors& x,
                                  const NodeVectors& displacement) const {
-    if (!settings_.walls) return 1;
-    const double thickness = settings_.law->thickness;
     double free = 1;
-    for (std::size_t c = 0; c < layout.cells(); ++c) {
-        geometry::Bounds box;
-        double longest = 0;
-        for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
-            box.extend(x[m]), longest = std::max(longest, displacement[m].norm());
-        const double around = 0.5 * box.diagonal().norm() + longest + thickness;
-        for (const boundary::Wall& wall : walls_) {
-            if (wall.distance(box.center()) > around) continue;
-            for (std::size_t m = layout.first(c); m < layout.last(c); ++m) {
-                const double gap = wall.distance(x[m]) - thickness, kept = keptShare * gap;
-                double before = 0;
-                for (int k = 1; k <= looksOnTheWay && before < free; ++k) {
-                    const double now = static_cast<double>(k) / looksOnTheWay;
-                    if (wall.distance(x[m] + now * displacement[m]) - thickness < kept) {
-                        free = std::min(free, before);
-                        break;
-                    }
-                    before = now;
-                }
-            }
-        }
-    }
+    for (std::size_t c = 0; settings_.walls && c < layout.cells(); ++c)
+        free = std::min(
+            free, contact::freeOfWalls(*settings_.law, walls_, layout.of(c, x), layout.of(c, displacement), keptShare));
     return free;
 }
 

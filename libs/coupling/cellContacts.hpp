@@ -3,9 +3,7 @@
 //
 // A pair of cells is looked at by the lowest rank that holds both (where they are near each other there is one), a
 // cell with itself and its images by its owner; forces go to all holders of a cell (holderSums.hpp). Contact with walls
-// is that of nodes, of the same law,
-//     E = sum over nodes of a_v psi(d - thickness)        d: distance from the wall [m],  a_v: area of the node [m^2]
-// and every holder of a cell finds it. What a wall feels is the opposite.
+// (contact/wallContact.hpp) is found by every holder of a cell. What a wall feels is the opposite.
 //
 // Nothing crosses on a way that freeTravel calls free, whatever the forces are: it is asked of every way that nodes go,
 // from the beginning of a step to where forces are taken, and from there to its end.
@@ -16,6 +14,7 @@
 #include "boundary/walls.hpp"
 #include "contact/contactSettings.hpp"
 #include "contact/contacts.hpp"
+#include "contact/wallContact.hpp"
 #include "coupling/holderSums.hpp"
 #include "coupling/nodeLayout.hpp"
 #include "particles/particleSystem.hpp"
@@ -50,12 +49,9 @@ class CellContacts {
 
   private:
     static constexpr double spareOfReach = 0.5;  // by which cells may approach each other more than expected
-    struct AtWall {
-        std::size_t node, cell;
-        int wall;
-        Vec3 normal;  // into the fluid
-        double area;
-        contact::ContactLaw::Value psi;
+    // Of one cell, its nodes numbered as in all cells.
+    struct AtWall : contact::AtWall {
+        std::size_t cell;
     };
     struct Known {
         int broken;

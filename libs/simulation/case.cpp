@@ -186,21 +186,21 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
 }
 
 // Where the cells of each type are put.
-void findPlaces(Case& c, Problems& problems) {
+void findPlaces(Case& c, const std::set<std::string>& unplaced, Problems& problems) {
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
         CellTypeSettings& cell = c.mesh.cells[i];
         if (!cell.isPlacedByList()) continue;
         cell.placed.clear();
         for (const PlaceSettings& place : cell.places) cell.placed.push_back({place.centre, place.axis, place.scale});
-        if (cell.table)
+        if (cell.table && !unplaced.contains(cell.name))
             cell.placed = readPlaces(c.directory, *cell.table, {"system/mesh.yaml", 0, 0},
                                      fmt::format("cells[{}].table", i), problems);
     }
     c.throwIfAny(problems);
 }
 
-void prepareSurfaces(Case& c, Problems& problems) {
-    findPlaces(c, problems);
+void prepareSurfaces(Case& c, const std::set<std::string>& unplaced, Problems& problems) {
+    findPlaces(c, unplaced, problems);
     const auto resolve = [&](SurfaceSettings& surface) { surface.edge = surface.edgeLength.metres(c.spacing()); };
     std::for_each(c.mesh.cells.begin(), c.mesh.cells.end(), resolve);
     std::for_each(c.mesh.bodies.begin(), c.mesh.bodies.end(), resolve);
@@ -255,12 +255,12 @@ void settle(Case& c) {
 
 }  // namespace
 
-Case Case::read(const Application& app) {
+Case Case::read(const Application& app, const std::set<std::string>& unplaced) {
     Problems problems;
     Case c;
     c.directory = app.caseDirectory();
     readFiles(app, c, problems);
-    prepareSurfaces(c, problems);
+    prepareSurfaces(c, unplaced, problems);
     c.written = c.numerics;
     c.numerics = schemes::settled(c.written, c.facts(), c.written.integrator);
     checkTogether(c, problems);

@@ -1,6 +1,7 @@
 // A case, read and checked as a whole: every dictionary, and what follows from their combination. SI from here on.
 #pragma once
 #include <map>
+#include <set>
 
 #include "contact/contactSettings.hpp"
 #include "core/application.hpp"
@@ -78,7 +79,8 @@ struct Case {
     void throwIfAny(const Problems& problems) const;
 
     // Reads all files of the case; throws CaseError with every problem found. Collective.
-    static Case read(const Application& app);
+    // unplaced: types whose `table` is still to be written; they have no places.
+    static Case read(const Application& app, const std::set<std::string>& unplaced = {});
 };
 
 }  // namespace corpuscle::simulation

@@ -6,6 +6,7 @@
 #include "core/atomicFile.hpp"
 #include "core/schemaJson.hpp"
 #include "observers/observers.hpp"
+#include "packing/packSettings.hpp"
 #include "simulation/caseSettings.hpp"
 #include "simulation/readyCell.hpp"
 #include "simulation/relaxSettings.hpp"
@@ -45,6 +46,7 @@ const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries() {
         {"system/control.yaml", ControlSettings::schema().info()},
         {"system/numerics.yaml", NumericsSettings::schema().info()},
         {"system/mesh.yaml", MeshSettings::schema().info()},
+        {"system/pack.yaml", packing::PackSettings::schema().info()},
         {"system/relax.yaml", RelaxSettings::schema().info()},
         {"system/observers.yaml", observers::ObserversSettings::schema().info()},
         {"constant/fluid.yaml", FluidSettings::schema().info()},

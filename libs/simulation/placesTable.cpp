@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "core/atomicFile.hpp"
 #include "io/checksum.hpp"
 #include "io/polyData.hpp"
 #include "io/textNumber.hpp"
@@ -171,7 +172,10 @@ std::vector<Place> readPlaces(const std::filesystem::path& caseDirectory, const 
         std::ifstream text(path);
         std::error_code ignored;
         if (!text || !std::filesystem::is_regular_file(path, ignored)) {
-            problems.add(mark, key, fmt::format("found '{}', and there is no such file in the case", file));
+            problems.add(mark, key,
+                         fmt::format("found '{}', and there is no such file in the case. cellPack writes it, where "
+                                     "system/pack.yaml says how many cells there are to be",
+                                     file));
             return {};
         }
         places = CsvPlaces(file, problems).read(text);
@@ -182,6 +186,23 @@ std::vector<Place> readPlaces(const std::filesystem::path& caseDirectory, const 
         problems.add(mark, key,
                      fmt::format("{} has no places; remove the entry, or give it a line for each cell", file));
     return places;
+}
+
+void writePlaces(const std::filesystem::path& path, const std::vector<Place>& places) {
+    if (path.extension() == ".vtp") {
+        io::PolyData data;
+        std::vector<Vec3>& axis = data.point.vectors["axis"];
+        std::vector<double>& scale = data.point.scalars["scale"];
+        for (const Place& place : places)
+            data.points.push_back(place.centre), axis.push_back(place.axis), scale.push_back(place.scale);
+        return io::writeVtp(path, data);
+    }
+    std::string text = "x_um,y_um,z_um,axis_x,axis_y,axis_z,scale\n";
+    for (const Place& place : places)
+        text += fmt::format("{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", place.centre[0] / 1e-6,
+                            place.centre[1] / 1e-6, place.centre[2] / 1e-6, place.axis[0], place.axis[1], place.axis[2],
+                            place.scale);
+    writeFileAtomically(path, text);
 }
 
 // The checksum is that of the numbers as text, so that their last digits do not count.

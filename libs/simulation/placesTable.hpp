@@ -20,6 +20,9 @@ namespace corpuscle::simulation {
 std::vector<geometry::Place> readPlaces(const std::filesystem::path& caseDirectory, const std::string& file,
                                         const Mark& mark, const std::string& key, Problems& problems);
 
+// Writes them to the file, by its ending .csv or .vtp; what is read from it are the same places to eleven digits.
+void writePlaces(const std::filesystem::path& path, const std::vector<geometry::Place>& places);
+
 // "16 places, checksum 8c1f0a2b9d3e4f50": the same for places that are equal to ten digits.
 std::string describePlaces(const std::vector<geometry::Place>& places);
 
