@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -206,26 +207,38 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
     others_.findTouched(layout, shared.entries());
 }
 
+namespace {
+
+using Quad = Eigen::Array4d;  // a particle's four numbers, or three and 0
+Quad quadOf(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
+Vec3 vectorOf(const Quad& quad) { return quad.head<3>(); }
+
+}  // namespace
+
+// Sums over all components alike; normals come in behind them: with T = sum_j u_j g_j^T of the slopes g,
+//     sum_j (n.g) [u - (n.u) n] + (n.u) [g - (n.g) n] = T n + T^T n - 2 (n.T n) n
 template <class Real>
 NodeVectors NodeFluidMap::interpolate(const Real* u) {
-    NodeVectors v(normal_.size(), Vec3::Zero()), shifts(smoothing_.isIdentity() ? 0 : v.size(), Vec3::Zero());
+    NodeVectors v(normal_.size()), shifts(smoothing_.isIdentity() ? 0 : v.size());
     for (std::size_t m = 0; m < v.size(); ++m) {
         const Vec3& n = normal_[m];
-        double across = 0;
+        Quad along = Quad::Zero(), extra = Quad::Zero(), shift = Quad::Zero();
+        std::array<Quad, 3> slope{Quad::Zero(), Quad::Zero(), Quad::Zero()};
         for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
             const Entry& e = own_.entries[k];
-            const Real* of = u + 4 * static_cast<std::size_t>(e.particle);
-            const Vec3 here(of[0], of[1], of[2]);
-            const double normal = n.dot(here);
-            v[m] += e.along * here;
-            across += e.extra * normal;
-            if (!shifts.empty()) shifts[m] += e.shift * here;
-            if (own_.slopes.empty()) continue;
-            const Vec3& g = own_.slopes[k];
-            const double slope = n.dot(g);
-            v[m] += slope * (here - normal * n) + normal * (g - slope * n);
+            const Quad here = Eigen::Map<const Eigen::Array<Real, 4, 1>>(u + 4 * static_cast<std::size_t>(e.particle))
+                                  .template cast<double>();
+            along += e.along * here, extra += e.extra * here, shift += e.shift * here;
+            if (!own_.slopes.empty())
+                for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)] += own_.slopes[k][a] * here;
         }
-        v[m] += across * n;
+        v[m] = vectorOf(along) + n.dot(vectorOf(extra)) * n;
+        if (!shifts.empty()) shifts[m] = vectorOf(shift);
+        if (own_.slopes.empty()) continue;
+        Mat3 T;
+        for (int a = 0; a < 3; ++a) T.col(a) = vectorOf(slope[static_cast<std::size_t>(a)]);
+        const Vec3 Tn = T * n;
+        v[m] += Tn + T.transpose() * n - 2 * n.dot(Tn) * n;
     }
     smoothing_.apply(v);
     for (std::size_t m = 0; m < shifts.size(); ++m) v[m] += shifts[m];
@@ -241,12 +254,15 @@ void NodeFluidMap::spreadBy(const Weights& weights, const NodeVectors& f, partic
     for (std::size_t m = 0; m + 1 < weights.first.size(); ++m) {
         const Vec3& n = normal_[m];
         const Vec3 across = n.dot(mean[m]) * n, along = mean[m] - across;
+        const Quad all = quadOf(mean[m]), extra = quadOf(across), shift = quadOf(f[m]);
+        std::array<Quad, 3> slope;  // columns of n along^T + along n^T
+        for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)] = quadOf(along[a] * n + n[a] * along);
         for (std::size_t k = weights.first[m]; k < weights.first[m + 1]; ++k) {
             const Entry& e = weights.entries[k];
-            Vec3 sum = e.along * mean[m] + e.extra * across + e.shift * f[m];
-            if (!weights.slopes.empty()) sum += n.dot(weights.slopes[k]) * along + weights.slopes[k].dot(along) * n;
-            double* to = force.data() + 4 * static_cast<std::size_t>(e.particle);
-            for (int a = 0; a < 3; ++a) to[a] += sum[a];
+            Quad sum = e.along * all + e.extra * extra + e.shift * shift;
+            if (!weights.slopes.empty())
+                for (int a = 0; a < 3; ++a) sum += weights.slopes[k][a] * slope[static_cast<std::size_t>(a)];
+            Quad::Map(force.data() + 4 * static_cast<std::size_t>(e.particle)) += sum;
         }
     }
 }

@@ -211,15 +211,15 @@ void CoarseGrid::place(std::size_t particle, const Vec3& x) {
     }
 }
 
-CoarseGrid::Corners CoarseGrid::corners(const Place& p) const {
-    Corners c;
-    for (std::size_t k = 0; k < 8; ++k) {
-        const std::size_t a = k / 4, b = k / 2 % 2, d = k % 2;
-        const int node = (p.node[0][a] * count_[1] + p.node[1][b]) * count_[2] + p.node[2][d];
-        c.node[k] = static_cast<std::size_t>(node);
-        c.weight[k] = static_cast<double>(p.weight[0][a] * p.weight[1][b] * p.weight[2][d]);
-    }
-    return c;
+template <class F>
+void CoarseGrid::forCorners(const Place& p, F&& f) const {
+    for (std::size_t a = 0; a < 2; ++a)
+        for (std::size_t b = 0; b < 2; ++b) {
+            const int row = (p.node[0][a] * count_[1] + p.node[1][b]) * count_[2];
+            const float weight = p.weight[0][a] * p.weight[1][b];
+            for (std::size_t d = 0; d < 2; ++d)
+                f(static_cast<std::size_t>(row + p.node[2][d]), static_cast<double>(weight * p.weight[2][d]));
+        }
 }
 
 template <class F>
@@ -239,8 +239,7 @@ void CoarseGrid::gather(const Real* r, const std::vector<int>* particles, Planes
               Quad::Zero());
     forParticles(particles, own_, [&](std::size_t i) {
         const Quad value = Eigen::Map<const Eigen::Array<Real, 4, 1>>(r + 4 * i).template cast<double>();
-        const Corners c = corners(places_[i]);
-        for (std::size_t k = 0; k < 8; ++k) quads_[c.node[k]] += c.weight[k] * value;
+        forCorners(places_[i], [&](std::size_t node, double weight) { quads_[node] += weight * value; });
     });
     for (std::size_t c = 0; c < components; ++c)
         for (std::size_t g = first; g < last; ++g) plans_->values[c * plans_->nodes + g] = quads_[g][axis_[c]];
@@ -270,9 +269,8 @@ void CoarseGrid::spread(Real* z, const std::vector<int>* particles, Planes plane
         quads_[g][3] = 0;
     }
     forParticles(particles, places_.size(), [&](std::size_t i) {
-        const Corners c = corners(places_[i]);
         Quad sum = Quad::Zero();
-        for (std::size_t k = 0; k < 8; ++k) sum += c.weight[k] * quads_[c.node[k]];
+        forCorners(places_[i], [&](std::size_t node, double weight) { sum += weight * quads_[node]; });
         Eigen::Map<Eigen::Array<Real, 4, 1>>(z + 4 * i) += sum.template cast<Real>();
     });
 }

@@ -95,10 +95,6 @@ class CoarseGrid {
         int node[3][2] = {};      // along each axis
         float weight[3][2] = {};  // of these, 0 at a wall
     };
-    struct Corners {
-        std::array<std::size_t, 8> node;
-        std::array<double, 8> weight;
-    };
     struct Plans;
     struct Symbol {  // of one axis: mass, stiffness, and of the derivative
         double mass, stiffness;
@@ -119,7 +115,8 @@ class CoarseGrid {
     std::size_t firstOf(int plane) const {
         return static_cast<std::size_t>(plane) * static_cast<std::size_t>(count_[1] * count_[2]);
     }
-    Corners corners(const Place& place) const;
+    template <class F>
+    void forCorners(const Place& place, F&& f) const;  // f(node, weight), eight times
 
     particles::Box box_;
     std::array<int, 3> axis_{};  // the axis across the walls (or the last), then the other two: slowest first in memory

@@ -26,7 +26,7 @@ template <class Real>
 class MembraneCorrection {
   public:
     using Field = particles::AlignedVector<Real>;
-    static constexpr double tolerance = 0.05;  // in the norm of energy, of z
+    static constexpr double tolerance = 0.2;  // in the norm of energy, of z
     static constexpr int most = 1000;
 
     // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle: `own` of this rank,

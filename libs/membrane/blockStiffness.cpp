@@ -17,6 +17,7 @@ void BlockStiffness::add(std::span<const int> nodes, const Eigen::Ref<const Eige
     for (std::size_t m = 0; m < nodes.size(); ++m) {
         auto& row = rows_[static_cast<std::size_t>(nodes[m])];
         for (std::size_t n = 0; n < nodes.size(); ++n) {
+            if (nodes[n] < nodes[m]) continue;
             auto block = std::find_if(row.begin(), row.end(), [&](const Block& b) { return b.column >= nodes[n]; });
             if (block == row.end() || block->column != nodes[n]) {
                 block = row.insert(block, {nodes[n], Mat3::Zero()});
@@ -32,9 +33,14 @@ void BlockStiffness::addRankOne(double factor, std::span<const Vec3> gradient) {
 
 void BlockStiffness::addProduct(double factor, std::span<const Vec3> u, std::span<Vec3> result) const {
     for (std::size_t n = 0; n < rows_.size(); ++n) {
+        const Vec3 own = factor * u[n];
         Vec3 sum = Vec3::Zero();
         for (const Block& block : rows_[n]) {
-            sum.noalias() += block.value * u[static_cast<std::size_t>(block.column)];
+            const auto other = static_cast<std::size_t>(block.column);
+            sum.noalias() += block.value * u[other];
+            if (other != n) {
+                result[other].noalias() += block.value.transpose() * own;
+            }
         }
         result[n] += factor * sum;
     }

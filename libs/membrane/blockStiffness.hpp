@@ -1,5 +1,6 @@
-// Stiffness of one membrane for many products with vectors: blocks of 3 x 3 in rows, and low-rank parts. Which blocks
-// there are is kept from one filling to the next, so that filling again needs no memory.
+// Stiffness of one membrane for many products with vectors: blocks of 3 x 3 in rows, and low-rank parts. It is
+// symmetric, and products are bound by memory: only blocks on the diagonal and right of it are kept. Which blocks there
+// are is kept from one filling to the next, so that filling again needs no memory.
 #pragma once
 #include "membrane/stiffness.hpp"
 

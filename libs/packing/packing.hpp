@@ -2,9 +2,9 @@
 //
 // 1. Balls around the cells, all scaled down alike, are put at random where they are clear of each other, of walls and
 //    of what is fixed.
-// 2. The scale grows by as much as leaves 0.3 of each gap; then Newton's method lowers the energy of the barrier between
-//    surfaces (contact/barrier.hpp, with the gap as its thickness) over the places and axes of all cells, which are
-//    rigid. No way that a surface goes crosses another one (contact/travel.hpp). Repeated until the scale is 1.
+// 2. The scale grows by as much as leaves 0.3 of each gap; then Newton's method lowers the energy of the barrier
+//    between surfaces (contact/barrier.hpp, with the gap as its thickness) over the places and axes of all cells, which
+//    are rigid. No way that a surface goes crosses another one (contact/travel.hpp). Repeated until the scale is 1.
 // 3. At full size, Newton's method again until nothing presses or moves.
 // There is no stage at which surfaces are nearer than the gap. Contact is that of rough surfaces around the cells' own,
 // whose edges are 0.35 of the radius of a ball of the cell's volume.
