@@ -217,8 +217,10 @@ void CoarseGrid::forCorners(const Place& p, F&& f) const {
         for (std::size_t b = 0; b < 2; ++b) {
             const int row = (p.node[0][a] * count_[1] + p.node[1][b]) * count_[2];
             const float weight = p.weight[0][a] * p.weight[1][b];
-            for (std::size_t d = 0; d < 2; ++d)
-                f(static_cast<std::size_t>(row + p.node[2][d]), static_cast<double>(weight * p.weight[2][d]));
+            for (std::size_t d = 0; d < 2; ++d) {
+                const int node = row + p.node[2][d];
+                f(static_cast<std::size_t>(node), static_cast<double>(weight * p.weight[2][d]));
+            }
         }
 }
 
