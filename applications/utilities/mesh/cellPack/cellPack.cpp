@@ -11,7 +11,7 @@
 // walls (packing/packing.hpp).
 //
 // Sample runs:
-//     cellPack -case tutorials/suspension
+//     cellPack -case blood
 //     cellPack -set 'system/pack.yaml:/seed=2'
 #include <Eigen/Eigenvalues>
 #include <chrono>
@@ -238,7 +238,7 @@ class CellPack {
 int main(int argc, char* argv[]) {
     Application app("cellPack", "Puts many cells in place without overlap and writes the tables of their places.", argc,
                     argv,
-                    {.samples = {"cellPack -case tutorials/suspension", "cellPack -set 'system/pack.yaml:/seed=2'"}});
+                    {.samples = {"cellPack -case blood", "cellPack -set 'system/pack.yaml:/seed=2'"}});
     return app.run([&] {
         utilities::requireSerial(app);
         app.announce();
