@@ -237,8 +237,7 @@ class CellPack {
 
 int main(int argc, char* argv[]) {
     Application app("cellPack", "Puts many cells in place without overlap and writes the tables of their places.", argc,
-                    argv,
-                    {.samples = {"cellPack -case blood", "cellPack -set 'system/pack.yaml:/seed=2'"}});
+                    argv, {.samples = {"cellPack -case blood", "cellPack -set 'system/pack.yaml:/seed=2'"}});
     return app.run([&] {
         utilities::requireSerial(app);
         app.announce();
