@@ -19,8 +19,7 @@
 namespace corpuscle::packing {
 namespace {
 
-constexpr double reachOfRadius =
-    0.1;  // reach of the barrier, over the radius of the smallest cell's ball of equal volume
+constexpr double reachOfRadius = 0.1;           // reach of the barrier, over radiusOf the smallest cell
 constexpr double firstFraction = 0.25;          // of the fluid that balls around the cells take at first
 constexpr double leastScale = 0.02;             // at which cells are scattered
 constexpr int triesOfOne = 2000;                // to put a ball somewhere
@@ -33,9 +32,9 @@ constexpr double restOfReach = 0.01;                  // largest motion of a nod
 constexpr double longestStep = 1;                     // of a node, over the reach
 constexpr int patience = 12;                          // stages in which the scale has to grow by
 constexpr double leastProgress = 0.003;               // this much of itself
+constexpr double edgeOfRadius = 0.35;                 // of rough surfaces, over radiusOf the cell
 
-constexpr double edgeOfRadius = 0.35;  // of rough surfaces
-
+// Of the ball of equal volume.
 double radiusOf(const geometry::TriangleMesh& mesh) { return std::cbrt(0.75 / std::numbers::pi * mesh.volume()); }
 
 double smallestRadius(const std::vector<Packing::Type>& types) {
@@ -65,10 +64,6 @@ std::vector<Kind> kindsOf(const std::vector<Packing::Type>& types) {
     for (const Packing::Type& type : types) kinds.push_back({type.surface.mesh, type.orientation->mayTurn()});
     return kinds;
 }
-
-}  // namespace
-
-namespace {
 
 // The most by which nodes lie outside of a surface, whose own nodes `push` is raised at to as much as lies above them.
 double outsideOf(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& nodes, double reach,
@@ -101,8 +96,7 @@ std::vector<Vec3> normalsOf(const geometry::TriangleMesh& mesh) {
 
 // Whether half a turn about x leaves the shape what it is.
 bool isSameUpsideDown(const geometry::Shape& shape, const std::vector<Vec3>& nodes) {
-    constexpr double little =
-        1e-3;  // of the radius: nodes of a mesh that encloses the exact volume lie off the surface
+    constexpr double little = 1e-3;  // of the radius: nodes of a mesh that encloses a volume lie off the surface
     return std::all_of(nodes.begin(), nodes.end(), [&](const Vec3& x) {
         const auto off = [&](const Vec3& at) { return shape.implicit(at) / shape.gradient(at).norm(); };
         return std::abs(off(x) - off(Vec3(x[0], -x[1], -x[2]))) < little * shape.radius();
@@ -172,12 +166,15 @@ std::vector<Pose> Packing::pack(std::uint64_t seed, const std::function<void(con
 }
 
 bool Packing::isFree(const Vec3& centre, double radius, std::size_t among) const {
+    const double apart = crowd_.law().thickness;
     for (const boundary::Wall& wall : space_.walls)
-        if (wall.distance(centre) < radius + gap_) return false;
+        if (wall.distance(centre) < radius + apart) return false;
     for (std::size_t c = 0; c < among; ++c)
         if (space_.period.shortest(poses_[c].centre - centre).norm() <
-            radius + progress_.scale * crowd_.radius(poses_[c].kind) + gap_)
+            radius + progress_.scale * crowd_.radius(poses_[c].kind) + apart)
             return false;
+    for (int k = 0; k < 3; ++k)  // its own image
+        if (space_.period.isAlong(k) && space_.period.lengths()[k] < 2 * radius + apart) return false;
     return true;
 }
 
@@ -188,18 +185,20 @@ bool Packing::scatter(Random& random, double scale) {
                      [&](std::size_t a, std::size_t b) { return crowd_.radius(a) > crowd_.radius(b); });
     std::vector<geometry::InsideTest> insides;
     std::vector<geometry::TriangleTree> trees;
+    std::vector<geometry::Bounds> bounds;
+    const double apart = crowd_.law().thickness;
     for (const geometry::TriangleMesh& mesh : space_.fixed) {
         insides.emplace_back(mesh);
-        trees.emplace_back(mesh, 2 * (gap_ + scale * crowd_.radius(order.front())));
+        trees.emplace_back(mesh, apart + scale * crowd_.radius(order.front()));
+        bounds.push_back(geometry::boundsOf(mesh.nodes));
     }
     const auto isClearOfFixed = [&](const Vec3& centre, double radius) {
         for (std::size_t f = 0; f < trees.size(); ++f) {
-            const geometry::Bounds bounds = geometry::boundsOf(space_.fixed[f].nodes);
             bool isClear = !insides[f].inside(centre, space_.period);
-            const Vec3 around = Vec3::Constant(radius + gap_);
-            space_.period.forImagesWithin(centre, bounds.min() - around, bounds.max() + around, [&](const Vec3& image) {
-                isClear = isClear && !trees[f].nearest(image, radius + gap_);
-            });
+            const Vec3 around = Vec3::Constant(radius + apart);
+            space_.period.forImagesWithin(
+                centre, bounds[f].min() - around, bounds[f].max() + around,
+                [&](const Vec3& image) { isClear = isClear && !trees[f].nearest(image, radius + apart); });
             if (!isClear) return false;
         }
         return true;
@@ -252,8 +251,7 @@ void Packing::relax(int iterations, double gapsOfReach) {
     for (int n = 0; n < iterations && crowd_.leastGap() < gapsOfReach * crowd_.law().reach(); ++n)
         if (!step()) break;
     progress_.contacts = crowd_.contacts();
-    progress_.leastGap =
-        crowd_.leastGap() + gap_;  // rough surfaces are nearer by what the law's thickness has in addition
+    progress_.leastGap = crowd_.leastGap() + gap_;  // of the cells' own surfaces, at least
 }
 
 // Cells that would move further than a step allows: those that little holds, and those whose axis is near -z, where the

@@ -63,7 +63,6 @@ class Packing {
     bool step();
     void shorten(Eigen::VectorXd& q) const;
     bool isFree(const Vec3& centre, double radius, std::size_t among) const;
-    double gapOf() const;
 
     std::vector<Type> types_;
     Space space_;

@@ -201,6 +201,14 @@ TEST(Packing, saysWhereThereIsNoRoom) {
     };
     EXPECT_NE(refusal(many, 0.05 * um).find("stuck at 0.8"), std::string::npos) << refusal(many, 0.05 * um);
     EXPECT_NE(refusal(many, 9 * um).find("no room"), std::string::npos) << refusal(many, 9 * um);
+    // A ball that would meet its own image.
+    const particles::Box narrow = boxOf(Vec3(3.5, 20, 20) * um, true);
+    try {
+        Packing({{{one}, 1, &anyhow}}, spaceOf(narrow), 0.05 * um).pack(1);
+        ADD_FAILURE() << "a ball of 4 um in a period of 3.5 um";
+    } catch (const Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("stuck at 0.8"), std::string::npos) << failure.what();
+    }
 }
 
 // Uniform on the sphere: means of the components and of their products.
