@@ -124,10 +124,12 @@ class Step final : public ImplicitStep {
     // The velocity of this step, that of the nodes in the membranes' term.
     bool solve() {
         const double reference = std::max(state.reference, leastDisturbance(scene_));
+        const double tolerance =
+            options_.settings.tolerance * toleranceShare(options_.settings, scene_.flow.rate, planned_);
         for (int refinement = 0;; ++refinement) {
             system_.shared().distribute(residual_.data(), static_cast<int>(particles::fieldWidth));
             const Convergence c = solver_.solve(
-                scene_.system->comm(), residual_, correction_, reference, options_.settings.tolerance,
+                scene_.system->comm(), residual_, correction_, reference, tolerance,
                 [&](const Field& z, Field& w) {
                     system_.product(z, w);
                     takeDivergence(divergence_.image);
@@ -179,9 +181,8 @@ class Step final : public ImplicitStep {
         if (!immersed_ && !freeBodies) return differenceOfFluid(h) / scene_.flow.length;
         double largest = 0;
         if (immersed_)
-            largest = largestOfRanks(
-                largestDifference(*immersed_, system_.membranes()->velocities(),
-                                  h > 0 ? system_.membranes()->extrapolated() : immersed_->velocities()));
+            largest = differenceOfCells(*immersed_, scene_.system->comm(), system_.membranes()->velocities(),
+                                        h > 0 ? system_.membranes()->extrapolated() : immersed_->velocities());
         if (freeBodies) largest = std::max(largest, rigid->largestDifference(h, velocity_));
         return largest;
     }

@@ -3,27 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/communicator.hpp"
+
 namespace corpuscle::implicit {
 
 using coupling::Immersed;
 
 namespace {
 
-constexpr double most = 2, least = 0.2;  // change from step to step
+// Change from step to step. The stiffest displacements halve in a step and change their sign (TimeDifference::leadShare);
+// in steps that were halved too their velocities would not decay, and steps would shrink on and on.
+constexpr double most = 2, least = 0.7;
 
 bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }
 
 }  // namespace
 
-double largestDifference(const Immersed& immersed, const Immersed::Vectors& a, const Immersed::Vectors& b) {
-    double largest = 0;
+double toleranceShare(const ImplicitSettings& settings, double rate, double planned) {
+    constexpr double leastShare = 0.01;
+    const double length = planned * rate / settings.step;
+    return std::clamp(length * length, leastShare, 1.0);
+}
+
+double differenceOfCells(const Immersed& immersed, MPI_Comm comm, const Immersed::Vectors& a,
+                         const Immersed::Vectors& b) {
+    constexpr double shareOfWorst = 0.25;
+    const Communicator ranks(comm);
     const coupling::NodeLayout& layout = immersed.layout();
+    double worst2 = 0, sum2 = 0;
     for (std::size_t c = 0; c < layout.cells(); ++c) {
+        if (!immersed.cells()[c].isOwnedBy(ranks.rank())) continue;
         const double radius = radiusOfSphere(immersed.cells()[c].initialVolume);
+        double largest2 = 0;
         for (std::size_t m = layout.first(c); m < layout.last(c); ++m)
-            largest = std::max(largest, (a[m] - b[m]).norm() / radius);
+            largest2 = std::max(largest2, (a[m] - b[m]).squaredNorm() / (radius * radius));
+        worst2 = std::max(worst2, largest2), sum2 += largest2;
     }
-    return largest;
+    const auto cells = static_cast<double>(immersed.cells().count());
+    return std::max(std::sqrt(ranks.sum(sum2) / cells), shareOfWorst * std::sqrt(ranks.max(worst2)));
 }
 
 double largestBondRate(const Immersed& immersed, const Immersed::Vectors& velocity) {

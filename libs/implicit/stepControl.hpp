@@ -9,16 +9,23 @@
 // kind, which the next step is.
 //
 // in the scene | the difference                                      | a
-// cells        | the largest of the nodes                            | radius of the sphere of the cell's volume
+// cells        | of each the largest of its nodes; of these the root | radius of the sphere of the cell's volume
+//              | mean square, a quarter of the largest at the least  |
 // free bodies  | the largest of |dU| + a |dOmega|                    | the same of the body
 // neither      | root mean square of the fluid                       | length of the flow (sph/flow.hpp)
 // Steps of different length: the second difference is scaled to what it would be over steps as long as the last.
+// Of one cell that is its largest; of many, the more of them there are, the largest is that of some rare event, and a
+// step that follows it would be made by all.
 // With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is
 // asked for.
 //
 // Nothing is known of the error before the third step (the second, of a flow that starts fully developed), and the
 // start from a velocity that does not know of the forces is of first order: where `error` is below its default, the
 // first step is (error/default)^(1/2) as long as `step`, and the second twice that.
+//
+// What the solver leaves is in the difference as well, whatever the length of the step. In steps shorter than those of
+// the case, where the extrapolated velocity is the better by the square of the length, its tolerance is the smaller by
+// that much (toleranceShare); else such steps would shrink without end where many cells make it large.
 //
 // Contact. Nodes move to where the next step takes its forces before these act: no further than nine tenths of the way
 // on which nothing meets.
@@ -47,11 +54,14 @@ struct LastStep {
 AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
                           double bondRate);
 
-// Of the cells that this rank holds: the largest difference of two velocities of nodes, in radii of their cell [1/s].
-double largestDifference(const coupling::Immersed& immersed, const coupling::Immersed::Vectors& a,
+// Of the solver's tolerance in a step of this length, on a rate of the flow [1/s].
+double toleranceShare(const ImplicitSettings& settings, double rate, double planned);
+
+// Of two velocities of nodes, in radii of their cell [1/s]: of all cells of the scene. Collective.
+double differenceOfCells(const coupling::Immersed& immersed, MPI_Comm comm, const coupling::Immersed::Vectors& a,
                          const coupling::Immersed::Vectors& b);
 
-// Likewise the largest rate at which a bond's length changes, over its length [1/s].
+// Of the cells that this rank holds: the largest rate at which a bond's length changes, over its length [1/s].
 double largestBondRate(const coupling::Immersed& immersed, const coupling::Immersed::Vectors& velocity);
 
 }  // namespace corpuscle::implicit

@@ -3,6 +3,8 @@
 // Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "coupling/sphereScene.hpp"
 #include "implicit/implicitStep.hpp"
 
@@ -29,4 +31,23 @@ TEST(Ringing, ofAStiffMembraneDiesAway) {
     for (int k = 0; k < 7; ++k) step->advance(100);
     EXPECT_LT(energy(), 0.01 * atFirst);  // 0.0023; by the plain midpoint rule 0.21
     EXPECT_EQ(step->statistics.halvings, 0);
+}
+
+// The error of a step is estimated from the change of velocities, which a displacement that turns over makes the larger
+// the shorter the step: if steps shrink faster than it dies away, they stay short.
+TEST(Ringing, letsShortenedStepsGrowAgain) {
+    coupling::Scene scene = pulledSphere(0.01);
+    ImplicitStep::Options options;
+    options.settings = {.step = 1, .tolerance = 1e-8, .error = 1e-4, .bondStrain = 1};
+    const auto step = ImplicitStep::make(scene, options);
+    constexpr double longest = 100;
+    double dt = longest, shortest = longest;
+    for (int k = 0; k < 22; ++k) {
+        step->advance(dt);
+        const double allowed = step->allowed().error;
+        dt = allowed > 0 ? std::min(longest, allowed) : longest;
+        shortest = std::min(shortest, dt);
+    }
+    EXPECT_LT(shortest, 0.1 * longest);
+    EXPECT_GT(dt, 0.9 * longest);  // by steps of a fifth of the one before at the least: 0.02
 }
