@@ -74,12 +74,23 @@ struct ExcessStress::Records {
     }
 };
 
+// J: of symmetric tensors, tr(e) 1.
+static const Eigen::Matrix<double, 6, 6>& traceOf() {
+    static const Eigen::Matrix<double, 6, 6> J = [] {
+        const Six one = vectorOf(Mat3::Identity());
+        return Eigen::Matrix<double, 6, 6>(one * one.transpose());
+    }();
+    return J;
+}
+
 Mat3 ExcessStress::stressOf(const Tensor& viscosity, const Mat3& gradient) {
     return tensorOf(viscosity * vectorOf(gradient + gradient.transpose()));
 }
 
 Mat3 ExcessStress::stress(std::size_t i, const Mat3& gradient) const {
-    if (mixed_[i] < 0) return mean_[i] * (gradient + gradient.transpose());
+    if (mixed_[i] < 0)
+        return mean_[i] * (gradient + gradient.transpose()) -
+               std::min(mean_[i], 0.0) * gradient.trace() * Mat3::Identity();
     return stressOf(viscosities_[static_cast<std::size_t>(mixed_[i])], gradient);
 }
 
@@ -188,6 +199,8 @@ void ExcessStress::findMixed(const Records& records, std::span<const int> near, 
         for (std::size_t m = one.first; m < neighbours_.size(); ++m) neighbours_[m].weight = B * neighbours_[m].weight;
         oneSided_.push_back(std::move(one));
     }
+    const double least = std::min(across, isThicker ? 0.0 : mu * (lambda - 1));
+    viscosity -= 0.5 * std::min(least, 0.0) * traceOf();
     mixed_[i] = static_cast<int>(viscosities_.size());
     viscosities_.push_back(viscosity);
 }

@@ -15,6 +15,10 @@
 // e_i     | with c_i, and where lambda < 1, by the gradient over all neighbours; with f_i and in e_i' over those in the
 //         | more viscous fluid alone (neighbours weigh max(f, 0.02) or max(1 - f, 0.02), with moments of these), since
 //         | the other fluid stretches otherwise already at a small distance from the interface
+// A negative coefficient c comes with the bulk viscosity -c, the stress 2 c e - c tr(e) 1: its power c (2 e:e - tr(e)^2)
+// and that of the fluid's own viscosity, mu |grad u|^2, are in the mean over space (mu + c) |grad u|^2, of any flow.
+// Without it the power of a flow that is compressed is negative from c < -mu/2 on, and only the fluid's stiffness over
+// long steps keeps it from growing. Of a flow without divergence the stress is the same.
 // A gradient over few particles may take more power than the fluid's own viscosity gives; so it never has a negative
 // coefficient. Where p = 0 or 1 this is 2 (mu_i - mu) e_i. Symmetric; no force and no torque is left over in the sum,
 // and what turns rigidly has none.
@@ -52,8 +56,8 @@ class ExcessStress {
     void addForces(const particles::SharedParticles& shared, Velocity&& velocity, std::size_t width,
                    particles::RealArray& force) const;
     bool hasStress(std::size_t i) const { return mean_[i] != 0 || mixed_[i] >= 0; }
-    // In the mean over all directions [Pa s].
-    double viscosity(std::size_t i) const { return mean_[i]; }
+    // By which (D u)_i^2 takes power in the mean over u along x, y and z [Pa s].
+    double diagonal(std::size_t i) const { return (mean_[i] < 0 ? 3 : 4) * mean_[i]; }
 
   private:
     using Tensor = Eigen::Matrix<double, 6, 6>;  // on symmetric tensors: xx yy zz, sqrt(2) (xy xz yz)

@@ -175,7 +175,7 @@ void Operators<Real>::setInside(ParticleSystem& system, const std::vector<Inside
     excess_.build(system, shared_, volume_, inside);
     hasInside_ = true;
     sortBlocks(system, [&](std::size_t i) { return excess_.hasStress(i); });
-    for (std::size_t i = 0; i < volume_.size(); ++i) viscous_[i] += 4 * excess_.viscosity(i) * bulk_[i];
+    for (std::size_t i = 0; i < volume_.size(); ++i) viscous_[i] += excess_.diagonal(i) * bulk_[i];
 }
 
 template <class Real>

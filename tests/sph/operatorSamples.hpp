@@ -154,9 +154,10 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         for (const Pair& p : pairs) T[p.i] += volume[p.j] * p.F * (B[p.i] * p.d) * (u[p.j] - u[p.i]).transpose();
         for (std::size_t i = 0; i < all.size(); ++i) {
             const Mat3 twice = T[i] + T[i].transpose();
-            if (!GetParam().layers)
-                T[i] = (inside[i] - fluid.viscosity) * twice * B[i];
-            else if (all[i].wall)
+            if (!GetParam().layers) {
+                const double more = inside[i] - fluid.viscosity, bulk = std::max(-more, 0.0);
+                T[i] = (more * twice + bulk * T[i].trace() * Mat3::Identity()) * B[i];
+            } else if (all[i].wall)
                 T[i].setZero();
             else
                 T[i] = (all[i].viscosity - fluid.lowestLayer) * T[i] * B[i];
