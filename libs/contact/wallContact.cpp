@@ -28,7 +28,7 @@ std::vector<AtWall> nodesAtWalls(const ContactLaw& law, const boundary::Walls& w
         for (std::size_t n = 0; n < x.size(); ++n) {
             const double distance = wall.distance(x[n]), area = surface.nodeArea()[n];
             if (distance < law.range() && area > 0)
-                found.push_back({n, wall.number, wall.normal(x[n]), area, law.at(distance - law.thickness)});
+                found.push_back({n, wall.number, wall.normal(x[n]), distance, area, law.at(distance - law.thickness)});
         }
     }
     return found;

@@ -18,6 +18,7 @@ struct AtWall {
     std::size_t node;  // of the surface
     int wall;          // its number
     Vec3 normal;       // into the fluid
+    double distance;   // m
     double area;       // m^2
     ContactLaw::Value psi;
     Vec3 force() const { return -area * psi.slope * normal; }  // on the node [N]

@@ -158,20 +158,36 @@ double CellContacts::freeTravel(const Cells& cells, const NodeLayout& layout, co
     return Communicator(system.comm()).min(free);
 }
 
-double CellContacts::energy(const Cells& cells, const ParticleSystem& system) const {
+CellContacts::Now CellContacts::now(const Cells& cells, const ParticleSystem& system) const {
     const NodeLayout layout(cells);
     const NodeVectors x = positionsOf(cells);
     std::map<const membrane::Network*, Known> known = known_;
     const Surfaces surfaces = surfacesOf(cells, known);
-    contact::Contacts there = contacts_;
+    Now now{contacts_, atWallsOf(layout, x, surfaces)};
     if (isListed(cells) && contacts_.covers(x))
-        there.evaluate(x);
+        now.among.evaluate(x);
     else
-        list(there, cells, x, system, NodeVectors(x.size(), Vec3::Zero()), surfaces);
-    double sum = there.energy();
-    for (const AtWall& at : atWallsOf(layout, x, surfaces))
-        if (cells[at.cell].isOwnedBy(system.decomposition().rank())) sum += at.area * at.psi.energy;
+        list(now.among, cells, x, system, NodeVectors(x.size(), Vec3::Zero()), surfaces);
+    std::erase_if(now.atWalls,
+                  [&](const AtWall& at) { return !cells[at.cell].isOwnedBy(system.decomposition().rank()); });
+    return now;
+}
+
+double CellContacts::energy(const Cells& cells, const ParticleSystem& system) const {
+    const Now here = now(cells, system);
+    double sum = here.among.energy();
+    for (const AtWall& at : here.atWalls) sum += at.area * at.psi.energy;
     return sum;
+}
+
+// Of a node at a wall x f^T is that of the way from the wall to the node.
+Mat3 CellContacts::stresslet(const Cells& cells, const ParticleSystem& system) const {
+    const Now here = now(cells, system);
+    Mat3 sum = -here.among.virial();
+    for (const AtWall& at : here.atWalls) sum -= at.distance * at.normal * at.force().transpose();
+    std::vector<double> numbers(sum.data(), sum.data() + sum.size());
+    numbers = Communicator(system.comm()).sum(std::move(numbers));
+    return Mat3::Map(numbers.data());
 }
 
 }  // namespace corpuscle::coupling

@@ -46,6 +46,8 @@ class CellContacts {
                       const NodeVectors& x, const NodeVectors& displacement) const;
     // Where nodes are now, this rank's part [J].
     double energy(const Cells& cells, const particles::ParticleSystem& system) const;
+    // -sum x f^T over membranes and walls that touch, where nodes are now [J]. Collective.
+    Mat3 stresslet(const Cells& cells, const particles::ParticleSystem& system) const;
 
   private:
     static constexpr double spareOfReach = 0.5;  // by which cells may approach each other more than expected
@@ -59,6 +61,12 @@ class CellContacts {
     };
     using Surfaces = std::vector<std::shared_ptr<const contact::Surface>>;
     Surfaces surfacesOf(const Cells& cells, std::map<const membrane::Network*, Known>& known) const;
+    // Of where nodes are now: among cells, by this rank; with walls, by the owner of each cell.
+    struct Now {
+        contact::Contacts among;
+        std::vector<AtWall> atWalls;
+    };
+    Now now(const Cells& cells, const particles::ParticleSystem& system) const;
     // Lists for cells as they are held.
     void list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
               const particles::ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const;

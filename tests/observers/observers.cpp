@@ -131,7 +131,7 @@ TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
 
 TEST(Observers, EveryModelIsThere) {
     EXPECT_EQ(
-        corpuscle::support::missing<Observer>({"body", "conservation", "profile", "rupture", "shape", "wallStress"}),
+        corpuscle::support::missing<Observer>({"body", "conservation", "profile", "rupture", "shape", "suspension", "wallStress"}),
         std::vector<std::string>());
 }
 

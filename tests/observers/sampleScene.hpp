@@ -28,6 +28,7 @@ struct SampleOptions {
     std::vector<std::pair<std::string, Vec3>> cells = {};  // name and centre
     const geometry::TriangleMesh* surface = nullptr;       // of every cell, about the origin
     std::string rupture = "none";
+    double viscosityRatio = 1;                    // of the insides
     double margin = coupling::Cells::everywhere;  // within which ranks hold cells [m]
 };
 
@@ -69,6 +70,7 @@ inline Scene sampleScene(const SampleOptions& o) {
                          .triangles = mesh.triangles,
                          .settings = laws,
                          .radius = 4 * um,
+                         .viscosityRatio = o.viscosityRatio,
                          .nodeMass = std::vector<double>(mesh.nodes.size(), rho0 * dx * dx * dx),
                          .places = {{}}});
     }
