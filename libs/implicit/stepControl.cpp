@@ -11,8 +11,9 @@ using coupling::Immersed;
 
 namespace {
 
-// Change from step to step. The stiffest displacements halve in a step and change their sign (TimeDifference::leadShare);
-// in steps that were halved too their velocities would not decay, and steps would shrink on and on.
+// Change from step to step. The stiffest displacements halve in a step and change their sign
+// (TimeDifference::leadShare); in steps that were halved too their velocities would not decay, and steps would shrink
+// on and on.
 constexpr double most = 2, least = 0.7;
 
 bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }

@@ -15,8 +15,8 @@
 // e_i     | with c_i, and where lambda < 1, by the gradient over all neighbours; with f_i and in e_i' over those in the
 //         | more viscous fluid alone (neighbours weigh max(f, 0.02) or max(1 - f, 0.02), with moments of these), since
 //         | the other fluid stretches otherwise already at a small distance from the interface
-// A negative coefficient c comes with the bulk viscosity -c, the stress 2 c e - c tr(e) 1: its power c (2 e:e - tr(e)^2)
-// and that of the fluid's own viscosity, mu |grad u|^2, are in the mean over space (mu + c) |grad u|^2, of any flow.
+// A negative coefficient c comes with the bulk viscosity -c, the stress 2 c e - c tr(e) 1: its power, c (2 e:e -
+// tr(e)^2), and that of the fluid's own viscosity, mu |grad u|^2, are in the mean over space (mu + c) |grad u|^2.
 // Without it the power of a flow that is compressed is negative from c < -mu/2 on, and only the fluid's stiffness over
 // long steps keeps it from growing. Of a flow without divergence the stress is the same.
 // A gradient over few particles may take more power than the fluid's own viscosity gives; so it never has a negative

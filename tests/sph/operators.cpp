@@ -230,8 +230,14 @@ TEST(TwoViscosities, takePowerFromEveryVelocity) {
         bool layers;
     };
     const Index3 size{6, 6, 6};
-    for (const auto& [ratio, bulk, layers] :
-         {Fluid{2, 0, true}, {20, 0, true}, {5, 0, false}, {100, 0, false}, {0.2, 0, false}, {0.02, 0, false}, {0.2, 50, false}, {0.02, 50, false}}) {
+    for (const auto& [ratio, bulk, layers] : {Fluid{2, 0, true},
+                                              {20, 0, true},
+                                              {5, 0, false},
+                                              {100, 0, false},
+                                              {0.2, 0, false},
+                                              {0.02, 0, false},
+                                              {0.2, 50, false},
+                                              {0.02, 50, false}}) {
         for (const OperatorForm form : {plain, corrected}) {
             ParticleSystem system(MPI_COMM_WORLD, cube(size), {.viscosity = true}, support, 0, 1.0);
             std::vector<Particle> all = lattice(size, 0.15, 3);

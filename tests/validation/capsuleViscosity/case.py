@@ -9,6 +9,7 @@ ACROSS = "particles along the radius"
 RESOLUTIONS = (6, 8, 12)
 UNBOUNDED = True
 ALLOWED = {6: (5, 1.5), 8: (4, 1.2), 12: (2, 1)}  # % of D12, degrees; at the finest the aim
+MISSED = {12: {"*: D12 *": 2.8}}
 STRAINS = [0.1 * k for k in range(5, 10 * STRAIN + 1)]
 
 capsules = Capsules("capsuleViscosity", ("0.2", "5"), ["constant/flow.yaml:/Ca=0.3", "constant/membranes.yaml:/capsule/triangles={type: neoHookean, Gs: 1e-5 N/m}"],
