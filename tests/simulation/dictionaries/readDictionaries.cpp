@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "observers/observers.hpp"
+#include "packing/packSettings.hpp"
 #include "simulation/caseSettings.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/readyCell.hpp"
@@ -28,6 +29,7 @@ const std::map<std::string, std::function<void(const Node&, Problems&)>> readers
     {"system/control.yaml", readAs<simulation::ControlSettings>},
     {"system/numerics.yaml", readAs<simulation::NumericsSettings>},
     {"system/mesh.yaml", readAs<simulation::MeshSettings>},
+    {"system/pack.yaml", readAs<packing::PackSettings>},
     {"system/relax.yaml", readAs<simulation::RelaxSettings>},
     {"system/observers.yaml", readAs<observers::ObserversSettings>},
     {"constant/fluid.yaml", readAs<simulation::FluidSettings>},

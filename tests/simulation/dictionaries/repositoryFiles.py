@@ -15,8 +15,8 @@ import yaml
 import yaml12
 from reader import Reader, Schemas
 
-FOLDER = {"control": "system", "numerics": "system", "mesh": "system", "relax": "system", "observers": "system",
-          "fluid": "constant", "membranes": "constant", "bodies": "constant", "flow": "constant"}
+FOLDER = {"control": "system", "numerics": "system", "mesh": "system", "relax": "system", "observers": "system", "pack": "system",
+          "fluid": "constant", "membranes": "constant", "bodies": "constant", "contact": "constant", "flow": "constant"}
 
 
 def dictionaries(source):
