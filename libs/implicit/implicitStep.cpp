@@ -99,7 +99,7 @@ class Step final : public ImplicitStep {
         }
         const double bondRate =
             immersed_ ? largestOfRanks(largestBondRate(*immersed_, system_.membranes()->velocities())) : 0;
-        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, {dt, planned, isBackward()},
+        allowed_ = allowedSteps(options_.settings, scene_.flow.rate, {dt, planned, isBackward(), immersed_ != nullptr},
                                 hasAcceleration() ? unevenness() * difference() : 0, bondRate);
         allowed_.contact = allowedByContact(time);
         finish();

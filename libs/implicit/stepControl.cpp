@@ -11,10 +11,10 @@ using coupling::Immersed;
 
 namespace {
 
-// Change from step to step. The stiffest displacements halve in a step and change their sign
+// Change from step to step. The stiffest displacements of membranes halve in a step and change their sign
 // (TimeDifference::leadShare); in steps that were halved too their velocities would not decay, and steps would shrink
 // on and on.
-constexpr double most = 2, least = 0.7;
+constexpr double most = 2, least = 0.2, leastWithMembranes = 0.7;
 
 bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }
 
@@ -72,8 +72,8 @@ AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const L
     const double error = difference / ((last.backwardEuler ? 2 : 24) * rate);
     if (error > 0) {
         const double ratio = settings.error / error;
-        allowed.error =
-            std::clamp(last.dt * (last.backwardEuler ? ratio : std::sqrt(ratio)), least * last.dt, most * last.planned);
+        allowed.error = std::clamp(last.dt * (last.backwardEuler ? ratio : std::sqrt(ratio)),
+                                   (last.hasMembranes ? leastWithMembranes : least) * last.dt, most * last.planned);
     } else if (isStrict(settings)) {
         allowed.error = most * last.planned;
     }

@@ -48,6 +48,7 @@ struct LastStep {
     double dt;       // its length [s]
     double planned;  // that which it would have had but for an event (core/time.hpp): from it the next one grows [s]
     bool backwardEuler;
+    bool hasMembranes;
 };
 // difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a
 // bond [1/s].

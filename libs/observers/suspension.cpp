@@ -112,7 +112,7 @@ class SuspensionObservation : public Observation {
         Vec3::Map(out + place) = scene.system->periodicity().wrap(surface.centroid());
         Vec3::Map(out + velocity) = mean / static_cast<double>(cell.membrane.velocity.size());
         const Eigen::SelfAdjointEigenSolver<Mat3> principal(surface.inertia());
-        const Vec3 I = principal.eigenvalues();  // ascending: the first of them about the longest axis
+        const Vec3& I = principal.eigenvalues();  // ascending: the first of them about the longest axis
         Vec3 n = principal.eigenvectors().col(2);
         if (n[scene.flow.gradient] < 0) n = -n;
         Vec3::Map(out + axis) = n;
