@@ -74,7 +74,7 @@ struct ExcessStress::Records {
     }
 };
 
-// J: of symmetric tensors, tr(e) 1.
+// The tensor that takes e to tr(e) 1, on symmetric tensors as vectors.
 static const Eigen::Matrix<double, 6, 6>& traceOf() {
     static const Eigen::Matrix<double, 6, 6> J = [] {
         const Six one = vectorOf(Mat3::Identity());
