@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/commit.hpp"
+
 namespace corpuscle {
 
 namespace {
