@@ -59,6 +59,7 @@ TEST_P(PeriodicBox, wrapsIntoTheBoxWithTheVelocityOfTheImage) {
         for (const auto& [shift, slide] : images())
             isImage = isImage || ((from + shift - x).norm() < 1e-12 && (velocity + slide - u).norm() < 1e-12);
         EXPECT_TRUE(isImage);
+        EXPECT_LT((velocity + box.slideOf(from, x) - u).norm(), 1e-12);
         for (int k = 0; k < 3; ++k) {
             if (box.isAlong(k)) {
                 EXPECT_TRUE(x[k] >= low[k] && x[k] < high[k]);
