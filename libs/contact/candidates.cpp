@@ -67,8 +67,8 @@ class Finder {
         within_ = within;
         const Placed &first = placed_[pair.first], &second = placed_[pair.second];
         isSelf_ = pair.first == pair.second && pair.shift.isZero(0);
-        addRows(first, second, -pair.shift);
-        if (!isSelf_) addRows(second, first, pair.shift);
+        addRows(first, second, -pair.shift, -pair.slide);
+        if (!isSelf_) addRows(second, first, pair.shift, pair.slide);
         addEdgePairs(first, second, pair.shift);
         found_.pairs.push_back(pair), found_.within.push_back(within);
     }
@@ -76,7 +76,7 @@ class Finder {
 
   private:
     // Nodes of `own`, moved by the offset, against triangles of `target`.
-    void addRows(const Placed& own, const Placed& target, const Vec3& offset) {
+    void addRows(const Placed& own, const Placed& target, const Vec3& offset, const Vec3& slide) {
         const Bounds part = grown(own.bounds.translated(offset), within_).intersection(target.bounds);
         if (part.isEmpty()) return;
         const Bounds near = grown(target.bounds, within_);
@@ -94,11 +94,11 @@ class Finder {
                     pieces_.push_back(selection.numbers[k]);
                 }
             });
-            if (!pieces_.empty()) addRow(own, target, node, offset);
+            if (!pieces_.empty()) addRow(own, target, node, offset, slide);
         }
     }
 
-    void addRow(const Placed& own, const Placed& target, int node, const Vec3& offset) {
+    void addRow(const Placed& own, const Placed& target, int node, const Vec3& offset, const Vec3& slide) {
         const Vec3 x = own.at(node) + offset;
         std::sort(pieces_.begin(), pieces_.end());
         rowEdges_.clear(), rowNodes_.clear();
@@ -106,7 +106,7 @@ class Finder {
             rowEdges_.insert(rowEdges_.end(), target.pieces.sides()[t].begin(), target.pieces.sides()[t].end());
             rowNodes_.insert(rowNodes_.end(), target.pieces.triangles()[t].begin(), target.pieces.triangles()[t].end());
         }
-        NodeRow row{own.firstNode + node, own.number, target.number, offset, {}, {}, {}};
+        NodeRow row{own.firstNode + node, own.number, target.number, offset, slide, {}, {}, {}};
         row.triangles = append(found_.triangles, pieces_, [](int) { return true; });
         row.edges = append(found_.edges, rowEdges_, [&](int e) {
             const auto [a, b] = target.pieces.edges()[e];

@@ -24,6 +24,7 @@ struct NodeRow {
     int node;                                    // among all nodes
     int own, target;                             // surfaces: of the node, of the pieces
     Vec3 offset;                                 // takes the node to its image beside the other surface [m]
+    Vec3 slide;                                  // by which this image is faster than the node [m/s]
     std::array<int, 2> triangles, edges, nodes;  // begin and end in the lists of Candidates
 };
 

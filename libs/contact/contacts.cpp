@@ -19,15 +19,18 @@ double longest(std::span<const Vec3> all) {
 }  // namespace
 
 void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-                    std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel) {
+                    std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel,
+                    Sliding sliding) {
     surfaces_.assign(surfaces.begin(), surfaces.end());
     firstNode_ = firstNodes(surfaces);
     found_.assign(x.begin(), x.end());
-    expectedOfOthers_ = pairMargin(spare, travel) - law_->range();
+    slide_ = sliding.slide;
+    expectedOfOthers_ = pairMargin(spare, travel, sliding) - law_->range();
     expected_.assign(pairs.size(), spare);
     if (!travel.empty()) {
         const std::vector<Motion> motions = motionsOf(travel);
-        for (std::size_t p = 0; p < pairs.size(); ++p) expected_[p] = expectedOf(pairs[p], motions, spare);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            expected_[p] = expectedOf(pairs[p], motions, sliding.seconds, spare);
     }
     std::vector<double> within = expected_;
     for (double& one : within) one += law_->range();
@@ -35,16 +38,17 @@ void Contacts::find(std::span<const Surface* const> surfaces, std::span<const Ve
     evaluate(x);
 }
 
-double Contacts::expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double spare) const {
-    const double any = approach(pair, motions);
+double Contacts::expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double seconds,
+                            double spare) const {
+    const double any = approach(pair, motions, seconds);
     const Motion& own = motions[pair.first];
     if (!isOfOne(pair) || own.gradient > mostGradient) return spare + any;
     const double within = (law_->range() + spare + 2 * own.rest) / (1 - own.gradient);
     return std::min(spare + any, within - law_->range());
 }
 
-double Contacts::pairMargin(double spare, std::span<const Vec3> travel) const {
-    return law_->range() + spare + 2 * longest(travel);
+double Contacts::pairMargin(double spare, std::span<const Vec3> travel, Sliding sliding) const {
+    return law_->range() + spare + 2 * longest(travel) + sliding.seconds * sliding.slide;
 }
 
 std::vector<Contacts::Motion> Contacts::motionsOf(std::span<const Vec3> u) const {
@@ -92,7 +96,7 @@ bool Contacts::covers(std::span<const Vec3> x) const {
     if (2 * longest(d) > expectedOfOthers_) return false;
     const std::vector<Motion> motions = motionsOf(d);
     for (std::size_t p = 0; p < expected_.size(); ++p)
-        if (approach(candidates_->pairs[p], motions, candidates_->within[p]) > expected_[p]) return false;
+        if (approach(candidates_->pairs[p], motions, 0, candidates_->within[p]) > expected_[p]) return false;
     return true;
 }
 
@@ -242,7 +246,7 @@ void Contacts::addStiffness(double factor, std::span<const Vec3> u, std::span<Ve
     }
 }
 
-double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share) const {
+double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share, double seconds) const {
     if (!covers(x)) return 0;
     const std::vector<Vec3> d = since(x);
     double free = 1;
@@ -250,11 +254,11 @@ double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, do
         const double room = (1 - share) * law_->reach() + expected - before;
         if (more * free > room) free = room / more;
     };
-    limit(expectedOfOthers_, 2 * longest(d), 2 * longest(u));
+    limit(expectedOfOthers_, 2 * longest(d), 2 * longest(u) + seconds * slide_);
     const std::vector<Motion> before = motionsOf(d), more = motionsOf(u);
     for (std::size_t p = 0; p < expected_.size(); ++p)
-        limit(expected_[p], approach(candidates_->pairs[p], before, candidates_->within[p]),
-              approach(candidates_->pairs[p], more, candidates_->within[p]));
+        limit(expected_[p], approach(candidates_->pairs[p], before, 0, candidates_->within[p]),
+              approach(candidates_->pairs[p], more, seconds, candidates_->within[p]));
     const Keep keep{law_->thickness, share};
     const auto pick = [](std::span<const Vec3> all, const std::array<int, 4>& nodes) {
         return FourNodes{all[nodes[0]], all[nodes[1]], all[nodes[2]], all[nodes[3]]};
@@ -262,16 +266,16 @@ double Contacts::freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, do
     for (const NodeRow& row : candidates_->rows)
         for (int n = row.triangles[0]; n < row.triangles[1]; ++n) {
             const std::array<int, 4> nodes = nodesOf(row, candidates_->triangles[n]);
-            FourNodes at = pick(x, nodes);
-            at[0] += row.offset;
-            free = nodeTriangleTravel(at, pick(u, nodes), keep, free);
+            FourNodes at = pick(x, nodes), way = pick(u, nodes);
+            at[0] += row.offset, way[0] += seconds * row.slide;
+            free = nodeTriangleTravel(at, way, keep, free);
         }
     for (const EdgePair& pair : candidates_->edgePairs) {
         const std::array<int, 4> nodes = nodesOf(pair);
-        const Vec3& shift = candidates_->pairs[pair.pair].shift;
-        FourNodes at = pick(x, nodes);
-        at[0] -= shift, at[1] -= shift;
-        free = edgeEdgeTravel(at, pick(u, nodes), keep, free);
+        const geometry::ImagePair& image = candidates_->pairs[pair.pair];
+        FourNodes at = pick(x, nodes), way = pick(u, nodes);
+        for (std::size_t k = 0; k < 2; ++k) at[k] -= image.shift, way[k] -= seconds * image.slide;
+        free = edgeEdgeTravel(at, way, keep, free);
     }
     return free;
 }

@@ -56,6 +56,11 @@ struct Spring {
     double stiffness;  // c > 0, N/m
 };
 
+// Where images of the box slide (core/periodicity.hpp).
+struct Sliding {
+    double seconds = 0, slide = 0;  // what displacements take; of the fastest image beside a surface [m/s]
+};
+
 class Contacts {
   public:
     explicit Contacts(std::shared_ptr<const ContactLaw> law) : law_(std::move(law)) {}
@@ -65,10 +70,11 @@ class Contacts {
     // (no travel: 0). The surfaces must outlive the lists. pairs: of geometry::neighbours with a margin of at least
     // pairMargin; (s, s, 0) is a surface and itself.
     void find(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
-              std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel = {});
-    double pairMargin(double spare, std::span<const Vec3> travel) const;
-    // Whether the lists hold every contact of these places: no two surfaces have approached each other by more than
-    // `find` expected.
+              std::span<const geometry::ImagePair> pairs, double spare, std::span<const Vec3> travel = {},
+              Sliding sliding = {});
+    double pairMargin(double spare, std::span<const Vec3> travel, Sliding sliding = {}) const;
+    // Whether the lists hold every contact of these places, images being where they were at `find`: no two surfaces
+    // have approached each other by more than `find` expected.
     bool covers(std::span<const Vec3> x) const;
     int firstNode(std::size_t surface) const { return firstNode_[surface]; }
     const Candidates& candidates() const { return *candidates_; }
@@ -88,8 +94,8 @@ class Contacts {
     // Largest fraction in [0, 1] of the displacements u [m] from x after which every gap is at least `share` of what it
     // is at x, or of the reach, on the whole way: nothing crosses. It is also limited by what the lists cover: two
     // surfaces approach each other by no more than (1 - share) reach and what `find` expected, less what they have
-    // since. 0 where the lists do not cover x.
-    double freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share = 0.1) const;
+    // since. 0 where the lists do not cover x. seconds: what the displacements take; images that slide go on meanwhile.
+    double freeTravel(std::span<const Vec3> x, std::span<const Vec3> u, double share = 0.1, double seconds = 0) const;
 
   private:
     // One place where a node or an edge is within reach.
@@ -127,23 +133,25 @@ class Contacts {
     std::vector<Motion> motionsOf(std::span<const Vec3> u) const;
     Motion motionOf(std::span<const Vec3> x, std::span<const Vec3> u) const;
     static constexpr double mostGradient = 0.4;  // largest norm with which a mean deformation is treated apart
-    // The most by which nodes of the two surfaces approach each other.
-    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions) {
+    // The most by which nodes of the two surfaces approach each other, in as many seconds.
+    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double seconds) {
         const Motion &a = motions[pair.first], &b = motions[pair.second];
-        return a.spread + b.spread + (a.mean - b.mean).norm();
+        return a.spread + b.spread + (a.mean - b.mean - seconds * pair.slide).norm();
     }
     // The same of pieces that are `within` of each other; those further apart do not get nearer than these. A mean
     // deformation moves pieces of one surface that are near each other little against each other.
-    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double within) {
+    static double approach(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double seconds,
+                           double within) {
         const Motion& own = motions[pair.first];
-        const double any = approach(pair, motions);
+        const double any = approach(pair, motions, seconds);
         return isOfOne(pair) && own.gradient <= mostGradient ? std::min(any, 2 * own.rest + own.gradient * within)
                                                              : any;
     }
     static bool isOfOne(const geometry::ImagePair& pair) { return pair.first == pair.second && pair.shift.isZero(0); }
     // By how much pieces of a pair may approach each other, so that all that come within range are within range and
     // this of each other now.
-    double expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double spare) const;
+    double expectedOf(const geometry::ImagePair& pair, const std::vector<Motion>& motions, double seconds,
+                      double spare) const;
     std::vector<Vec3> since(std::span<const Vec3> x) const;  // `find`: displacements
 
     std::shared_ptr<const ContactLaw> law_;
@@ -152,6 +160,7 @@ class Contacts {
     std::vector<Vec3> found_;       // places at `find`
     std::vector<double> expected_;  // approach, of each pair in candidates_ [m]
     double expectedOfOthers_ = 0;   // of surfaces that are no pair
+    double slide_ = 0;              // of the fastest image [m/s]
     std::shared_ptr<const Candidates> candidates_ = std::make_shared<Candidates>();  // of copies, too
 
     double energy_ = 0, leastGap_ = 0;

@@ -43,7 +43,7 @@ CellContacts::Surfaces CellContacts::surfacesOf(const Cells& cells,
 }
 
 void CellContacts::list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
-                        const ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const {
+                        const ParticleSystem& system, const Way& way, const Surfaces& surfaces) const {
     const int rank = system.decomposition().rank();
     std::vector<const contact::Surface*> pieces;
     std::vector<geometry::Bounds> bounds;
@@ -54,24 +54,26 @@ void CellContacts::list(contact::Contacts& contacts, const Cells& cells, const N
         bounds.push_back(box);
     }
     const double spare = spareOfReach * settings_.law->reach();
+    const Periodicity period = system.imagesAgo(way.ago);
+    const contact::Sliding sliding{way.seconds, period.slideOf(Vec3::Zero(), period.lengths()).norm()};
     std::vector<geometry::ImagePair> pairs;
     for (const geometry::ImagePair& pair :
-         geometry::neighbours(bounds, system.periodicity(), contacts.pairMargin(spare, travel)))
+         geometry::neighbours(bounds, period, contacts.pairMargin(spare, way.displacement, sliding)))
         if (lowestCommonHolder(cells[pair.first].holders, cells[pair.second].holders) == rank) pairs.push_back(pair);
     if (settings_.self)
         for (std::size_t c = 0; c < cells.heldCount(); ++c)
             if (cells[c].isOwnedBy(rank)) pairs.push_back({c, c, Vec3::Zero()});
-    contacts.find(pieces, x, pairs, spare, travel);
+    contacts.find(pieces, x, pairs, spare, way.displacement, sliding);
 }
 
-void CellContacts::place(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
-                         const NodeVectors& travel) {
+void CellContacts::place(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system, const Way& way) {
     layout_ = layout;
     x_ = positionsOf(cells);
     surfaces_ = surfacesOf(cells, known_);
     listed_.clear();
     for (const Cell& cell : cells) listed_.push_back(cell.membrane.cell);
-    list(contacts_, cells, x_, system, travel, surfaces_);
+    listedOffset_ = system.periodicity().offset();
+    list(contacts_, cells, x_, system, way, surfaces_);
     std::vector<char> mine(x_.size(), 0);
     contacts_.markListed(mine);
     sums_.plan(
@@ -79,8 +81,9 @@ void CellContacts::place(const Cells& cells, const NodeLayout& layout, const Par
     atWalls_ = atWallsOf(layout_, x_, surfaces_);
 }
 
-bool CellContacts::isListed(const Cells& cells) const {
-    return std::equal(cells.begin(), cells.end(), listed_.begin(), listed_.end(),
+bool CellContacts::isListed(const Cells& cells, const Periodicity& period) const {
+    return period.offset() == listedOffset_ &&
+           std::equal(cells.begin(), cells.end(), listed_.begin(), listed_.end(),
                       [](const Cell& cell, int number) { return cell.membrane.cell == number; });
 }
 
@@ -145,14 +148,17 @@ double CellContacts::freeOfWalls(const NodeLayout& layout, const NodeVectors& x,
 }
 
 double CellContacts::freeTravel(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
-                                const NodeVectors& x, const NodeVectors& displacement) const {
-    double free = isListed(cells) && contacts_.covers(x) ? contacts_.freeTravel(x, displacement, keptShare) : 0;
+                                const NodeVectors& x, const Way& way) const {
+    const NodeVectors& displacement = way.displacement;
+    double free = isListed(cells, system.imagesAgo(way.ago)) && contacts_.covers(x)
+                      ? contacts_.freeTravel(x, displacement, keptShare, way.seconds)
+                      : 0;
     if (free < 1) {  // perhaps by the lists, which were made for other ways
         std::map<const membrane::Network*, Known> known = known_;
         const Surfaces surfaces = surfacesOf(cells, known);
         contact::Contacts there(settings_.law.model);
-        list(there, cells, x, system, displacement, surfaces);
-        free = there.freeTravel(x, displacement, keptShare);
+        list(there, cells, x, system, way, surfaces);
+        free = there.freeTravel(x, displacement, keptShare, way.seconds);
     }
     free = std::min(free, freeOfWalls(layout, x, displacement));
     return Communicator(system.comm()).min(free);
@@ -164,10 +170,10 @@ CellContacts::Now CellContacts::now(const Cells& cells, const ParticleSystem& sy
     std::map<const membrane::Network*, Known> known = known_;
     const Surfaces surfaces = surfacesOf(cells, known);
     Now now{contacts_, atWallsOf(layout, x, surfaces)};
-    if (isListed(cells) && contacts_.covers(x))
+    if (isListed(cells, system.periodicity()) && contacts_.covers(x))
         now.among.evaluate(x);
     else
-        list(now.among, cells, x, system, NodeVectors(x.size(), Vec3::Zero()), surfaces);
+        list(now.among, cells, x, system, {NodeVectors(x.size(), Vec3::Zero())}, surfaces);
     std::erase_if(now.atWalls,
                   [&](const AtWall& at) { return !cells[at.cell].isOwnedBy(system.decomposition().rank()); });
     return now;

@@ -23,12 +23,18 @@ namespace corpuscle::coupling {
 
 class CellContacts {
   public:
+    // How nodes move. The rest is needed where images of the box slide (core/periodicity.hpp).
+    struct Way {
+        NodeVectors displacement;  // [m]
+        double seconds = 0;        // that it takes
+        double ago = 0;            // how long ago it began [s]; negative or 0: not yet
+    };
+
     // walls: of the fluid; they must stay where they are.
     CellContacts(const contact::ContactSettings& settings, const boundary::Walls& walls);
 
-    // Where nodes are now. travel: by how much they may move before this is called again [m]. Collective.
-    void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
-               const NodeVectors& travel);
+    // Where nodes are now. way: how they may move before this is called again. Collective.
+    void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system, const Way& way);
 
     // Of the places at `place`, of all cells that the rank holds. Collective among holders.
     void addForces(NodeVectors& f) const;                                          // N
@@ -41,9 +47,9 @@ class CellContacts {
     };
     std::vector<OnWall> forcesOnWalls(const Cells& cells, int rank, const NodeVectors& displacement) const;
 
-    // The largest fraction of a displacement [m] from x that is free for all nodes of the scene. Collective.
+    // The largest fraction of a way from x that is free for all nodes of the scene. Collective.
     double freeTravel(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
-                      const NodeVectors& x, const NodeVectors& displacement) const;
+                      const NodeVectors& x, const Way& way) const;
     // Where nodes are now, this rank's part [J].
     double energy(const Cells& cells, const particles::ParticleSystem& system) const;
     // -sum x f^T over membranes and walls that touch, where nodes are now [J]. Collective.
@@ -69,8 +75,9 @@ class CellContacts {
     Now now(const Cells& cells, const particles::ParticleSystem& system) const;
     // Lists for cells as they are held.
     void list(contact::Contacts& contacts, const Cells& cells, const NodeVectors& x,
-              const particles::ParticleSystem& system, const NodeVectors& travel, const Surfaces& surfaces) const;
-    bool isListed(const Cells& cells) const;
+              const particles::ParticleSystem& system, const Way& way, const Surfaces& surfaces) const;
+    // Whether the lists of `place` are of the cells that are held, with images where they are.
+    bool isListed(const Cells& cells, const Periodicity& period) const;
     std::vector<AtWall> atWallsOf(const NodeLayout& layout, const NodeVectors& x, const Surfaces& surfaces) const;
     double freeOfWalls(const NodeLayout& layout, const NodeVectors& x, const NodeVectors& displacement) const;
     template <class Add>
@@ -82,6 +89,7 @@ class CellContacts {
     NodeLayout layout_;
     NodeVectors x_;                                    // at `place`
     std::vector<int> listed_;                          // numbers of the cells that lists are of
+    Vec3 listedOffset_ = Vec3::Zero();                 // of images that slide, when lists were made
     std::map<const membrane::Network*, Known> known_;  // whole cells of a type share one
     Surfaces surfaces_;                                // of each held cell
     std::vector<AtWall> atWalls_;

@@ -15,10 +15,11 @@ using particles::ParticleSystem;
 
 namespace {
 
-// Whether some periodic image of [low, high] meets the brick.
-bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles::Brick& brick) {
+// Whether some periodic image of [low, high] meets the brick; where images slide, of those along the other axes.
+bool touchesPlainly(const Box& box, const Vec3& low, const Vec3& high, const particles::Brick& brick, int sliding) {
     const Vec3 size = box.size();
     for (int k = 0; k < 3; ++k) {
+        if (k == sliding) continue;
         if (!box.periodic[static_cast<std::size_t>(k)]) {
             // Beyond the walls the outermost bricks reach on.
             const bool below = high[k] < brick.low[k] && brick.low[k] > box.low[k];
@@ -35,6 +36,20 @@ bool touches(const Box& box, const Vec3& low, const Vec3& high, const particles:
         if (!meets) return false;
     }
     return true;
+}
+
+bool touches(const ParticleSystem& system, const Vec3& low, const Vec3& high, const particles::Brick& brick) {
+    const Periodicity& period = system.periodicity();
+    const int k = period.slidingAxis();
+    if (k < 0) return touchesPlainly(system.box(), low, high, brick, k);
+    const double length = period.lengths()[k];
+    const int first = static_cast<int>(std::ceil((brick.low[k] - high[k]) / length)),
+              last = static_cast<int>(std::floor((brick.high[k] - low[k]) / length));
+    for (int n = first; n <= last; ++n) {
+        const Vec3 by = n * period.offset();
+        if (touchesPlainly(system.box(), low + by, high + by, brick, k)) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -133,8 +148,7 @@ void Cells::placeAtStart(const ParticleSystem& system) {
         for (std::size_t k = 0; k < type.places.size(); ++k) {
             const geometry::Place& place = type.places[k];
             const Vec3 around = Vec3::Constant(place.scale * extent + margin_);
-            if (!touches(system.box(), place.centre - around, place.centre + around, system.decomposition().own()))
-                continue;
+            if (!touches(system, place.centre - around, place.centre + around, system.decomposition().own())) continue;
             const int number = type.firstCell + static_cast<int>(k);
             const Bounds reach = boundsOf(place.of(type.nodes));
             std::vector<int> holders = holdersOf(reach, system);
@@ -155,7 +169,7 @@ std::vector<int> Cells::holdersOf(const Bounds& reach, const ParticleSystem& sys
     const Vec3 margin = Vec3::Constant(margin_);
     std::vector<int> holders;
     for (int r = 0; r < system.decomposition().size(); ++r)
-        if (touches(system.box(), reach.min() - margin, reach.max() + margin, system.decomposition().brick(r)))
+        if (touches(system, reach.min() - margin, reach.max() + margin, system.decomposition().brick(r)))
             holders.push_back(r);
     return holders;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace corpuscle::coupling {
 
@@ -44,7 +45,7 @@ void Immersed::move(double seconds) {
 }
 
 void Immersed::depart(double seconds, bool onArc) {
-    if (contacts_) departure_ = positionsOf(cells_), outlook_ = waysAhead * seconds;
+    if (contacts_) departure_ = positionsOf(cells_), departed_ = seconds, outlook_ = waysAhead * seconds;
     move(seconds);
     if (!onArc) return;
     for (Cell& cell : cells_) {
@@ -66,7 +67,8 @@ double Immersed::freeDeparture() const {
     if (!contacts_) return 1;
     Vectors way = positionsOf(cells_);
     for (std::size_t m = 0; m < way.size(); ++m) way[m] -= departure_[m];
-    return contacts_->freeTravel(cells_, NodeLayout(cells_), system_, departure_, way);
+    return contacts_->freeTravel(cells_, NodeLayout(cells_), system_, departure_,
+                                 {std::move(way), departed_, departed_});
 }
 
 double Immersed::freeArrival(double seconds, double dt, const Vectors& velocities, double more) const {
@@ -79,7 +81,20 @@ double Immersed::freeArrival(double seconds, double dt, const Vectors& velocitie
             way[m] =
                 cell.arc.toChord(from[m]) - seconds * cell.membrane.velocity[n] + (dt + more) * velocities[m] - from[m];
     }
-    return contacts_->freeTravel(cells_, layout_, system_, from, way);
+    return contacts_->freeTravel(cells_, layout_, system_, from, {std::move(way), dt + more - seconds});
+}
+
+void Immersed::wrapCells() {
+    const Periodicity& period = system_.periodicity();
+    for (Cell& cell : cells_) {
+        membrane::Membrane& m = cell.membrane;
+        const Vec3 centre = geometry::boundsOf(m.position).center();
+        Vec3 inside = centre, slide = Vec3::Zero();
+        period.wrap(inside, slide);
+        if (inside[period.slidingAxis()] == centre[period.slidingAxis()]) continue;
+        for (Vec3& x : m.position) x += inside - centre;
+        for (Vec3& v : m.velocity) v += slide;
+    }
 }
 
 Immersed::Vectors Immersed::velocities() const {
@@ -112,7 +127,7 @@ void Immersed::place(const ParticleSystem& system, const std::vector<double>& vo
 void Immersed::addContact() {
     Vectors ahead = velocities();
     for (Vec3& one : ahead) one *= outlook_;
-    contacts_->place(cells_, layout_, system_, ahead);
+    contacts_->place(cells_, layout_, system_, {std::move(ahead), outlook_});
     Vectors f(layout_.nodes(), Vec3::Zero());
     contacts_->addForces(f);
     for (std::size_t c = 0; c < layout_.cells(); ++c)

@@ -47,8 +47,10 @@ class Immersed {
     // Which part of the way of the last `depart` was free of contact; of all ranks. Collective.
     double freeDeparture() const;
     // The same of the way to the end of a step of dt with these velocities, and for `more` seconds on, from where
-    // forces are taken. Collective.
+    // forces are taken, `seconds` after its beginning. Collective.
     double freeArrival(double seconds, double dt, const Vectors& velocities, double more) const;
+    // In a box whose images slide, cells whose centre has left it across the sliding faces: their image inside.
+    void wrapCells();
     Vectors velocities() const;
     void setVelocities(const Vectors& velocities);
     void restoreVolume() { VolumeProjection::restore(cells_); }
@@ -66,10 +68,18 @@ class Immersed {
         map_.placeOthers(cells_, layout_, system, shared, volume);
     }
 
-    // P S u, u of four numbers a particle. Collective.
+    // P S u, u of four numbers a particle: changes of velocities. Collective.
     template <class Real>
     Vectors interpolate(const Real* u) {
         Vectors v = map_.interpolate(u);
+        volume_.apply(v);
+        return v;
+    }
+    // The same of velocities, which images of particles have with their slide.
+    template <class Real>
+    Vectors interpolateVelocities(const Real* u) {
+        Vectors v = map_.interpolate(u);
+        map_.addSlides(v);
         volume_.apply(v);
         return v;
     }
@@ -119,8 +129,9 @@ class Immersed {
     Cells& cells_;
     const particles::ParticleSystem& system_;
     CellContacts* contacts_;
-    Vectors departure_;   // places before the last `depart`; with contact only
-    double outlook_ = 0;  // how far ahead the lists of contact look [s]
+    Vectors departure_;    // places before the last `depart`; with contact only
+    double departed_ = 0;  // how long that took [s]
+    double outlook_ = 0;   // how far ahead the lists of contact look [s]
     NodeFluidMap map_;
     NodeLayout layout_;
     VolumeProjection volume_;

@@ -28,7 +28,7 @@ Vec3 NoFlux::normal(const Cell& cell, const geometry::SurfacePoint& at, const Ve
 Vec3 NoFlux::velocity(const Near& near) const {
     const membrane::Membrane& m = cells_[near.cell].membrane;
     const Index3& node = m.network().triangles()[static_cast<std::size_t>(near.at.triangle)];
-    Vec3 v = Vec3::Zero();
+    Vec3 v = -near.slide;
     for (std::size_t k = 0; k < 3; ++k)
         v += near.at.weights[static_cast<int>(k)] * m.velocity[static_cast<std::size_t>(node[k])];
     return v;
@@ -49,7 +49,8 @@ void NoFlux::find(const ParticleSystem& system, std::size_t c, const std::vector
         const auto [at, x] = images.nearest(s.position(static_cast<std::size_t>(i)));
         if (!at) continue;
         const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
-        near_.push_back({i, c, at, sideOf(s, i, cell), chi * chi, normal(cell, at, x)});
+        const Vec3 slide = system.periodicity().slideOf(s.position(static_cast<std::size_t>(i)), x);
+        near_.push_back({i, c, at, sideOf(s, i, cell), chi * chi, normal(cell, at, x), slide});
     }
 }
 

@@ -35,7 +35,7 @@ class NoFlux {
     void find(const particles::ParticleSystem& system, const Immersed& immersed) {
         findAmong(system, [&](std::size_t cell) -> const std::vector<int>& { return immersed.touchedBy(cell); });
     }
-    // Those that were found, with the velocity that nodes have now.
+    // Those that were found, with the velocity that nodes have now, as the particle sees it.
     template <class F>
     void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
         for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
@@ -59,6 +59,7 @@ class NoFlux {
         geometry::SurfacePoint at;
         double side, chi;
         Vec3 normal;
+        Vec3 slide;  // by which the particle's image beside the membrane is faster than the particle
     };
     void forgetOthers();  // than the cells that are held, and what was found
     void find(const particles::ParticleSystem& system, std::size_t cell, const std::vector<int>& candidates);

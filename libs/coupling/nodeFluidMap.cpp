@@ -23,6 +23,10 @@ constexpr int fewest = 10;  // particles for more than Shepard's weights
 constexpr std::size_t moments =
     NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;  // upper triangle of sum V W b b^T, and how many
 
+using Quad = Eigen::Array4d;  // a particle's four numbers, or three and 0
+Quad quadOf(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
+Vec3 vectorOf(const Quad& quad) { return quad.head<3>(); }
+
 // All images of x within `reach` of the rank's brick.
 template <class F>
 void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f) {
@@ -58,6 +62,22 @@ void NodeFluidMap::place(const Cells& cells, const NodeLayout& layout, const Par
         own_.first.push_back(own_.entries.size());
     }
     own_.findTouched(layout, volume.size());
+    if (system.periodicity().slides()) findSlides(system.periodicity(), system.store(), cells);
+}
+
+// By which the image of each particle beside a node is faster than the particle.
+void NodeFluidMap::findSlides(const Periodicity& period, const particles::ParticleStore& s, const Cells& cells) {
+    std::vector<Vec3> slide(own_.entries.size());
+    std::size_t m = 0;
+    for (const Cell& cell : cells)
+        for (const Vec3& x : cell.membrane.position) {
+            for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
+                const Vec3 at = s.position(static_cast<std::size_t>(near_[k].particle));
+                slide[k] = period.slideOf(at, x + radius_ * near_[k].q);
+            }
+            ++m;
+        }
+    slides_ = interpolateBy([&](std::size_t k) { return quadOf(slide[k]); });
 }
 
 void NodeFluidMap::findNormals(const Cells& cells) {
@@ -207,18 +227,11 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
     others_.findTouched(layout, shared.entries());
 }
 
-namespace {
-
-using Quad = Eigen::Array4d;  // a particle's four numbers, or three and 0
-Quad quadOf(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
-Vec3 vectorOf(const Quad& quad) { return quad.head<3>(); }
-
-}  // namespace
-
 // Sums over all components alike; normals come in behind them: with T = sum_j u_j g_j^T of the slopes g,
 //     sum_j (n.g) [u - (n.u) n] + (n.u) [g - (n.g) n] = T n + T^T n - 2 (n.T n) n
-template <class Real>
-NodeVectors NodeFluidMap::interpolate(const Real* u) {
+// velocityOf(entry)
+template <class VelocityOf>
+NodeVectors NodeFluidMap::interpolateBy(VelocityOf&& velocityOf) {
     NodeVectors v(normal_.size()), shifts(smoothing_.isIdentity() ? 0 : v.size());
     for (std::size_t m = 0; m < v.size(); ++m) {
         const Vec3& n = normal_[m];
@@ -226,8 +239,7 @@ NodeVectors NodeFluidMap::interpolate(const Real* u) {
         std::array<Quad, 3> slope{Quad::Zero(), Quad::Zero(), Quad::Zero()};
         for (std::size_t k = own_.first[m]; k < own_.first[m + 1]; ++k) {
             const Entry& e = own_.entries[k];
-            const Quad here = Eigen::Map<const Eigen::Array<Real, 4, 1>>(u + 4 * static_cast<std::size_t>(e.particle))
-                                  .template cast<double>();
+            const Quad here = velocityOf(k);
             along += e.along * here, extra += e.extra * here, shift += e.shift * here;
             if (!own_.slopes.empty())
                 for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)] += own_.slopes[k][a] * here;
@@ -244,6 +256,14 @@ NodeVectors NodeFluidMap::interpolate(const Real* u) {
     for (std::size_t m = 0; m < shifts.size(); ++m) v[m] += shifts[m];
     sums_.addUp({reinterpret_cast<double*>(v.data()), 3 * v.size()}, 3);
     return v;
+}
+
+template <class Real>
+NodeVectors NodeFluidMap::interpolate(const Real* u) {
+    return interpolateBy([&](std::size_t k) -> Quad {
+        const auto i = static_cast<std::size_t>(own_.entries[k].particle);
+        return Eigen::Map<const Eigen::Array<Real, 4, 1>>(u + 4 * i).template cast<double>();
+    });
 }
 template NodeVectors NodeFluidMap::interpolate(const double*);
 template NodeVectors NodeFluidMap::interpolate(const float*);

@@ -50,6 +50,11 @@ class NodeFluidMap {
     // S u, u of four numbers a particle. Collective among holders.
     template <class Real>
     NodeVectors interpolate(const Real* u);
+    // += S of what images of the particles are faster than these, where the images of the box slide: nodes see those
+    // beside them.
+    void addSlides(NodeVectors& v) const {
+        for (std::size_t m = 0; m < slides_.size(); ++m) v[m] += slides_[m];
+    }
     // force_j += (S^T f)_j, of four numbers a particle: of own particles, and of ghosts in their entries.
     void spread(const NodeVectors& f, particles::RealArray& force) const { spreadBy(own_, f, force); }
     void spreadToOthers(const NodeVectors& f, particles::RealArray& force) const { spreadBy(others_, f, force); }
@@ -92,6 +97,9 @@ class NodeFluidMap {
     Coefficients solve(const Cell& cell, std::size_t m, const double* moments) const;
     void add(const Near& near, std::size_t m, Weights& weights) const;
     bool hasSlopes() const;
+    template <class VelocityOf>
+    NodeVectors interpolateBy(VelocityOf&& velocityOf);
+    void findSlides(const Periodicity& period, const particles::ParticleStore& s, const Cells& cells);
     void spreadBy(const Weights& weights, const NodeVectors& f, particles::RealArray& force) const;
 
     double radius_, support_;
@@ -103,6 +111,7 @@ class NodeFluidMap {
     Weights own_, others_;
     std::vector<Coefficients> coefficients_;  // of each node
     NodeVectors normal_;                      // of each node; 0 where it has no area
+    NodeVectors slides_;                      // of each node; none where the images of the box do not slide
     long fallbacks_ = 0, mostFallbacks_ = 0;
 };
 

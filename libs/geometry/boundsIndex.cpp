@@ -11,7 +11,7 @@ constexpr int mostAlong = 128;  // cuboids along an axis
 
 BoundsIndex::BoundsIndex(const std::vector<Bounds>& bounds, const Vec3& low, const Vec3& high,
                          const Periodicity& period, double margin)
-    : low_(low), size_(high - low) {
+    : low_(low), size_(high - low), period_(period) {
     Vec3 mean = Vec3::Zero();
     double count = 0;
     for (const Bounds& b : bounds)
@@ -20,7 +20,7 @@ BoundsIndex::BoundsIndex(const std::vector<Bounds>& bounds, const Vec3& low, con
     mean /= count;
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
-        periodic_[axis] = period.isAlong(k);
+        periodic_[axis] = period.isAlong(k) && k != period.slidingAxis();
         count_[axis] = static_cast<int>(
             std::clamp(std::floor(size_[k] / std::max(mean[k], 1e-300)), 1.0, static_cast<double>(mostAlong)));
         size_[k] /= count_[axis];
@@ -30,23 +30,40 @@ BoundsIndex::BoundsIndex(const std::vector<Bounds>& bounds, const Vec3& low, con
         {});
     for (std::size_t s = 0; s < bounds.size(); ++s) {
         if (bounds[s].isEmpty()) continue;
-        Index3 from = cuboid(bounds[s].min() - Vec3::Constant(margin)),
-               to = cuboid(bounds[s].max() + Vec3::Constant(margin));
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!periodic_[k])
-                from[k] = std::clamp(from[k], 0, count_[k] - 1), to[k] = std::clamp(to[k], 0, count_[k] - 1);
-            else
-                to[k] = std::min(to[k], from[k] + count_[k] - 1);  // each once
+        const Bounds grown(bounds[s].min() - Vec3::Constant(margin), bounds[s].max() + Vec3::Constant(margin));
+        if (!period.slides()) {
+            add(static_cast<int>(s), grown);
+            continue;
         }
-        for (int a = from[0]; a <= to[0]; ++a)
-            for (int b = from[1]; b <= to[1]; ++b)
-                for (int c = from[2]; c <= to[2]; ++c) surfaces_[index({a, b, c})].push_back(static_cast<int>(s));
+        const int k = period.slidingAxis();
+        const double length = period.lengths()[k];
+        const int first = static_cast<int>(std::ceil((low[k] - grown.max()[k]) / length)),
+                  last = static_cast<int>(std::floor((high[k] - grown.min()[k]) / length));
+        for (int n = first; n <= last; ++n)
+            add(static_cast<int>(s), grown.translated(Vec3(n * (length * Vec3::Unit(k) + period.offset()))));
     }
+}
+
+void BoundsIndex::add(int surface, const Bounds& bounds) {
+    Index3 from = cuboid(bounds.min()), to = cuboid(bounds.max());
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!periodic_[k])
+            from[k] = std::clamp(from[k], 0, count_[k] - 1), to[k] = std::clamp(to[k], 0, count_[k] - 1);
+        else
+            to[k] = std::min(to[k], from[k] + count_[k] - 1);  // each once
+    }
+    for (int a = from[0]; a <= to[0]; ++a)
+        for (int b = from[1]; b <= to[1]; ++b)
+            for (int c = from[2]; c <= to[2]; ++c) {
+                std::vector<int>& here = surfaces_[index({a, b, c})];
+                if (here.empty() || here.back() != surface) here.push_back(surface);
+            }
 }
 
 const std::vector<int>& BoundsIndex::near(const Vec3& x) const {
     static const std::vector<int> none;
-    return x.allFinite() ? surfaces_[index(cuboid(x))] : none;
+    if (!x.allFinite()) return none;
+    return surfaces_[index(cuboid(period_.slides() ? period_.wrap(x) : x))];
 }
 
 Index3 BoundsIndex::cuboid(const Vec3& x) const {

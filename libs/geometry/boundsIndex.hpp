@@ -22,12 +22,14 @@ class BoundsIndex {
     const std::vector<int>& near(const Vec3& x) const;
 
   private:
+    void add(int surface, const Bounds& bounds);
     Index3 cuboid(const Vec3& x) const;  // not wrapped: beyond the grid where x is beyond the box
     std::size_t index(const Index3& cuboid) const;
 
     Vec3 low_ = Vec3::Zero(), size_ = Vec3::Ones();  // of the box; of a cuboid
     Index3 count_{1, 1, 1};
-    std::array<bool, 3> periodic_{};
+    Periodicity period_;
+    std::array<bool, 3> periodic_{};  // of the grid: not across faces whose images slide
     std::vector<std::vector<int>> surfaces_ = std::vector<std::vector<int>>(1);  // of each cuboid
 };
 

@@ -5,6 +5,7 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace corpuscle::geometry {
@@ -61,9 +62,14 @@ std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Perio
     for (std::size_t s = 0; s < bounds.size(); ++s) {
         if (bounds[s].isEmpty()) continue;
         Vec3 shift = Vec3::Zero();
+        const auto move = [&](int k) {
+            const double periods = -std::floor((bounds[s].min()[k] + shift[k]) / period.lengths()[k]);
+            shift[k] += period.lengths()[k] * periods;
+            if (k == period.slidingAxis()) shift += periods * period.offset();
+        };
+        if (period.slides()) move(period.slidingAxis());
         for (int k = 0; k < 3; ++k)
-            if (period.isAlong(k))
-                shift[k] = -period.lengths()[k] * std::floor(bounds[s].min()[k] / period.lengths()[k]);
+            if (period.isAlong(k) && k != period.slidingAxis()) move(k);
         own.push_back({s, shift});
         all.extend(at(own.back()));
     }
@@ -91,10 +97,12 @@ std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Perio
             if (first == second) {  // of the two images opposite to each other one, and not itself
                 const Vec3 half = 0.5 * period.lengths();
                 const auto side = [&](int k) { return shift[k] > half[k] ? 1 : shift[k] < -half[k] ? -1 : 0; };
-                const int lead = side(0) != 0 ? side(0) : side(1) != 0 ? side(1) : side(2);
+                // Across sliding faces first: along the others such images lie off by anything.
+                const int across = period.slides() ? side(period.slidingAxis()) : 0;
+                const int lead = across != 0 ? across : side(0) != 0 ? side(0) : side(1) != 0 ? side(1) : side(2);
                 if (lead <= 0) return;
             }
-            pairs.push_back({first, second, shift});
+            pairs.push_back({first, second, shift, period.slideOf(Vec3::Zero(), shift)});
         });
     std::sort(pairs.begin(), pairs.end(), [](const ImagePair& a, const ImagePair& b) {
         return std::tie(a.first, a.second, a.shift[0], a.shift[1], a.shift[2]) <

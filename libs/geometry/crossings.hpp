@@ -28,6 +28,7 @@ struct SurfaceView {
 struct ImagePair {
     std::size_t first, second;  // first <= second
     Vec3 shift;
+    Vec3 slide = Vec3::Zero();  // by which the image is faster than the second surface [m/s]
 };
 
 // Every pair of whose bounds, grown by `margin` [m], some images meet; each pair of images once. Empty bounds meet

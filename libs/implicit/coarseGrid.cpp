@@ -91,16 +91,25 @@ CoarseGrid::Block CoarseGrid::block(const std::array<Symbol, 3>& s) const {
         for (int k = 0; k < 3; ++k) value *= k == p ? s[k].stiffness : s[k].mass;
         return value;
     };
-    Block b = Block::Identity() * Complex(inertia_ * product(-1) + viscosity_ * (product(0) + product(1) + product(2)));
+    Block gradients;  // (p, q): of derivatives along p and q
     for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
-            b(p, q) += p == q ? Complex(lambda_ * product(p)) : -lambda_ * s[p].slope * s[q].slope * s[3 - p - q].mass;
-    return b;
+            gradients(p, q) = p == q ? Complex(product(p)) : -s[p].slope * s[q].slope * s[3 - p - q].mass;
+    if (sliding_ >= 0) {
+        Block by = Block::Identity();  // to derivatives along the box
+        const auto across = static_cast<int>(std::find(axis_.begin(), axis_.end(), sliding_) - axis_.begin());
+        for (int k = 0; k < 3; ++k) by(across, k) -= tilt_[axis_[static_cast<std::size_t>(k)]];
+        gradients = (by * gradients * by.transpose()).eval();
+    }
+    return Block::Identity() * (inertia_ * product(-1) + viscosity_ * gradients.trace()) + lambda_ * gradients;
 }
 
-void CoarseGrid::setCoefficients(double inertia, double viscosity, double lambda) {
-    if (inertia == inertia_ && viscosity == viscosity_ && lambda == lambda_) return;
-    inertia_ = inertia, viscosity_ = viscosity, lambda_ = lambda;
+void CoarseGrid::setCoefficients(double inertia, double viscosity, double lambda, const Periodicity& images) {
+    const int sliding = images.slidingAxis();
+    const Vec3 tilt = sliding < 0 ? Vec3::Zero() : Vec3(images.offset() / images.lengths()[sliding]);
+    if (inertia == inertia_ && viscosity == viscosity_ && lambda == lambda_ && sliding == sliding_ && tilt == tilt_)
+        return;
+    inertia_ = inertia, viscosity_ = viscosity, lambda_ = lambda, sliding_ = sliding, tilt_ = tilt;
     factorise();
 }
 
@@ -191,8 +200,9 @@ CoarseGrid::Planes CoarseGrid::planesOf(MPI_Comm comm, const std::vector<int>& p
     return {-range[0], std::max(range[1], -range[0])};
 }
 
-void CoarseGrid::place(std::size_t particle, const Vec3& x) {
+void CoarseGrid::place(std::size_t particle, Vec3 x) {
     Place& p = places_[particle];
+    if (sliding_ >= 0) x -= (x[sliding_] - box_.low[sliding_]) * tilt_;
     for (int k = 0; k < 3; ++k) {
         const int axis = axis_[static_cast<std::size_t>(k)], n = count_[static_cast<std::size_t>(k)];
         const double along = (box_.wrap(x[axis], axis) - box_.low[axis]) / step_[k];

@@ -1,6 +1,8 @@
 // The smooth part of a preconditioner: the flow of a uniform fluid on a background grid, solved exactly.
 //
 //     z = P A_c^-1 P^T r,    A_c: c1 rho u - mu lap u - lambda grad div u   in trilinear finite elements
+// on cuboids, or where the images of the box slide on the parallelepipeds of coordinates in which it is periodic,
+//     xi = x - t (s - s_low),   d/ds = d/dxi_s - t.d/dxi,   s: coordinate across,   t: offset of the next image/L_s
 // symbol  | meaning
 // P       | trilinear interpolation from the grid to the particles
 // c1 rho  | inertia of the step [kg/(m^3 s)]
@@ -35,8 +37,8 @@ class CoarseGrid {
     CoarseGrid(const CoarseGrid&) = delete;
     CoarseGrid& operator=(const CoarseGrid&) = delete;
 
-    // inertia c1 rho, viscosity, lambda. Factorises when they have changed.
-    void setCoefficients(double inertia, double viscosity, double lambda);
+    // inertia c1 rho, viscosity, lambda; images of the box. Factorises when they have changed.
+    void setCoefficients(double inertia, double viscosity, double lambda, const Periodicity& images = {});
 
     // Which nodes each particle has, for `add`: those of this rank, then ghosts, which take from the grid and give
     // nothing.
@@ -44,7 +46,8 @@ class CoarseGrid {
         own_ = particles;
         places_.assign(particles + copies, Place{});
     }
-    void place(std::size_t particle, const Vec3& x);  // particles without a place take no part
+    // Particles without a place take no part. Any image of x; after setCoefficients.
+    void place(std::size_t particle, Vec3 x);
 
     // z += P A_c^-1 P^T r, four numbers a particle. Collective.
     template <class Real>
@@ -124,6 +127,8 @@ class CoarseGrid {
     Vec3 step_ = Vec3::Zero();    // along these [m]
     bool walls_ = false;
     double inertia_ = 0, viscosity_ = 0, lambda_ = 0;
+    int sliding_ = -1;          // s, along the box; -1: nothing slides
+    Vec3 tilt_ = Vec3::Zero();  // t
     std::size_t own_ = 0;
     std::vector<Place> places_;
     // Values of a node side by side, x y z and a number without meaning: one vector for what particles take or give.

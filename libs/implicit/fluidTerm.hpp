@@ -35,15 +35,15 @@ class FluidTerm final : public Term<Real> {
             pressure_[i] += leadShare_ * stiffness_[i] * rate;
             return pressure_[i] - stiffness_[i] * rate;
         };
-        operators_.addForces(*scene_.system, v0, pressure, forces);
+        operators_.addForces(*scene_.system, v0, sph::FieldOf::velocities, pressure, forces);
     }
     void addForces(const Field& v, Forces& forces) override {
         const auto pressure = [&](std::size_t i, double rate) { return pressure_[i] - stiffness_[i] * rate; };
-        operators_.addForces(*scene_.system, v, pressure, forces);
+        operators_.addForces(*scene_.system, v, sph::FieldOf::velocities, pressure, forces);
     }
     void addProduct(const Field& v, Forces& forces) override {
         const auto pressure = [&](std::size_t i, double rate) { return -stiffness_[i] * rate; };
-        operators_.addForces(*scene_.system, v, pressure, forces);
+        operators_.addForces(*scene_.system, v, sph::FieldOf::changes, pressure, forces);
     }
     double diagonal(std::size_t i) const override {
         return operators_.viscousDiagonal(i) + stiffness_[i] * operators_.bulkDiagonal(i);

@@ -17,14 +17,14 @@ void MembraneTerm<Real>::prepare(const Reach& reach) {
 
 template <class Real>
 void MembraneTerm<Real>::addFirstForces(const Field& v0, Forces& forces) {
-    nodes_ = extrapolated_ = immersed_.interpolate(v0.data());
+    nodes_ = extrapolated_ = immersed_.interpolateVelocities(v0.data());
     immersed_.addStiffness(reach_.lead, extrapolated_, load_);
     give(nodes_, forces);
 }
 
 template <class Real>
 void MembraneTerm<Real>::addForces(const Field& v, Forces& forces) {
-    nodes_ = immersed_.interpolate(v.data());
+    nodes_ = immersed_.interpolateVelocities(v.data());
     give(nodes_, forces);
 }
 
@@ -44,7 +44,7 @@ void MembraneTerm<Real>::addProduct(const Field& v, Forces& forces) {
 
 template <class Real>
 std::string MembraneTerm<Real>::whyNot(const Field& v, double dt) {
-    nodes_ = immersed_.interpolate(v.data());
+    nodes_ = immersed_.interpolateVelocities(v.data());
     const double change = Communicator(system_.comm()).max(largestBondRate(immersed_, nodes_)) * dt;
     if (change <= settings_.bondStrain) {
         if (immersed_.freeArrival(reach_.middle, dt, nodes_, 0) == 1) return {};
@@ -86,7 +86,7 @@ template <class Real>
 double MembraneTerm<Real>::power(const Field& v, const Field& w) {
     const Vectors disturbance = immersed_.interpolate(w.data());
     Vectors f = load_;
-    immersed_.addResistance(reach_.total(), immersed_.interpolate(v.data()), f);
+    immersed_.addResistance(reach_.total(), immersed_.interpolateVelocities(v.data()), f);
     return immersed_.ownDot(disturbance, f);
 }
 

@@ -24,12 +24,14 @@ void Movement<Real>::depart(const TimeDifference& time) {
     moveFluid(time.begin());
     if (system_.immersed()) system_.immersed()->depart(time.begin(), !time.isAtEnd());
     if (system_.rigid()) system_.rigid()->depart(time.begin());
+    system_.scene().system->moveImages(time.begin());
     system_.scene().system->rebuild();
 }
 
 template <class Real>
 void Movement<Real>::takeBack(const TimeDifference& time) {
     moveFluid(-time.begin());
+    system_.scene().system->moveImages(-time.begin());
     if (system_.immersed()) system_.immersed()->takeBack(time.begin());
     if (system_.rigid()) system_.rigid()->takeBack();
 }
@@ -55,7 +57,12 @@ void Movement<Real>::arrive(const Field& velocity) {
         s.setVelocity(i, v);
     }
     if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
-    if (noFlux_) noFlux_->keepSides(*system_.scene().system);
+    particles::ParticleSystem& system = *system_.scene().system;
+    system.moveImages(dt - time.begin());
+    if (noFlux_) noFlux_->keepSides(system);
+    if (!system.periodicity().slides()) return;
+    system.wrapAll();  // what looks at velocities until the next step need not ask of which image they are
+    if (system_.immersed()) system_.immersed()->wrapCells();
 }
 
 template class Movement<double>;

@@ -4,6 +4,7 @@
 //     x* = x^n + share dt u                                       departs, or takes it back; nodes of cells in the
 //                                                                 middle of a step on the arc (coupling/arc.hpp)
 //     x^(n+1) = x^n + dt v + shift,   a = (v - u)/h               arrives (timeDifference.hpp)
+// Images that slide (core/periodicity.hpp) move along in time.
 // The state between steps has the velocity at its end, u + (t - t_middle) a; the step takes it back to that of the
 // middle first.
 #pragma once

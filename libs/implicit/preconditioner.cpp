@@ -45,7 +45,8 @@ class TwoLevel : public Preconditioner<Real> {
     void prepare() override {
         const sph::FluidModel& model = system_.scene().model();
         const double bulk = model.equationOfState->bulkModulus(model.density, model.density, model.soundSpeed);
-        grid_.setCoefficients(system_.time().c1 * model.density, model.viscosity, system_.time().reach.total() * bulk);
+        grid_.setCoefficients(system_.time().c1 * model.density, model.viscosity, system_.time().reach.total() * bulk,
+                              system_.scene().system->periodicity());
         const std::size_t own = system_.owned(), all = system_.entries();
         grid_.begin(own, all - own);
         for (std::size_t i = 0; i < all; ++i)

@@ -1,6 +1,6 @@
-// Observer `profile`: mean velocity and density of the fluid's particles in slabs across an axis; one file,
-// profile.csv, with one row for each slab at each look. Slabs divide the fluid between the walls evenly. In gnuplot,
-// after `set datafile columnheaders`:
+// Observer `profile`: mean velocity and density of the fluid's particles in slabs across an axis, and which part of the
+// fluid is inside cells (haematocrit); one file, profile.csv, with one row for each slab at each look. Slabs divide the
+// fluid between the walls evenly. In gnuplot, after `set datafile columnheaders`:
 //     plot 'profile.csv' using 4:3 every ::N*n::N*n+N-1 with linespoints      (look n, N slabs, u over position)
 //
 // setting | meaning                           | default
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/communicator.hpp"
 #include "observers/observer.hpp"
@@ -27,7 +28,8 @@ class ProfileObservation : public Observation {
 
     bool leavesGaps() const override { return true; }
     std::vector<Row> observe(const Scene& scene, const Time&) override {
-        constexpr std::size_t numbers = 5;
+        constexpr std::size_t numbers = 7;
+        const bool hasCells = scene.cells.exist();
         const particles::ParticleStore& s = scene.store();
         const particles::Box& box = scene.fluidBox;
         const double low = box.low[axis_], width = box.size()[axis_] / bins_;
@@ -39,14 +41,19 @@ class ProfileObservation : public Observation {
             sum[0] += s.u[i], sum[1] += s.v[i], sum[2] += s.w[i];
             sum[3] += s.density[i];
             sum[4] += 1;
+            const double volume = scene.mass(i) / s.density[i];
+            sum[5] += volume;
+            if (hasCells && s.side[i] > 0) sum[6] += volume;
         }
         sums = Communicator(scene.system->comm()).sum(std::move(sums));
         std::vector<Row> rows;
         for (int b = 0; b < bins_; ++b) {
             const double* const sum = sums.data() + numbers * static_cast<std::size_t>(b);
             const double scale = sum[4] > 0 ? 1 / sum[4] : std::numeric_limits<double>::quiet_NaN();
-            rows.push_back(
-                {0, {low + (b + 0.5) * width, sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3] * scale, sum[4]}});
+            std::vector<double> row{low + (b + 0.5) * width, sum[0] * scale, sum[1] * scale,
+                                    sum[2] * scale,          sum[3] * scale, sum[4]};
+            if (hasCells) row.push_back(sum[6] * scale / (sum[5] * scale));
+            rows.push_back({0, std::move(row)});
         }
         return rows;
     }
@@ -67,14 +74,17 @@ struct ProfileObserver : Observer {
                 .integer("bins", &ProfileObserver::bins, "number of slabs", {.fallback = "32", .range = atLeast(1)});
         return s;
     }
-    std::vector<Table> tables(const SceneParts&) const override {
-        return {{"profile",
-                 {{"position", "m", "middle of the slab on the axis across the slabs"},
-                  {"u", "m_s", "mean of the velocity along x over the fluid's particles in the slab; nan without any"},
-                  {"v", "m_s", "mean of the velocity along y"},
-                  {"w", "m_s", "mean of the velocity along z"},
-                  {"density", "kg_m3", "mean density"},
-                  {"count", "", "particles of the fluid in the slab"}}}};
+    std::vector<Table> tables(const SceneParts& parts) const override {
+        std::vector<io::Column> columns{
+            {"position", "m", "middle of the slab on the axis across the slabs"},
+            {"u", "m_s", "mean of the velocity along x over the fluid's particles in the slab; nan without any"},
+            {"v", "m_s", "mean of the velocity along y"},
+            {"w", "m_s", "mean of the velocity along z"},
+            {"density", "kg_m3", "mean density"},
+            {"count", "", "particles of the fluid in the slab"}};
+        if (!parts.cells.empty())
+            columns.push_back({"haematocrit", "", "volume of the fluid inside cells over that of all fluid"});
+        return {{"profile", std::move(columns)}};
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
         return std::make_unique<ProfileObservation>(tables(SceneParts::of(scene)), axis[0] - 'x', bins);

@@ -11,7 +11,7 @@
 // f_m    | force of the membrane, elastic and viscous, on the fluid at its node m           | N
 // u, n   | velocity of the membrane, its normal outwards                                    | m/s
 // x f    | of two membranes in contact, or a membrane and a wall: where and how they push   | N m
-// V      | of all that lies between the walls                                               | m^3
+// V      | of fluid and cells: of the box, between its walls where it has some              | m^3
 // Pressure is not in it. Of x along the flow, g along its gradient, v along the vorticity: shear stress sigma_xg, N1 =
 // sigma_xx - sigma_gg, N2 = sigma_gg - sigma_vv. Between moving walls the shear stress is the same on every plane once
 // the fluid's inertia is gone, so that 1 + sigma_xg/(mu gammadot) is then the effective viscosity of `wallStress`,
@@ -132,7 +132,7 @@ struct SuspensionObserver : Observer {
     std::string whyNot(const Subject& subject) const override { return needsCells(subject); }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<io::Column> whole{
-            {"haematocrit", "", "volume of the cells over that of all that lies between the walls"},
+            {"haematocrit", "", "volume of the cells over that of fluid and cells together"},
             {"shearStress_membranes", "Pa", "shear stress, along the flow and its gradient, by forces of membranes"},
             {"shearStress_interiors", "Pa", "the same, by insides that are more or less viscous"},
             {"shearStress_contact", "Pa", "the same, by contact"},

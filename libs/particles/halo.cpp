@@ -24,7 +24,6 @@ double gapSquared(const Vec3& lowA, const Vec3& highA, const Vec3& lowB, const V
 
 void Halo::plan(const double* x, const double* y, const double* z, int n, const Decomposition& decomposition,
                 const Periodicity& periodicity, double reach) {
-    if (periodicity.slides()) throw std::logic_error("the halo does not know which fields are velocities");
     comm_ = decomposition.comm();
     const int size = decomposition.size(), self = decomposition.rank();
     const auto position = [&](int i) { return Vec3(x[i], y[i], z[i]); };
@@ -36,8 +35,16 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
         if (b.low[0] <= b.high[0]) all.include(b.low), all.include(b.high);
 
     int images[3];
-    for (int k = 0; k < 3; ++k)
-        images[k] = periodicity.isAlong(k) ? static_cast<int>(std::ceil(reach / periodicity.lengths()[k])) : 0;
+    for (int k = 0; k < 3; ++k) {
+        if (!periodicity.isAlong(k)) {
+            images[k] = 0;
+            continue;
+        }
+        const double length = periodicity.lengths()[k], least = std::ceil(reach / length);
+        // Those that slide lie off by half a period at most for each period across.
+        const double off = periodicity.slides() && k != periodicity.slidingAxis() ? 0.5 * least * length : 0;
+        images[k] = static_cast<int>(std::max(least, std::ceil((reach + off) / length)));
+    }
 
     images_.clear(), sendIndex_.clear(), sendImage_.clear(), sends_.clear(), receives_.clear();
     std::vector<int> sendCounts(static_cast<std::size_t>(size), 0), receiveCounts(static_cast<std::size_t>(size), 0);
@@ -187,6 +194,18 @@ std::vector<Halo::Origin> Halo::origins(int owned) {
     };
     for (const Message& m : receives_) take(m);
     take(selfReceive_);
+    return found;
+}
+
+std::vector<Vec3> Halo::slides(int owned) {
+    constexpr int fields = 3;
+    std::vector<double> records(fields * (static_cast<std::size_t>(owned) + static_cast<std::size_t>(ghosts_)));
+    post(records.data(), owned, fields, Part{0, fields},
+         [&](int k, double* to) { Vec3::Map(to) = images_[sendImage_[k]].slide; });
+    finish(records.data(), owned, fields, Part{0, fields});
+    std::vector<Vec3> found(static_cast<std::size_t>(ghosts_));
+    for (std::size_t g = 0; g < found.size(); ++g)
+        found[g] = Vec3::Map(records.data() + fields * (static_cast<std::size_t>(owned) + g));
     return found;
 }
 

@@ -4,8 +4,7 @@
 // One mechanism serves both: for every rank and every periodic image, the particles whose shifted position lies within
 // reach of that rank's brick are sent to it. The plan is made when lists are built and used at every step; ghosts are
 // kept sorted in columns. A message carries records (pairLoop.hpp): fields 0..2 are the position, which gets the
-// image's shift. Velocities in records would get its slide: nothing slides yet, and a plan of images that do is
-// refused.
+// image's shift. Velocities in records are those of the particle: who needs those of its image adds `slides`.
 #pragma once
 #include <mpi.h>
 
@@ -60,6 +59,8 @@ class Halo {
     };
     // Of each ghost. Collective.
     std::vector<Origin> origins(int owned);
+    // By how much each ghost is faster than its origin, in a box whose images slide [m/s]. Collective.
+    std::vector<Vec3> slides(int owned);
     // Which other ranks have ghosts of own particles: these ranks and the own particles' numbers, in order and each
     // once.
     std::vector<Origin> copies() const;

@@ -26,8 +26,21 @@ ParticleSystem::ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Opt
       decomposition_(comm, box),
       list_(blockLanes(precision)) {}
 
+void ParticleSystem::slideImages(int axis, const Vec3& velocity) {
+    slide_ = velocity;
+    periodicity_.slide(axis, Vec3::Zero(), slide_);
+}
+
+void ParticleSystem::setOffset(const Vec3& offset) {
+    Vec3 least = offset;
+    for (int k = 0; k < 3; ++k)
+        if (const double length = periodicity_.lengths()[k]; length > 0)
+            least[k] -= length * std::nearbyint(least[k] / length);
+    periodicity_.slide(periodicity_.slidingAxis(), least, slide_);
+}
+
 void ParticleSystem::start() {
-    for (std::size_t i = 0; i < store_.size(); ++i) wrap(i);
+    wrapAll();
     decomposition_.balance(store_);
     rebuild();
 }

@@ -46,6 +46,27 @@ class ParticleSystem {
     long builds() const { return builds_; }  // of the lists, by this object
     std::size_t bytes() const;
 
+    // Images across the faces of this axis move at this velocity [m/s], without a component along the axis; they lie
+    // off by nothing now. Before the first particles.
+    void slideImages(int axis, const Vec3& velocity);
+    // They move on for so long, or back; lists and ghosts are those of before until the next rebuild.
+    void moveImages(double seconds) {
+        if (periodicity_.slides()) setOffset(periodicity_.offset() + seconds * slide_);
+    }
+    // Images as they were so long ago.
+    Periodicity imagesAgo(double seconds) const {
+        Periodicity images = periodicity_;
+        if (images.slides() && seconds != 0)
+            images.slide(images.slidingAxis(), images.offset() - seconds * slide_, slide_);
+        return images;
+    }
+    // The offset of the next image [m] (core/periodicity.hpp), at least within half a period.
+    void setOffset(const Vec3& offset);
+    // All of this rank's particles in the box, with the velocities of there.
+    void wrapAll() {
+        for (std::size_t i = 0; i < store_.size(); ++i) wrap(i);
+    }
+
     // From the next build on, lists hold pairs of two particles of bodies too, as if they were fluid.
     void pairWithinBodies() { pairWithinBodies_ = true; }
 
@@ -102,6 +123,7 @@ class ParticleSystem {
     void buildFrom(const RealArray& x, const RealArray& y, const RealArray& z);
     Box box_;
     Periodicity periodicity_;
+    Vec3 slide_ = Vec3::Zero();  // velocity of the next image across the sliding axis
     double support_, skin_, spacing_;
     Precision precision_;
     bool pairWithinBodies_ = false;

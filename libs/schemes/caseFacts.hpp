@@ -8,6 +8,7 @@ namespace corpuscle::schemes {
 struct CaseFacts {
     bool hasCells = false, hasBodies = false;
     bool hasContact = false;  // of membranes (constant/contact.yaml)
+    bool slides = false;      // images of the box slide (core/periodicity.hpp)
     // At rest until constant/flow.yaml has been resolved.
     sph::FlowState flow;
     double leastViscosity = 0, largestViscosity = 0;  // of the fluid outside cells [Pa s]

@@ -30,6 +30,11 @@ void checkScheme(const NumericsSettings& settled, const CaseFacts& facts, const 
                      "found " + integrator +
                          ", which knows no contact of membranes; write 'integrator: implicit', or remove "
                          "constant/contact.yaml");
+    if (facts.slides && !settled.scheme->traits().knowsSlides)
+        problems.add(numericsFile, "integrator",
+                     "found " + integrator +
+                         ", which does not know periodic images that slide; write 'integrator: implicit', or take "
+                         "another flow in constant/flow.yaml");
 }
 
 }  // namespace

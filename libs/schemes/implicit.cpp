@@ -103,6 +103,7 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
                 .listsEveryStep = true,
                 .solvesForBodies = true,
                 .hasContact = true,
+                .knowsSlides = true,
                 .hasDampedSteps = true,
                 .stepsPerBalance = 1,
                 .stepsPerKeptState = 5,

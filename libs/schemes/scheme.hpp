@@ -32,6 +32,7 @@ struct Traits {
     bool solvesForBodies =
         false;  // velocities of rigid bodies are unknowns of the step: near bodies need no limit of their own
     bool hasContact = false;         // membranes can have contact (coupling/cellContacts.hpp)
+    bool knowsSlides = false;        // images of the box can slide (core/periodicity.hpp)
     bool hasDampedSteps = false;     // can go on by backward Euler (Stepper::damp)
     long stepsPerBalance = 10;       // between two balances of density, unless the case says
     long stepsPerKeptState = 50;     // between two states in memory that a run can go back to

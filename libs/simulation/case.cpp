@@ -310,6 +310,7 @@ schemes::CaseFacts Case::facts() const {
     schemes::CaseFacts facts;
     facts.hasCells = !mesh.cells.empty(), facts.hasBodies = !mesh.bodies.empty();
     facts.hasContact = contact.has_value() && facts.hasCells;
+    facts.slides = flowModel->slides();
     if (const auto file = files.find("system/numerics.yaml"); file != files.end()) facts.written = &file->second;
     const auto [least, largest] = viscosities();
     facts.leastViscosity = least, facts.largestViscosity = facts.mostViscous = largest;

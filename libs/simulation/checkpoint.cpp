@@ -136,6 +136,8 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     if (scene.cells.exist())
         file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.movedBack)));
     file.writeReplicated("bricks", scene.system->decomposition().state());
+    if (const Periodicity& period = scene.system->periodicity(); period.slides())
+        file.writeReplicated("imageOffset", flat({period.offset()}));
     file.writeReplicated("observers", state.observers);
     if (scene.budget.kept) file.writeReplicated("budgetByWall", gathered(scene.budget, comm));
     scene.store().forEachField([&](std::string_view name, const auto& array) {
@@ -189,6 +191,8 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
         // The sum over ranks is what counts: rank 0 takes it up.
         scene.movedBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
     }
+    if (scene.system->periodicity().slides())
+        scene.system->setOffset(vectors(file.template readReplicated<double>("imageOffset")).at(0));
     if (file.sameRanks())
         scene.system->resume(file.template readReplicated<double>("bricks"),
                              file.template attribute<std::int64_t>("rebuilds"));

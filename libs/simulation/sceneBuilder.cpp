@@ -147,7 +147,8 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.flow = input.flow;
     scene.fluidVolume = input.fluidVolume();
     scene.budget = sph::Budget(input.flow.walls.count());
-    scene.budget.kept = input.observers.wantBudget();
+    // What crosses faces whose images slide is not added up.
+    scene.budget.kept = input.observers.wantBudget() && !input.flow.slides();
     const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
     const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
                                          .viscosity = input.varyingViscosity(),
@@ -157,6 +158,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.system = std::make_unique<particles::ParticleSystem>(
         comm, input.particleBox(), fields, input.support(), input.scheme().traits().listsEveryStep ? 0 : input.skin(),
         input.spacing(), input.precision());
+    if (input.flow.slides()) scene.system->slideImages(input.flow.gradient, input.flow.slide);
     if (hasCells)
         scene.cells = Cells(readTypes(input),
                             input.numerics.isImmersed()

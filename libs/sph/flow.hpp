@@ -1,5 +1,5 @@
 // Family of flows: what drives the fluid, from constant/flow.yaml: how fast walls move (where they stand is up to
-// boundary/wallShape.hpp), and a body force.
+// boundary/wallShape.hpp) or the images of the box, and a body force.
 //
 // A case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the membrane's bond law,
 //     Ca = mu gammadot a/Gs.
@@ -35,9 +35,12 @@ struct FlowState {
     double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: it is developed at t = 0
     bool settles = false;  // towards a steady flow; else it decays
     Vec3 bodyForce = Vec3::Zero();                // [m/s^2]
+    Vec3 slide = Vec3::Zero();                    // of images across the axis `gradient` [m/s]; 0: they do not
     boundary::Walls walls;                        // as they move
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0
     std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
+
+    bool slides() const { return !slide.isZero(0); }
 };
 
 class Flow {
@@ -48,6 +51,8 @@ class Flow {
     virtual const boundary::WallShape* walls() const { return nullptr; }
     // Whether it carries particles along all axes: a perfect lattice then does not last.
     virtual bool isThreeDimensional() const { return false; }
+    // Whether images of the box slide: known before anything else.
+    virtual bool slides() const { return false; }
     // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
     virtual FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const = 0;
 };

@@ -65,7 +65,10 @@ template <class Real>
 void Operators<Real>::build(ParticleSystem& system) {
     const ParticleStore& s = system.store();
     const std::size_t n = s.size();
-    if (std::exchange(plannedAt_, system.builds()) != system.builds()) shared_.plan(system);
+    if (std::exchange(plannedAt_, system.builds()) != system.builds()) {
+        shared_.plan(system);
+        if (system.periodicity().slides()) slides_ = system.halo().slides(system.owned());
+    }
     volume_.resize(n), wall_.resize(n), divergence_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         volume_[i] = (s.optional().mass ? s.mass[i] : model_.mass) / s.density[i];
@@ -205,7 +208,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
 
 // Ghosts' velocities that are not known are fetched behind interior blocks.
 template <class Real>
-void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known) {
+void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known, FieldOf of) {
     if (isTwoFluids() && !hasInside_) throw std::logic_error("Operators: setInside comes after build");
     using particles::PairList;
     const auto put = [&](std::size_t record, std::size_t entry) {
@@ -227,6 +230,11 @@ void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known kn
     for (const std::size_t k : touched_) std::fill_n(gradientSums_.data() + gradientSums * k, gradientSums, 0.0);
     if (known == Known::allVelocities) {
         for (int g = 0; g < system.ghosts(); ++g) put(n + static_cast<std::size_t>(g), shared_.entry(g));
+        if (of == FieldOf::velocities)
+            for (std::size_t g = 0; g < slides_.size(); ++g)
+                for (int k = 0; k < 3; ++k)
+                    rateRecords_[rateFields * (n + g) + static_cast<std::size_t>(velocityPart.first + k)] +=
+                        static_cast<Real>(slides_[g][k]);
         for (int group = 0; group < PairList::groups; ++group) work(static_cast<PairList::Group>(group));
     } else
         system.forEachPair(rateRecords_.data(), rateFields, velocityPart, work);
@@ -258,7 +266,7 @@ void Operators<Real>::takeGradients(const ParticleSystem& system) {
 template <class Real>
 void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
     force_.assign(width * shared_.entries(), 0.0);
-    findRates(system, u, Known::ownVelocities);
+    findRates(system, u, Known::ownVelocities, FieldOf::changes);
     if (isTwoFluids() || isLayered()) {
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, 0);
         addStress(system, force_);

@@ -40,6 +40,10 @@ namespace corpuscle::sph {
 
 enum class OperatorForm { plain, corrected };
 
+// What a field of velocities is, where the images of a box slide (core/periodicity.hpp): velocities, which images have
+// with their slide, or changes of velocities, which all images share.
+enum class FieldOf { velocities, changes };
+
 template <class Real>
 class Operators {
   public:
@@ -55,18 +59,18 @@ class Operators {
     void setInside(particles::ParticleSystem& system, const std::vector<Inside>& inside);
 
     // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i)
-    // [Pa] of owned particles. u: of the owned particles. Collective.
+    // [Pa] of owned particles. u: of the owned particles, and as it is of all of their images. Collective.
     template <class Pressure>
     void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
         force_.assign(width * shared_.entries(), 0.0);
-        addForces(system, u, Known::ownVelocities, pressure, force_);
+        addForces(system, u, Known::ownVelocities, FieldOf::changes, pressure, force_);
     }
     // The same added to `force`, with u and force of all entries of shared(): velocities of ghosts need no
     // message. What own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
     template <class Pressure>
-    void addForces(particles::ParticleSystem& system, const Field& u, Pressure&& pressure,
+    void addForces(particles::ParticleSystem& system, const Field& u, FieldOf of, Pressure&& pressure,
                    particles::RealArray& force) {
-        addForces(system, u, Known::allVelocities, pressure, force);
+        addForces(system, u, Known::allVelocities, of, pressure, force);
     }
     // Without pressure; of owned particles. Collective.
     void applyViscosity(particles::ParticleSystem& system, const Field& u);
@@ -92,9 +96,9 @@ class Operators {
   private:
     enum class Known { ownVelocities, allVelocities };
     template <class Pressure>
-    void addForces(particles::ParticleSystem& system, const Field& u, Known known, Pressure&& pressure,
+    void addForces(particles::ParticleSystem& system, const Field& u, Known known, FieldOf of, Pressure&& pressure,
                    particles::RealArray& force) {
-        findRates(system, u, known);
+        findRates(system, u, known, of);
         for (std::size_t i = 0; i < volume_.size(); ++i) setPressure(i, pressure(i, divergence_[i]));
         addStress(system, force);
     }
@@ -114,7 +118,7 @@ class Operators {
     void sortBlocks(const particles::ParticleSystem& system, HasStress&& hasStress);
     void findMoments(particles::ParticleSystem& system);
     void packRecords(particles::ParticleSystem& system);
-    void findRates(particles::ParticleSystem& system, const Field& u, Known known);
+    void findRates(particles::ParticleSystem& system, const Field& u, Known known, FieldOf of);
     void setPressure(std::size_t i, double pressure);
     void addStress(particles::ParticleSystem& system, particles::RealArray& force);
     void takeForces(std::size_t from, std::size_t entry, particles::RealArray& force) {  // of sums_, which have 0 then
@@ -132,7 +136,8 @@ class Operators {
     double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
     Field momentRecords_, rateRecords_, stressRecords_, varyingStressRecords_;
     particles::SharedParticles shared_;
-    long plannedAt_ = -1;  // builds of the system's lists
+    std::vector<Vec3> slides_;  // of ghosts; none in a box whose images do not slide
+    long plannedAt_ = -1;       // builds of the system's lists
     particles::RealArray sums_, force_, divergence_;
     std::array<Blocks, particles::PairList::groups> groups_;
     BlocksByWall reaching_, rest_;       // of shared_

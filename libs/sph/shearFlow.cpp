@@ -8,44 +8,23 @@ namespace corpuscle::sph {
 const Schema<ShearFlow>& ShearFlow::schema() {
     static const Schema<ShearFlow> s =
         Schema<ShearFlow>("shear", "simple shear between two moving walls")
-            .quantity("Ca", &ShearFlow::Ca, unit::none,
-                      "capillary number mu gammadot a/Gs, Gs the in-plane laws' closed form", {.range = positive})
-            .quantity("shearRate", &ShearFlow::shearRate, unit::perSecond, "shear rate gammadot", {.range = positive})
-            .exactlyOneOf({"Ca", "shearRate"})
-            .tableOr("physical", "inertia", &ShearFlow::inertia, "density as given, or set by a Reynolds number",
-                     {.fallback = "physical"})
+            .include<ShearRate>()
             .model("walls", &ShearFlow::wallShape, "the two moving walls", {.fallback = "{normal: z}"})
             .word("start", &ShearFlow::start, {"linear", "rest"},
                   "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"})
-            .atRestart(AtRestart::noted, {"Ca", "shearRate"})
-            .atRestart(AtRestart::resolved, {"inertia"})
             .atRestart(AtRestart::fixed, {"walls", "start"});
     return s;
 }
 
 FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Problems& problems) const {
     FlowState flow;
-    if (Ca && context.shearModulus <= 0)
-        problems.add(mark, "Ca",
-                     "a capillary number needs a membrane, and the case has none; give shearRate, or cells in "
-                     "system/mesh.yaml and their laws in constant/membranes.yaml");
-    if (inertia && context.radius <= 0)
-        problems.add(mark, "inertia",
-                     "Re = rho gammadot a^2/mu needs the radius a of a cell or a rigid body, and the case has neither; "
-                     "write inertia: "
-                     "physical and give the density in constant/fluid.yaml");
+    resolveRate(context, mark, problems, flow);
     checkWalls(*wallShape, true, mark, problems);
     if (!problems.empty()) return flow;
     const int axis = *wallShape->planesAcross();
-
-    flow.shearRate = Ca ? *Ca * context.shearModulus / (context.viscosity * context.radius) : *shearRate;
-    flow.density = inertia ? inertia->Re * context.viscosity / (flow.shearRate * context.radius * context.radius)
-                           : context.density;
-    flow.densityFromRe = inertia.has_value();
     const double gap = context.box.size()[axis], middle = 0.5 * (context.box.low[axis] + context.box.high[axis]);
     flow.speed = 0.5 * flow.shearRate * gap;
     flow.length = gap;
-    flow.rate = flow.shearRate;
     flow.settles = true;
     if (start == "rest" || context.layered)
         flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.leastViscosity;

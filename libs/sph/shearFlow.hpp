@@ -4,13 +4,11 @@
 // start: linear sets this profile at t = 0, rest starts the walls impulsively:
 //     u/U = 2 eta + sum_n 2/(n pi) (-1)^n sin(2 n pi eta) exp(-4 n^2 pi^2 nu t/L^2),  eta = s/L
 #pragma once
-#include "sph/flow.hpp"
+#include "sph/shearRate.hpp"
 
 namespace corpuscle::sph {
 
-struct ShearFlow : Flow {
-    std::optional<double> Ca, shearRate;
-    std::optional<InertiaSettings> inertia;  // empty: physical
+struct ShearFlow : Flow, ShearRate {
     Choice<boundary::WallShape> wallShape;
     std::string start = "linear";
     static const Schema<ShearFlow>& schema();

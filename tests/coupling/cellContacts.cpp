@@ -36,7 +36,7 @@ struct Touching : SphereScene {
           layout(cells) {
         place();
     }
-    void place() { contacts.place(cells, layout, *system, NodeVectors(layout.nodes(), Vec3::Zero())); }
+    void place() { contacts.place(cells, layout, *system, {NodeVectors(layout.nodes(), Vec3::Zero())}); }
     double energy() const { return sph::testing::sumOverRanks(contacts.energy(cells, *system)); }
     NodeVectors forces() const {
         NodeVectors f(layout.nodes(), Vec3::Zero());
@@ -50,6 +50,10 @@ struct Touching : SphereScene {
         for (const Cell& cell : cells)
             for (int n = 0; n < cell.nodeCount(); ++n) all.push_back(f(cell.membrane.cell, n));
         return all;
+    }
+    NodeVectors places() const {
+        return vectors(
+            [&](int cell, int n) { return start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)]; });
     }
     double dot(const NodeVectors& a, const NodeVectors& b) const {  // each node of the scene once
         const int rank = system->decomposition().rank();
@@ -138,10 +142,7 @@ TEST(CellContacts, aWayOnWhichCellsMeetIsNotFree) {
     Touching scene({3, 6, 6}, {3 + apart, 6, 6}, 2.0);
     const auto travel = [&](double by) {
         const NodeVectors way = scene.vectors([&](int cell, int) { return Vec3(cell == 1 ? by : 0, 0, 0); });
-        return scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.vectors([&](int cell, int n) {
-            return scene.start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)];
-        }),
-                                         way);
+        return scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.places(), {way});
     };
     EXPECT_EQ(travel(0.05), 1);
     const double free = travel(4);  // through the other one; lists that are made for it
@@ -149,6 +150,35 @@ TEST(CellContacts, aWayOnWhichCellsMeetIsNotFree) {
     EXPECT_LT(free, 0.1);
     EXPECT_NEAR(free, sph::testing::sumOverRanks(free) / scene.system->decomposition().size(), 1e-15);
     EXPECT_EQ(travel(-1), 1);
+}
+
+// Images of the second cell come past the first one by themselves, and meet it after 1.08 s where they come nearer.
+TEST(CellContacts, aWayOnWhichAnImageSlidesIntoACellIsNotFree) {
+    for (const double speed : {-1.0, 1.0}) {
+        Touching scene({3, 6, 11}, {8, 6, 1}, 2.0);
+        scene.system->slideImages(2, {speed, 0, 0});
+        scene.place();
+        const NodeVectors still(scene.layout.nodes(), Vec3::Zero());
+        const auto free = [&](double seconds, double ago) {
+            return scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.places(),
+                                             {still, seconds, ago});
+        };
+        const double gap = 5 - std::sqrt(4 * radius * radius - 4);
+        EXPECT_EQ(free(0.9 * gap, 0), 1);
+        const double met = free(2, 0);
+        if (speed > 0) {
+            EXPECT_EQ(met, 1);
+        } else {
+            EXPECT_NEAR(2 * met, gap, 0.15) << "the spheres have edges, and a tenth of the gap is kept";
+            EXPECT_LT(2 * met, gap);
+        }
+        // The same of a way that began two seconds ago.
+        scene.system->moveImages(2);
+        EXPECT_NEAR(free(2, 2), met, 1e-12);
+        // Carried along by as much, nothing meets.
+        const NodeVectors with = scene.vectors([&](int cell, int) { return Vec3(cell == 1 ? 2 * speed : 0, 0, 0); });
+        EXPECT_EQ(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.places(), {with, 2, 2}), 1);
+    }
 }
 
 TEST(CellContacts, wallsHoldCellsOff) {
@@ -179,11 +209,10 @@ TEST(CellContacts, wallsHoldCellsOff) {
     EXPECT_NEAR(total[2], force, 1e-12 * force);
     EXPECT_NEAR(scene.energy(), energy, 1e-12 * energy);
     const NodeVectors down = scene.vectors([](int cell, int) { return Vec3(0.3, 0, cell == 1 ? -0.2 : 0); });
-    const NodeVectors x = scene.vectors(
-        [&](int cell, int n) { return scene.start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)]; });
-    EXPECT_LT(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, x, down), 0.5);
+    const NodeVectors x = scene.places();
+    EXPECT_LT(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, x, {down}), 0.5);
     const NodeVectors along = scene.vectors([](int, int) { return Vec3(0.3, 0, 0); });
-    EXPECT_EQ(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, x, along), 1);
+    EXPECT_EQ(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, x, {along}), 1);
 }
 
 }  // namespace

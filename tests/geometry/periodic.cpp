@@ -243,4 +243,44 @@ TEST(Crossings, neighboursOfALattice) {
     EXPECT_TRUE(neighbours({empty, empty}, Periodicity::centred(box)).empty());
 }
 
+// Against every image counted out, where images slide: cuboids anywhere, some longer than half the box.
+TEST(Crossings, neighboursWhereImagesSlide) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const Vec3 length(5, 4, 6);
+    for (const auto& [axis, offset] : {std::pair(2, Vec3(2.4, 0, 0)), {2, Vec3(-1.1, 0, 0)}, {1, Vec3(0.3, 0, -2)}}) {
+        Periodicity period = Periodicity::centred(length);
+        period.slide(axis, offset, Vec3::Zero());
+        std::vector<Bounds> bounds;
+        for (int k = 0; k < 12; ++k) {
+            const Vec3 at = 20 * (Vec3(unit(random), unit(random), unit(random)) - Vec3::Constant(0.5));
+            bounds.emplace_back(at, at + Vec3(0.3 + 3 * unit(random), 0.5, 0.3 + 3 * unit(random)));
+        }
+        constexpr double margin = 0.2;
+        std::size_t expected = 0;
+        const std::vector<ImagePair> found = neighbours(bounds, period, margin);
+        for (std::size_t a = 0; a < bounds.size(); ++a)
+            for (std::size_t b = a; b < bounds.size(); ++b) {
+                std::size_t images = 0, listed = 0;
+                for (int n = 0; n < 21 * 21 * 21; ++n) {
+                    const Index3 by{n % 21 - 10, n / 21 % 21 - 10, n / 441 - 10};
+                    if (a == b && by == Index3{0, 0, 0}) continue;
+                    const Vec3 shift = period.image(by).shift;
+                    const Bounds grown(bounds[a].min() - Vec3::Constant(margin),
+                                       bounds[a].max() + Vec3::Constant(margin));
+                    if (!grown.intersects(bounds[b].translated(shift))) continue;
+                    ++images;
+                    for (const ImagePair& pair : found) {
+                        const bool same = (pair.shift - shift).norm() < 1e-12;
+                        const bool opposite = a == b && (pair.shift + shift).norm() < 1e-12;
+                        listed += pair.first == a && pair.second == b && (same || opposite) ? 1 : 0;
+                    }
+                }
+                EXPECT_EQ(listed, images) << a << " " << b;
+                expected += a == b ? images / 2 : images;
+            }
+        EXPECT_EQ(found.size(), expected);
+    }
+}
+
 }  // namespace

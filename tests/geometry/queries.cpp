@@ -147,9 +147,7 @@ TEST(TriangleTree, answersDoNotDependOnTheTree) {
 
 // Against all surfaces, with all images; some reach across faces, one is longer than the box, one stands some boxes
 // away.
-TEST(BoundsIndex, namesEverySurfaceAroundAPoint) {
-    const Vec3 low(-5, -4, 0), high(5, 4, 6);
-    const Periodicity period(low, high, {true, true, false});
+void namesEverySurfaceAroundAPoint(const Vec3& low, const Vec3& high, const Periodicity& period) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto vector = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
@@ -183,7 +181,21 @@ TEST(BoundsIndex, namesEverySurfaceAroundAPoint) {
         EXPECT_LT(named, 12 * around) << "few surfaces are named in vain";
         EXPECT_LT(named, 0.5 * 2000 * static_cast<double>(bounds.size()));
     }
+}
+
+TEST(BoundsIndex, namesEverySurfaceAroundAPoint) {
+    const Vec3 low(-5, -4, 0), high(5, 4, 6);
+    namesEverySurfaceAroundAPoint(low, high, {low, high, {true, true, false}});
     EXPECT_TRUE(BoundsIndex().near(Vec3(1, 2, 3)).empty());
+}
+
+TEST(BoundsIndex, namesEverySurfaceWhereImagesSlide) {
+    const Vec3 low(-5, -4, 0), high(5, 4, 6);
+    for (const double offset : {0.0, 3.7, -4.9}) {
+        Periodicity period(low, high, {true, true, true});
+        period.slide(2, Vec3(offset, 0, 0), Vec3::Zero());
+        namesEverySurfaceAroundAPoint(low, high, period);
+    }
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ constexpr double inertia = 0.7, viscosity = 1.3, lambda = 9;
 
 // The same operator by another way: elements with trilinear shape functions, integrated by 2 x 2 x 2 Gauss points, in
 // one dense matrix over all nodes; nodes at walls are taken out by the caller.
-Eigen::MatrixXd assemble(const std::array<int, 3>& cells, const std::array<int, 3>& nodes, const Vec3& step) {
+// toBox: derivatives along the box from those along the grid.
+Eigen::MatrixXd assemble(const std::array<int, 3>& cells, const std::array<int, 3>& nodes, const Vec3& step,
+                         const Mat3& toBox = Mat3::Identity()) {
     const auto number = [&](int i, int j, int k) {
         return ((i % nodes[0]) * nodes[1] + j % nodes[1]) * nodes[2] + k % nodes[2];
     };
@@ -36,8 +38,8 @@ Eigen::MatrixXd assemble(const std::array<int, 3>& cells, const std::array<int, 
                             change[a] = (second ? 1 : -1) / step[a];
                         }
                         shape[corner] = value.prod();
-                        slope[corner] = {change[0] * value[1] * value[2], value[0] * change[1] * value[2],
-                                         value[0] * value[1] * change[2]};
+                        slope[corner] = toBox * Vec3(change[0] * value[1] * value[2], value[0] * change[1] * value[2],
+                                                     value[0] * value[1] * change[2]);
                         at[corner] = number(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2 & 1));
                     }
                     for (int m = 0; m < 8; ++m)
@@ -95,6 +97,42 @@ TEST(CoarseGrid, solvesTheFiniteElementsWithoutWalls) { solvesTheFiniteElements(
 
 TEST(CoarseGrid, solvesTheFiniteElementsBetweenWalls) {
     for (const int wall : {0, 1, 2}) solvesTheFiniteElements(wall);
+}
+
+// On parallelepipeds: nodes lie where the coordinates in which the box is periodic say, in any of their images.
+TEST(CoarseGrid, solvesTheFiniteElementsWhereImagesSlide) {
+    const particles::Box box{{-1, 2, 0.5}, {5, 10, 4.5}, {true, true, true}};
+    const std::array<int, 3> cells{5, 6, 3};
+    const Vec3 step = box.size().cwiseQuotient(Vec3(5, 6, 3));
+    CoarseGrid grid(box, 1.3);
+    for (const auto& [axis, offset] : {std::pair(2, Vec3(1.9, -3.1, 0)), {1, Vec3(-2.7, 0, 0)}, {2, Vec3(0, 0, 0)}}) {
+        Periodicity period = box.periodicity();
+        period.slide(axis, offset, Vec3::Zero());
+        const Vec3 tilt = offset / box.size()[axis];
+        Mat3 toBox = Mat3::Identity();
+        toBox.row(axis) -= tilt.transpose();
+        const Eigen::MatrixXd A = assemble(cells, cells, step, toBox);
+        const auto n = static_cast<std::size_t>(A.rows() / 3);
+        grid.setCoefficients(inertia, viscosity, lambda, period);
+        grid.begin(n);
+        std::vector<double> r(4 * n, 0.0), z(4 * n, 0.0);
+        for (int i = 0; i < cells[0]; ++i)
+            for (int j = 0; j < cells[1]; ++j)
+                for (int k = 0; k < cells[2]; ++k) {
+                    const auto node = static_cast<std::size_t>((i * cells[1] + j) * cells[2] + k);
+                    const Vec3 xi = step.cwiseProduct(Vec3(i, j, k)), x = box.low + xi + xi[axis] * tilt;
+                    const Index3 image{static_cast<int>(node % 3) - 1, static_cast<int>(node % 2), 1 - i % 2};
+                    grid.place(node, x + period.image(image).shift);
+                }
+        for (std::size_t k = 0; k < r.size(); ++k)
+            if (k % 4 != 3) r[k] = std::sin(1 + 3.7 * static_cast<double>(k * k));
+        grid.add(MPI_COMM_SELF, r.data(), z.data());
+        Eigen::VectorXd solution(A.rows());
+        for (Eigen::Index k = 0; k < A.rows(); ++k) solution[k] = z[static_cast<std::size_t>(4 * (k / 3) + k % 3)];
+        const Eigen::VectorXd image = A * solution;
+        for (Eigen::Index k = 0; k < A.rows(); ++k)
+            ASSERT_NEAR(image[k], r[static_cast<std::size_t>(4 * (k / 3) + k % 3)], 1e-5) << "row " << k;
+    }
 }
 
 // Between nodes too P and its transpose belong together, and coefficients that change are taken up.

@@ -382,6 +382,21 @@ TEST(Profile, LinearVelocity) {
     const auto slabs = fine->observe(scene, {});
     EXPECT_TRUE(std::isnan(slabs[0].values[1]));  // no lattice plane in the first quarter of a spacing
     EXPECT_EQ(slabs[0].values[5], 0);
+    EXPECT_EQ(slabs[0].values.size(), 6) << "nothing of cells where there are none";
+}
+
+// By volume: what is inside is made twice as dense, so that its particles have half the volume.
+TEST(Profile, HaematocritOfSlabs) {
+    Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
+    particles::ParticleStore& s = scene.store();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const bool isInside = s.z[i] > 2 * um && s.x[i] > 0;
+        s.side[i] = isInside ? 1 : 0;
+        if (isInside) s.density[i] *= 2;
+    }
+    const auto rows = begin("{type: profile, every: 10 steps, axis: z, bins: 6}", scene)->observe(scene, {});
+    ASSERT_EQ(rows.size(), 6u);
+    for (std::size_t b = 0; b < 6; ++b) EXPECT_NEAR(rows[b].values.at(6), b < 4 ? 0 : 1.0 / 3, 1e-12) << b;
 }
 
 }  // namespace

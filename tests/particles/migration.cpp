@@ -143,6 +143,53 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
     }
 }
 
+// Every image within reach of the brick is a ghost, once, at the place and with the slide that the box gives it; from
+// no offset to beyond half a period, where the next image takes over.
+TEST(Halo, ghostsAreAllImagesOfABoxThatSlides) {
+    const Population p(box({6, 4, 5}, true, true, true), 150, 9);
+    constexpr double reach = 2.3, speed = 1.5;
+    constexpr int fields = 4;
+    for (const double seconds : {0.0, 1.1, 2.1, 13.3}) {
+        ParticleSystem system(MPI_COMM_WORLD, p.box, {}, 2, 0.3, 1);
+        system.slideImages(2, {speed, 0, 0});
+        system.moveImages(seconds);
+        EXPECT_NEAR(std::remainder(system.periodicity().offset()[0] - speed * seconds, 6), 0, 1e-12);
+        EXPECT_LE(std::abs(system.periodicity().offset()[0]), 3);
+        p.deal(system.store());
+        system.start();
+        const ParticleStore& s = system.store();
+        RealArray records(static_cast<std::size_t>(system.owned() + system.ghosts()) * fields);
+        for (std::size_t i = 0; i < s.size(); ++i)
+            Vec3::Map(records.data() + fields * i) = s.position(i),
+                                                records[fields * i + 3] = static_cast<double>(s.id[i]);
+        system.forEachPair(records.data(), fields, 1, [](PairList::Group) {});
+        const std::vector<Vec3> slides = system.halo().slides(system.owned());
+        const Brick& brick = system.decomposition().own();
+        int expected = 0;
+        const auto isGhost = [&](int id, const Vec3& place, double slide) {
+            for (int g = 0; g < system.ghosts(); ++g) {
+                const double* r = records.data() + fields * (system.owned() + g);
+                if (r[3] == id && (Vec3::Map(r) - place).norm() < 1e-12)
+                    return (slides[static_cast<std::size_t>(g)] - Vec3(slide, 0, 0)).norm() < 1e-12;
+            }
+            return false;
+        };
+        for (int id = 0; id < p.count(); ++id)
+            for (int a = -6; a <= 6; ++a)
+                for (int b = -2; b <= 2; ++b)
+                    for (int c = -2; c <= 2; ++c) {
+                        const Vec3 place = p.position[id] + Vec3(6 * a + c * speed * seconds, 4 * b, 5 * c);
+                        if (distanceSquared(place, brick.low, brick.high) >= reach * reach) continue;
+                        if (c == 0 && distanceSquared(place, brick.low, brick.high) == 0 && a == 0 && b == 0 &&
+                            system.decomposition().owner(place) == system.decomposition().rank())
+                            continue;
+                        ++expected;
+                        EXPECT_TRUE(isGhost(id, place, c * speed)) << id << " " << a << b << c << " " << seconds;
+                    }
+        EXPECT_EQ(system.ghosts(), expected);
+    }
+}
+
 TEST(Rebuild, refusesAPositionThatIsNotFiniteOnAllRanks) {
     const Population p(box({9, 8, 7}), 1500, 6);
     ParticleSystem system(MPI_COMM_WORLD, p.box, {}, 2, 0.3, 1);

@@ -64,6 +64,7 @@ TEST(RestartPolicies, WhatIsResolvedIsDerived) {
         if (policy == AtRestart::resolved) resolved.insert(key);
     EXPECT_EQ(resolved,
               (std::set<std::string>{"constant/fluid.yaml: density", "constant/fluid.yaml: viscosity",
+                                     "constant/flow.yaml: leesEdwards.inertia.Re",
                                      "constant/flow.yaml: shear.inertia.Re", "system/numerics.yaml: integrator"}));
 }
 

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Sheared boxes without walls, whose periodic images slide (the flow leesEdwards): cells on the faces, restarts, ranks, what is refused.
+
+    slidingRuns.py BIN TEST    BIN: directory of the applications
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent))
+from runs import IMPLICIT_CASE, copied, last_checkpoint, make, prepared, run, same_in_parts, series, table
+
+SPHERE = "{{name: {}, membrane: rbc, shape: {{type: sphere, radius: 2.4 um}}, edge: 0.7 um, centre: [{} um, {} um, {} um]}}"
+# Two capsules of which the second, on the sliding faces, has to pass the first: at strain 1.3 they would touch but for the fluid.
+CASE = {
+    **IMPLICIT_CASE,
+    "system/mesh.yaml": "domain: {size: [11.2 um, 8.4 um, 8.4 um], periodic: [true, true, true]}\n"
+                        f"cells: [{SPHERE.format('a', -1.4, 0, 0.6)}, {SPHERE.format('b', -5.2, 0.4, 4.2)}]\n",
+    "system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("spacing: 1 um", "spacing: 0.7 um"),
+    "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("endStrain: 0.6", "endStrain: 2"),
+    "system/observers.yaml": "form: {type: shape, every: 0.2 strain}\nbalance: {type: conservation, every: 0.2 strain}\n"
+                             "blood: {type: suspension, every: 0.2 strain}\nmean: {type: profile, every: 1 strain, bins: 6}\n",
+    "constant/contact.yaml": "law: {type: barrier, reach: 0.1 um, strength: 1e-5 N/m}\n",
+    "constant/flow.yaml": "type: leesEdwards\nCa: 0.3\ninertia: {Re: 0.1}\n",
+}
+
+
+def test_ranks(folder):
+    """The same on 1, 2 and 4 ranks: shapes, stress, volumes; nobody crosses, and the fluid keeps its shear."""
+    start = prepared(folder / "start", CASE)
+    found = {}
+    for ranks in (1, 2, 4):
+        case = copied(start, folder / str(ranks))
+        run(case, "dmpFlow", ranks=ranks)
+        record = json.loads((case / "run.json").read_text())
+        assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] == 0, record["performance"]
+        rows = [*table(case, "form", "a.csv"), *table(case, "form", "b.csv")]
+        stress = table(case, "blood", "suspension.csv")
+        balance = table(case, "balance")
+        assert max(abs(row["volumeChange"]) for row in balance) < 1e-7 and balance[-1]["changedSide"] == 0, balance[-1]
+        assert not (case / "postProcessing/balance/budget.csv").exists()
+        found[ranks] = rows, stress
+        last = table(case, "mean", "profile.csv")[-6:]
+        rate = stress[-1]["strain"] / stress[-1]["time_s"]
+        for row in last:  # cells disturb it by less than this
+            assert abs(row["u_m_s"] - rate * row["position_m"]) < 0.12 * rate * 8.4e-6, row
+    for ranks in (2, 4):
+        for one, other in zip(found[1][0], found[ranks][0], strict=True):
+            assert abs(one["D12_inertia"] - other["D12_inertia"]) < 1e-4, (ranks, one, other)
+        for one, other in zip(found[1][1], found[ranks][1], strict=True):
+            assert abs(one["relativeViscosity"] - other["relativeViscosity"]) < 1e-3, (ranks, one, other)
+    drawn = [row["D12_inertia"] for row in found[1][0] if row["strain"] > 1.9]
+    assert min(drawn) > 0.2, drawn
+
+
+def test_restart(folder):
+    """A run in two parts ends with the bits of a run in one, on 1 and 2 ranks; on another number it goes on from the same images."""
+    case = {**CASE, "system/control.yaml": CASE["system/control.yaml"].replace("endStrain: 2", "endStrain: 1")}
+    start = prepared(folder / "start", case)
+    for ranks in (1, 2):
+        whole = copied(start, folder / f"whole{ranks}")
+        run(whole, "dmpFlow", ranks=ranks)
+        parts = same_in_parts(whole, start, "dmpFlow", 13, ranks=ranks)
+        for observer, file in (("form", "b.csv"), ("blood", "suspension.csv"), ("mean", "profile.csv")):
+            assert series(whole, observer, file) == series(parts, observer, file), observer
+    other = copied(start, folder / "other")
+    run(other, "dmpFlow", "-steps", "13", ranks=2)
+    run(other, "dmpFlow", ranks=1)
+    for one, two in zip(table(folder / "whole1", "blood", "suspension.csv"), table(other, "blood", "suspension.csv"), strict=True):
+        assert abs(one["relativeViscosity"] - two["relativeViscosity"]) < 1e-3, (one, two)
+    # At another shear rate images go on from where they are: the offset is that of the strain, whatever the rate.
+    physical = prepared(folder / "physical", {**case, "constant/flow.yaml": "type: leesEdwards\nCa: 0.3\n", "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n"})
+    run(physical, "dmpFlow", "-set", "system/control.yaml:/endStrain=0.5")
+    run(physical, "dmpFlow", "-set", "constant/flow.yaml:/Ca=0.15", ranks=2)
+    said = subprocess.run(["h5dump", "-d", "data/imageOffset", "-y", "-w", "0", last_checkpoint(physical)], capture_output=True, text=True, check=True).stdout
+    offset = float(said.split("DATA {")[1].split(",")[0])
+    strain = table(physical, "blood", "suspension.csv")[-1]["strain"]
+    turns = (8.4e-6 * strain - offset) / 11.2e-6
+    assert abs(turns - round(turns)) < 1e-9 and abs(offset) <= 5.6e-6, (strain, offset)
+
+
+def test_refused(folder):
+    """What such a box cannot do yet, and keys that do not fit it."""
+    def refused(words, code=2, **changes):
+        said = run(make(folder / "refused", CASE, **changes), "membraneMesh", code=code).stderr
+        assert words in said, f"{words} is not in\n{said}"
+
+    flow = CASE["constant/flow.yaml"]
+    refused("found leesEdwards, whose periodic images slide; rigid bodies are not possible with them yet", **{
+        "system/mesh.yaml": CASE["system/mesh.yaml"] + "bodies: [{name: bead, shape: {type: sphere, radius: 1 um}, edge: 0.5 um, centre: [4 um, 0 um, -2 um]}]\n",
+        "constant/bodies.yaml": "bead: {motion: free}\n"})
+    refused("found velocityVerlet, which does not know periodic images that slide; write 'integrator: implicit'", **{
+        "constant/contact.yaml": CASE["constant/contact.yaml"],
+        "system/numerics.yaml": CASE["system/numerics.yaml"].replace("integrator: implicit", "integrator: velocityVerlet").replace("implicit: {step: 0.05, tolerance: 1e-5, error: 1}\n", "")})
+    refused("axis z is not periodic and has no walls", **{"system/mesh.yaml": CASE["system/mesh.yaml"].replace("[true, true, true]", "[true, true, false]")})
+    refused("walls", **{"constant/flow.yaml": flow + "walls: {normal: z}\n"})
+    refused("gradient", **{"constant/flow.yaml": flow + "gradient: x\n"})
+    refused("wallStress", **{"system/observers.yaml": "wall: {type: wallStress, every: 0.1 strain}\n"})
+    refused("Did you mean 'leesEdwards'", **{"constant/flow.yaml": flow.replace("leesEdwards", "LeesEdwards")})
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as temporary:
+        globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
+    print("passed")
