@@ -109,6 +109,9 @@ void Operators<Real>::sortBlocks(const ParticleSystem& system, HasStress&& hasSt
         sort(list.blocks(static_cast<particles::PairList::Group>(g)), groups_[g]);
     for (auto [from, to] : {std::pair{&shared_.reaching(), &reaching_}, std::pair{&shared_.rest(), &rest_}})
         sort(from->away, to->away), sort(from->atWall, to->atWall);
+    // A particle whose image meets a stress need not be in such a block itself: the earlier block takes both.
+    for (std::size_t g = n; g < all; ++g)
+        if (const std::size_t own = shared_.entry(static_cast<int>(g - n)); touched[g] && own < n) touched[own] = 1;
 
     touched_.clear(), place_.assign(n, -1);
     for (std::size_t k = 0; k < all; ++k) {

@@ -184,6 +184,52 @@ TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
     }
 }
 
+// A more viscous piece that comes near a periodic face and does not reach across it, at both ends of each axis: what is
+// beyond the face meets its stress through images alone. Forces balance, and the operator is symmetric.
+TEST(TwoFluids, actThroughPeriodicFacesFromOneSide) {
+    const Index3 size{11, 11, 11};
+    FluidModel fluid = model("wendlandC2");
+    const auto number = [](std::int64_t id, int k, double seed) {
+        return std::sin(seed * (static_cast<double>(id) + 1) * (k + 1.3));
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool atEnd : {false, true}) {
+            ParticleSystem system(MPI_COMM_WORLD, cube(size), {.viscosity = true}, support, 0, 1.0);
+            std::vector<Particle> all = lattice(size, 0.2);
+            for (Particle& p : all) {
+                const double d = atEnd ? 11 - p.x[axis] : p.x[axis];  // from the face
+                p.viscosity = fluid.viscosity * (d > 0.6 && d < 3 && std::abs(p.x[(axis + 1) % 3] - 5.5) < 2 ? 5 : 1);
+                p.density = p.mass = 1;
+            }
+            deal(all, system);
+            const ParticleStore& s = system.store();
+            Operators<double> operators(fluid, system, corrected);
+            operators.build(system);
+            operators.setInside(system, insideByCentre(s, fluid.viscosity));
+            typename Operators<double>::Field field[2];
+            std::vector<Vec3> force[2];
+            for (int f = 0; f < 2; ++f) {
+                field[f].assign(4 * s.size(), 0.0);
+                for (std::size_t i = 0; i < s.size(); ++i)
+                    for (int k = 0; k < 3; ++k)
+                        field[f][4 * i + static_cast<std::size_t>(k)] = number(s.id[i], k, f == 0 ? 1.7 : 2.9);
+                operators.apply(system, field[f], [](std::size_t, double D) { return -3 * D; });
+                for (std::size_t i = 0; i < s.size(); ++i)
+                    force[f].push_back(Vec3::Map(operators.force().data() + 4 * i));
+            }
+            double cross[2] = {0, 0}, size2 = 0;
+            Vec3 total = Vec3::Zero();
+            for (std::size_t i = 0; i < s.size(); ++i) {
+                for (std::size_t f = 0; f < 2; ++f) cross[f] += Vec3::Map(field[f].data() + 4 * i).dot(force[1 - f][i]);
+                total += force[0][i], size2 += force[0][i].squaredNorm();
+            }
+            for (double* value : {&cross[0], &cross[1], &size2, &total[0], &total[1], &total[2]})
+                *value = sumOverRanks(*value);
+            EXPECT_NEAR(cross[0], cross[1], 1e-11 * size2) << "axis " << axis << (atEnd ? ", end" : ", beginning");
+            EXPECT_LT(total.norm(), 1e-11 * std::sqrt(size2)) << "axis " << axis << (atEnd ? ", end" : ", beginning");
+        }
+}
+
 // Two layers on a lattice: the force on a column of particles across the jump, over its area. What turns rigidly feels
 // none, though Morris' sum alone would hold it back with that of a velocity of the same gradient along the jump only;
 // nor does a shear flow of one stress.
