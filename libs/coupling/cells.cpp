@@ -43,9 +43,8 @@ bool touches(const ParticleSystem& system, const Vec3& low, const Vec3& high, co
     const int k = period.slidingAxis();
     if (k < 0) return touchesPlainly(system.box(), low, high, brick, k);
     const double length = period.lengths()[k];
-    const int first = static_cast<int>(std::ceil((brick.low[k] - high[k]) / length)),
-              last = static_cast<int>(std::floor((brick.high[k] - low[k]) / length));
-    for (int n = first; n <= last; ++n) {
+    const double last = std::floor((brick.high[k] - low[k]) / length);
+    for (double n = std::ceil((brick.low[k] - high[k]) / length); n <= last; ++n) {
         const Vec3 by = n * period.offset();
         if (touchesPlainly(system.box(), low + by, high + by, brick, k)) return true;
     }

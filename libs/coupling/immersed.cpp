@@ -1,6 +1,7 @@
 #include "coupling/immersed.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -88,12 +89,16 @@ void Immersed::wrapCells() {
     const Periodicity& period = system_.periodicity();
     for (Cell& cell : cells_) {
         membrane::Membrane& m = cell.membrane;
-        const Vec3 centre = geometry::boundsOf(m.position).center();
-        Vec3 inside = centre, slide = Vec3::Zero();
-        period.wrap(inside, slide);
-        if (inside[period.slidingAxis()] == centre[period.slidingAxis()]) continue;
-        for (Vec3& x : m.position) x += inside - centre;
-        for (Vec3& v : m.velocity) v += slide;
+        Vec3 mean = Vec3::Zero();
+        for (const Vec3& x : m.position) mean += x / static_cast<double>(m.position.size());
+        const int k = period.slidingAxis();
+        const double periods = -std::floor((mean[k] - system_.box().low[k]) / period.lengths()[k]);
+        if (periods == 0) continue;
+        Index3 across{};
+        across[static_cast<std::size_t>(k)] = static_cast<int>(periods);
+        const Periodicity::Image image = period.image(across);
+        for (Vec3& x : m.position) x += image.shift;
+        for (Vec3& v : m.velocity) v += image.slide;
     }
 }
 

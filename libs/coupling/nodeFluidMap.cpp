@@ -34,7 +34,8 @@ void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f)
     const particles::Brick& brick = system.decomposition().own();
     const Vec3 inside = periodicity.wrap(x);
     int images[3];
-    for (int k = 0; k < 3; ++k) images[k] = periodicity.isAlong(k) ? 1 : 0;
+    const auto most = [&](int k) { return periodicity.slides() && k != periodicity.slidingAxis() ? 2 : 1; };
+    for (int k = 0; k < 3; ++k) images[k] = periodicity.isAlong(k) ? most(k) : 0;
     for (int a = -images[0]; a <= images[0]; ++a)
         for (int b = -images[1]; b <= images[1]; ++b)
             for (int c = -images[2]; c <= images[2]; ++c) {

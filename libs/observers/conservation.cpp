@@ -125,7 +125,9 @@ std::vector<io::Column> columnsOf(const SceneParts& parts) {
         {"density_min", "", "least density of the fluid's particles over the density at rest"},
         {"density_max", "", "greatest density of the fluid's particles over the density at rest"},
         {"kineticEnergy", "J", "kinetic energy of fluid and membranes, sum m u^2/2, and of rigid bodies"}};
-    addVector(columns, "momentum", "Ns", "component of the momentum of the same; walls and body force change it");
+    addVector(columns, "momentum", "Ns",
+              "component of the momentum of the same; walls, body force and "
+              "particles that cross faces whose images slide change it");
     columns.push_back({"particles", "", "particles of all kinds"});
     if (!parts.cells.empty())
         columns.insert(columns.end(),

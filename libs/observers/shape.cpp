@@ -125,7 +125,8 @@ struct ShapeObserver : Observer {
             {"height", "m", "extent H at right angles to it in the section"},
             {"width", "m", "extent along the vorticity axis"}};
         addVector(columns, "centroid", "m",
-                  "coordinate of the centroid of the enclosed volume, not wrapped into the box");
+                  "coordinate of the centroid of the enclosed volume, not wrapped into the box (across faces whose "
+                  "images slide it is)");
         std::vector<Table> all;
         for (const std::string& type : parts.cells) all.push_back({type, cellTable(columns)});
         return all;

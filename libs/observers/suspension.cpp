@@ -109,8 +109,9 @@ class SuspensionObservation : public Observation {
         const double volume = surface.volume();
         Vec3 mean = Vec3::Zero();
         for (const Vec3& u : cell.membrane.velocity) mean += u;
-        Vec3::Map(out + place) = scene.system->periodicity().wrap(surface.centroid());
-        Vec3::Map(out + velocity) = mean / static_cast<double>(cell.membrane.velocity.size());
+        Vec3 x = surface.centroid(), u = mean / static_cast<double>(cell.membrane.velocity.size());
+        scene.system->periodicity().wrap(x, u);
+        Vec3::Map(out + place) = x, Vec3::Map(out + velocity) = u;
         const Eigen::SelfAdjointEigenSolver<Mat3> principal(surface.inertia());
         const Vec3& I = principal.eigenvalues();  // ascending: the first of them about the longest axis
         Vec3 n = principal.eigenvectors().col(2);

@@ -35,16 +35,14 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
         if (b.low[0] <= b.high[0]) all.include(b.low), all.include(b.high);
 
     int images[3];
-    for (int k = 0; k < 3; ++k) {
-        if (!periodicity.isAlong(k)) {
-            images[k] = 0;
-            continue;
+    for (int k = 0; k < 3; ++k)
+        images[k] = periodicity.isAlong(k) ? static_cast<int>(std::ceil(reach / periodicity.lengths()[k])) : 0;
+    if (periodicity.slides())  // images lie off by half a period at most for each period across
+        for (int k = 0; k < 3; ++k) {
+            if (!periodicity.isAlong(k) || k == periodicity.slidingAxis()) continue;
+            const double length = periodicity.lengths()[k], off = 0.5 * images[periodicity.slidingAxis()] * length;
+            images[k] = static_cast<int>(std::ceil((reach + off) / length));
         }
-        const double length = periodicity.lengths()[k], least = std::ceil(reach / length);
-        // Those that slide lie off by half a period at most for each period across.
-        const double off = periodicity.slides() && k != periodicity.slidingAxis() ? 0.5 * least * length : 0;
-        images[k] = static_cast<int>(std::max(least, std::ceil((reach + off) / length)));
-    }
 
     images_.clear(), sendIndex_.clear(), sendImage_.clear(), sends_.clear(), receives_.clear();
     std::vector<int> sendCounts(static_cast<std::size_t>(size), 0), receiveCounts(static_cast<std::size_t>(size), 0);

@@ -191,9 +191,8 @@ void checkDomain(const Case& c, Problems& problems) {
                              "' has walls across it; write false for this axis");
         if (!hasWalls && !c.mesh.domain.periodic[axis])
             problems.add(mesh, "domain.periodic",
-                         std::string("axis ") + axisName(k) +
-                             " is not periodic and has no walls; write true, "
-                             "or give the flow walls across it in constant/flow.yaml");
+                         std::string("axis ") + axisName(k) + " is not periodic and has no walls; write true" +
+                             (c.flowModel->walls() ? ", or give the flow walls across it in constant/flow.yaml" : ""));
         const double n = c.mesh.domain.size[k] / c.spacing();
         if (!(std::abs(c.latticeSpacing()[k] / c.spacing() - 1) <= 1e-3))
             problems.add(

@@ -19,6 +19,10 @@ std::vector<double> localMean(particles::ParticleSystem& system, const Kernel& k
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records.data() + fields * i;
         frame.position(i, r);
+        if (system.periodicity().slides()) {  // lists are of places from which particles have been wrapped since
+            const Vec3 x = s.position(i), built(s.xBuilt[i], s.yBuilt[i], s.zBuilt[i]);
+            Vec3::Map(r) += (system.periodicity().nearest(x, built) - x) / system.support();
+        }
         r[3] = (s.optional().mass ? s.mass[i] : mass) / s.density[i] * unitVolume;
         r[4] = values[i];
         r[5] = !isFluid(i) ? noSide : s.optional().side ? static_cast<double>(s.side[i]) : 0;

@@ -73,6 +73,15 @@ with tempfile.TemporaryDirectory() as temporary:
         near(found["u_m_s", z]["mean"], z * z, 0.005)
     assert ("n", 3.0) not in found and found["n", 1.0]["standardError"] == 0
 
+    near(averages(case, "blood/suspension", "-to", "50 strain")[0]["from"], 25, 0.1)  # half of what is before it
+    table(case, "mean/poiseuille", "time_s,strain,u_m_s", [(0.1 * k, 0, k) for k in range(101)])
+    result, found = averages(case, "mean/poiseuille")
+    assert (result["along"], result["times"]) == ("time_s", 51) and found["u_m_s",]["mean"] == 75, result
+    # A constant but for rounding has no error to speak of, however few values there are.
+    table(case, "blood/few", "time_s,volume_m3,n", [(0.1 * k, 1e-16 * (1 + 1e-13 * (-1) ** k), k % 3) for k in range(4)])
+    found = averages(case, "blood/few", "-from", "0 s")[1]
+    assert found["volume_m3",]["isReliable"] and not found["n",]["isReliable"], found
+
     run(case, "blood/suspension", "-from", "10", code=1, says=["-from", "'10'", "5 strain"])
     run(case, "blood/suspension", "-from", "1 um", code=1, says=["1 um"])
     run(case, "blood/suspension", "-from", "3000 strain", code=1, says=["no row", "200.03"])

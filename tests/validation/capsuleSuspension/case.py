@@ -4,6 +4,7 @@ import pathlib
 import statistics
 
 from membranes import settings
+from restingShapes.axisymmetric import solve
 from suite import Figure, Plot, Run, relative, worst
 from summary import series
 
@@ -45,17 +46,9 @@ def viscosity(folder):
 
 
 def polynomial(points, degree):
-    """Least squares of (mu_r - 1)/phi = sum_k c_k phi^k over (phi, mu_r - 1), by normal equations."""
-    size = degree + 1
-    rows = [[sum(phi ** (i + j) for phi, _ in points) for j in range(size)] + [sum(value / phi * phi**i for phi, value in points)] for i in range(size)]
-    for i in range(size):
-        for k in range(i + 1, size):
-            factor = rows[k][i] / rows[i][i]
-            rows[k] = [a - factor * b for a, b in zip(rows[k], rows[i])]
-    found = [0.0] * size
-    for i in reversed(range(size)):
-        found[i] = (rows[i][size] - sum(rows[i][j] * found[j] for j in range(i + 1, size))) / rows[i][i]
-    return found
+    """Least squares of (mu_r - 1)/phi = sum_k c_k phi^k over (phi, mu_r - 1)."""
+    powers = range(degree + 1)
+    return solve([[sum(phi ** (i + j) for phi, _ in points) for j in powers] for i in powers], [sum(value / phi * phi**i for phi, value in points) for i in powers])
 
 
 def figures(done, n):
@@ -83,9 +76,10 @@ def ofViscosity(done, n):
 
 
 def curves(done):
-    points = [viscosity(done[label(fraction)]) for fraction in CAPSULES if label(fraction) in done]
-    fit = polynomial([point[:2] for point in points], 1)
+    points = [viscosity(folder)[:2] for folder in done.values() if table(folder)[-1]["strain"] > STEADY]
     phis = [0.01 * k for k in range(1, 42)]
-    return Plot("phi", "mu_r", [("suspension", [phi for phi, *_ in points], [1 + value for _, value, _ in points])],
-                [("quadratic fit", phis, [1 + fit[0] * phi + fit[1] * phi**2 for phi in phis]), ("dilute limit", phis, [1 + DILUTE * phi for phi in phis])],
-                ["set key top left"])
+    lines = [("dilute limit", phis, [1 + DILUTE * phi for phi in phis])]
+    if len(points) == len(CAPSULES):
+        first, second = polynomial(points, 1)
+        lines.append(("quadratic fit", phis, [1 + first * phi + second * phi**2 for phi in phis]))
+    return Plot("phi", "mu_r", [("suspension", [phi for phi, _ in points], [1 + value for _, value in points])], lines, ["set key top left"])

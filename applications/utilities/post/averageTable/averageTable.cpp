@@ -21,6 +21,7 @@ using namespace corpuscle;
 namespace {
 
 constexpr double tolerable = 0.01;  // part of an interval by which rows may be off even steps
+constexpr double rounding = 1e-9;   // of a mean: values that differ by less are the same
 
 Usage usage() {
     return {.options = {{"from", "TIME", "Where averaging starts, a time or a strain; half of the run without it."},
@@ -85,7 +86,13 @@ struct Selection {
 Selection select(const io::CsvTable& table, const std::string& name, std::optional<Moment> from,
                  std::optional<Moment> to, const std::vector<std::string>& wanted) {
     Selection s;
-    s.along = from ? from->column : has(table, "strain") ? "strain" : "time_s";
+    // A flow without shear has a strain of 0 throughout.
+    const auto isStrained = [&] {
+        if (!has(table, "strain")) return false;
+        const std::vector<double> strain = table.column("strain");
+        return !strain.empty() && strain.back() != strain.front();
+    };
+    s.along = from ? from->column : to ? to->column : isStrained() ? "strain" : "time_s";
     for (const auto& moment : {from, to})
         if (moment && !has(table, moment->column))
             throw Failure(ExitCode::usage, fmt::format("{} has no column '{}': give -from and -to as a {}", name,
@@ -103,7 +110,8 @@ Selection select(const io::CsvTable& table, const std::string& name, std::option
     const std::vector<double> along = table.column(s.along), time = table.column("time_s"),
                               last = table.column(to ? to->column : s.along);
     if (along.empty()) throw Failure(ExitCode::io, fmt::format("{} has no rows", name));
-    s.from = from ? from->value : 0.5 * (along.front() + along.back());
+    const double end = to && to->column == s.along ? std::min(to->value, along.back()) : along.back();
+    s.from = from ? from->value : 0.5 * (along.front() + end);
     const std::vector<double> keys = s.key.empty() ? std::vector<double>{} : table.column(s.key);
     std::vector<double> moments;
     std::map<double, long> rows;  // of a place at this time
@@ -203,7 +211,8 @@ int main(int argc, char* argv[]) {
                 if (series.empty()) continue;
                 ++finite;
                 const BlockAverage average = blockAverage(series);
-                const bool isReliable = average.isReliable && series.size() == all;
+                const bool isConstant = average.error <= rounding * std::abs(average.mean);
+                const bool isReliable = (average.isReliable || isConstant) && series.size() == all;
                 doubtful += isReliable ? 0 : 1;
                 app.log().info("{}{:<{}}  {:>13.6g}  {:>14.3g}  {:>18.1f}{}",
                                isByPlace ? fmt::format("{:<13.6g}  ", place) : "", column, width, average.mean,
