@@ -21,6 +21,7 @@ READER_ONLY = [re.compile(p) for p in (
     r"only decimal numbers are read",                          # 0x10 and 0o17 are 16 and 15 to YAML
     r"not a finite number",                                    # .nan
     r"beyond what can be computed with",                       # 1e-101, where both signs are allowed
+    r"'1e-400' is not a whole number",                         # but 0 to YAML, which is one
     r"stands twice|a blank is missing after",                  # of the text, before there is data
     r"that of 'cell'",                                         # of a ready cell, which is put in before a case is read
     r"has no law that resists shear", r"the zero vector", r"needs at least one value", r"an even number", r"all zero",
