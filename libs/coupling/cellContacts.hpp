@@ -27,7 +27,7 @@ class CellContacts {
     struct Way {
         NodeVectors displacement;  // [m]
         double seconds = 0;        // that it takes
-        double ago = 0;            // how long ago it began [s]; negative or 0: not yet
+        double ago = 0;            // how long ago it began [s]; 0: it begins now
     };
 
     // walls: of the fluid; they must stay where they are.

@@ -12,7 +12,8 @@ using particles::ParticleSystem;
 namespace {
 
 // Lists of contact hold for the rest of a step and the way to where the next one takes its forces, which may be twice
-// as long: in ways from the beginning of a step to there.
+// as long: in ways from the beginning of a step to there. Where images of the box slide, they have moved by then, and
+// that way has lists of its own.
 constexpr double waysAhead = 3;
 
 std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidModel& model,

@@ -1,8 +1,8 @@
 // Simple shear without walls: the periodic images of the box slide past each other (Lees and Edwards),
 //     u = gammadot s e_x,   s the coordinate along `gradient` from the middle,
 //         the next image along it, at x + L e_s + gammadot L t e_x, moves with u + gammadot L e_x
-// A box of a shear flow that fills all of space: what a suspension does by itself, without walls. The mean velocity is
-// that of the start, 0, as long as no force acts from outside.
+// The box stands for an unbounded suspension, without the effects of walls. The mean velocity stays that of the start,
+// 0, unless an external force acts.
 //
 // Lees, Edwards 1972, J. Phys. C 5, 1921.
 #pragma once
