@@ -8,6 +8,7 @@
 // image chosen by its distance from one point of the surface, its centroid or middle, is another one wherever the
 // surface reaches further than half a period from there.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -64,10 +65,8 @@ class Periodicity {
     }
     // The coordinate of x along one axis, inside the box. Nothing that slides.
     double wrap(double x, int k) const {
-        const double low = low_[k], high = high_[k];
-        if (!isAlong(k) || (x >= low && x < high)) return x;
-        x -= length_[k] * std::floor((x - low) / length_[k]);
-        return x < high ? x : low;  // rounding may land on the upper face
+        if (!isAlong(k) || isInside(x, k)) return x;
+        return std::max(x - length_[k] * periodsTo(x, k), low_[k]);
     }
 
     // The image of x that is nearest to `to`; the bits of x where it is x itself. Where the box slides, nearest along
@@ -107,6 +106,14 @@ class Periodicity {
     }
 
   private:
+    bool isInside(double x, int k) const { return x >= low_[k] && x < high_[k]; }
+    // Whole periods from the box to x. 0 for what lies so little below the box that rounding puts its image on the
+    // upper face: it belongs to the lower one, and an image that slides would have taken the offset for nothing.
+    double periodsTo(double x, int k) const {
+        if (isInside(x, k)) return 0;
+        const double periods = std::floor((x - low_[k]) / length_[k]);
+        return x - length_[k] * periods < high_[k] ? periods : periods + 1;
+    }
     // f(k) for the periodic axes, the sliding one first: what moves along the others is known only after it.
     template <class F>
     void inOrder(F&& f) const {
@@ -118,7 +125,7 @@ class Periodicity {
     void wrap(Vec3& x, F&& slid) const {
         if (slides()) {
             const int k = sliding_;
-            const double periods = std::floor((x[k] - low_[k]) / length_[k]);
+            const double periods = periodsTo(x[k], k);
             if (periods != 0) x -= periods * offset_, slid(-periods);
         }
         for (int k = 0; k < 3; ++k) x[k] = wrap(x[k], k);

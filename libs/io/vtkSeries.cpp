@@ -137,7 +137,8 @@ Cells VtkSeries::agreeOnCells(const PolyData& piece) const {
 void VtkSeries::writeIndex() const { writePvd(results_ / (stream_ + ".pvd"), entries_); }
 
 void VtkSeries::write(double time, std::optional<double> strain, const PolyData& piece) {
-    std::map<std::string, double> field{{"TimeValue", time}};
+    std::map<std::string, double> field = piece.field;
+    field["TimeValue"] = time;
     if (strain) field["strain"] = *strain;
     start();
     const std::string name = stepName(number_);

@@ -63,13 +63,23 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
             pressures.push_back(model.equationOfState->pressure(s.density[i], model.density, model.soundSpeed));
     if (meanPressure) means = sph::localMean(*scene.system, *model.kernel, model.mass, pressures);
     auto& spacing = data.point.scalars["spacing"];
+    const Periodicity& periodicity = scene.system->periodicity();
+    if (periodicity.slides()) {
+        Index3 next{0, 0, 0};
+        next[static_cast<std::size_t>(periodicity.slidingAxis())] = 1;
+        data.field = {{"slidingAxis", periodicity.slidingAxis()},
+                      {"imageOffset", periodicity.offset().x()},
+                      {"imageVelocity", periodicity.image(next).slide.x()}};
+    }
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;
-        data.points.push_back(scene.system->periodicity().wrap(s.position(i)));
+        Vec3 x = s.position(i), u = s.velocity(i);
+        periodicity.wrap(x, u);
+        data.points.push_back(x);
         id.push_back(s.id[i]);
         spacing.push_back(scene.spacing);
         if (side) side->push_back(s.optional().side ? s.side[i] : 0);
-        if (velocity) velocity->push_back(s.velocity(i));
+        if (velocity) velocity->push_back(u);
         if (density) density->push_back(s.density[i]);
         if (pressure) pressure->push_back(pressures[i]);
         if (meanPressure) meanPressure->push_back(means[i]);

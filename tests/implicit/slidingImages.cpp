@@ -125,7 +125,7 @@ struct CellInShear {
     coupling::Scene scene;
     std::unique_ptr<ImplicitStep> step;
 
-    explicit CellInShear(double up)
+    explicit CellInShear(double up, double bondStrain = ImplicitSettings{}.bondStrain)
         : scene(
               SphereScene({10, 9, 10}, {{5.1, 4.4, 4.7}}, true).immersedScene(rate, [](const Vec3& d) { return d; })) {
         scene.forces = std::make_unique<sph::FluidForces>(fluid(1), *scene.system);
@@ -144,6 +144,7 @@ struct CellInShear {
         scene.system->rebuild();
         ImplicitStep::Options options;
         options.settings = {.step = 0.05, .tolerance = 1e-7};
+        options.settings.bondStrain = bondStrain;
         options.shifting = 1;
         step = ImplicitStep::make(scene, options);
     }
@@ -180,4 +181,27 @@ TEST(SlidingImages, aCellOnTheFacesDeformsAsOneInTheMiddle) {
         EXPECT_NEAR(drift[2], across2 * CellInShear::length, 1e-4);
     }
     EXPECT_GT(sph::testing::sumOverRanks(seen), 0);
+}
+
+// The attempt has moved images, particles that passed the faces, and their velocities.
+TEST(SlidingImages, aStepThatFailsPutsEverythingBack) {
+    constexpr double up = 0.5 * CellInShear::length, bondStrain = 0.04;  // by the shear: 0.025 in a step of 0.05
+    CellInShear failing(up, bondStrain), parts(up, bondStrain);
+    for (int k = 0; k < 10; ++k) failing.step->advance(0.05 / rate), parts.step->advance(0.05 / rate);
+    ASSERT_EQ(failing.step->statistics.halvings, 0);
+    for (int k = 0; k < 5; ++k) {
+        failing.step->advance(0.1 / rate);
+        parts.step->damped = true;  // as the halves of a step are
+        for (int half = 0; half < 2; ++half) parts.step->advance(0.05 / rate);
+    }
+    EXPECT_EQ(failing.step->statistics.halvings, 5);
+    EXPECT_EQ(parts.step->statistics.halvings, 0);
+    EXPECT_NEAR(failing.scene.system->periodicity().offset()[0], 0, 1e-9) << "of 10, in a period of 10";
+    EXPECT_EQ(failing.scene.system->periodicity().offset(), parts.scene.system->periodicity().offset());
+    for (const coupling::Cell& cell : failing.scene.cells) {
+        const coupling::Cell* const other = parts.scene.cells.find(cell.membrane.cell);
+        ASSERT_TRUE(other);
+        for (std::size_t n = 0; n < cell.membrane.position.size(); ++n)
+            ASSERT_LT((cell.membrane.position[n] - other->membrane.position[n]).norm(), 1e-6) << "node " << n;
+    }
 }

@@ -244,6 +244,24 @@ TEST_F(RenderCase, TheSliceOfALinearFlowIsExact) {
     EXPECT_NE(outside.text.find("the box reaches from -6 um to 6 um"), std::string::npos) << outside.text;
 }
 
+// A linear pressure and a shear flow that are the same in all images, if these have their offset and their velocity.
+TEST_F(RenderCase, TheSliceKnowsThatImagesSlide) {
+    TemporaryFolder sheared;
+    writeCase(sheared.path());
+    writeBox(sheared.path(), "[16 um, 4 um, 12 um]", "[false, true, true]");
+    constexpr double offset = 3.3e-6, height = 12e-6;
+    PolyData fluid = shearedFluid();
+    fluid.field = {{"slidingAxis", 2}, {"imageOffset", offset}, {"imageVelocity", 100 * height}};
+    for (const Vec3& x : fluid.points) fluid.point.scalars["pressure"].push_back(1e6 * (x[0] - offset / height * x[2]));
+    writeVtp(sheared.path() / "0" / "fluid.vtp", fluid);
+    const auto pressure = drawIn(sheared.path(), "-fluid -fluidField pressure -strain 0 -view xz -size 400");
+    EXPECT_NEAR(pressure["fluid"]["high"].get<double>(), 8 + offset / height * 6, 1e-9);
+    EXPECT_NEAR(pressure["fluid"]["low"].get<double>(), -8 - offset / height * 6, 1e-9);
+    const auto velocity = drawIn(sheared.path(), "-fluid -fluidField u -strain 0 -view xz -size 400");
+    EXPECT_NEAR(velocity["fluid"]["high"].get<double>(), 100 * 6e-6, 1e-9);
+    EXPECT_NEAR(velocity["fluid"]["low"].get<double>(), -100 * 6e-6, 1e-9);
+}
+
 // A cell that has gone round and round in a periodic box, in a flow that has no strain.
 TEST_F(RenderCase, CellsAreDrawnInTheBoxAndLabelledByTime) {
     TemporaryFolder channel;

@@ -81,62 +81,65 @@ struct Selection {
     double from = 0, to = 0, interval = 0;  // in the column `along`
     std::string along, key;
     std::size_t times = 0;
+
+    const char* alongWord() const { return along == "strain" ? "strain" : "time"; }
 };
 
-Selection select(const io::CsvTable& table, const std::string& name, std::optional<Moment> from,
-                 std::optional<Moment> to, const std::vector<std::string>& wanted) {
-    Selection s;
-    // A flow without shear has a strain of 0 throughout.
-    const auto isStrained = [&] {
-        if (!has(table, "strain")) return false;
-        const std::vector<double> strain = table.column("strain");
-        return !strain.empty() && strain.back() != strain.front();
-    };
-    s.along = from ? from->column : to ? to->column : isStrained() ? "strain" : "time_s";
+// The column in which the range is said: that of -from or -to, else the strain, unless a flow without shear has none.
+std::string alongOf(const io::CsvTable& table, const std::string& name, const std::optional<Moment>& from,
+                    const std::optional<Moment>& to) {
     for (const auto& moment : {from, to})
         if (moment && !has(table, moment->column))
             throw Failure(ExitCode::usage, fmt::format("{} has no column '{}': give -from and -to as a {}", name,
                                                        moment->column, moment->column == "strain" ? "time" : "strain"));
-    s.key = keyOf(table);
+    if (from) return from->column;
+    if (to) return to->column;
+    if (!has(table, "strain")) return "time_s";
+    const std::vector<double> strain = table.column("strain");
+    return !strain.empty() && strain.back() != strain.front() ? "strain" : "time_s";
+}
+
+std::vector<std::string> columnsOf(const io::CsvTable& table, const std::string& name, const std::string& key,
+                                   const std::vector<std::string>& wanted) {
+    std::vector<std::string> columns;
     for (const std::string& column : table.columns)
-        if (column != "time_s" && column != "strain" && column != s.key) s.columns.push_back(column);
-    if (!wanted.empty()) {
-        for (const std::string& column : wanted)
-            if (std::find(s.columns.begin(), s.columns.end(), column) == s.columns.end())
-                throw Failure(ExitCode::usage, fmt::format("-columns: found '{}'; {} has {}.{}", column, name,
-                                                           joinWords(s.columns), didYouMean(column, s.columns)));
-        s.columns = wanted;
-    }
-    const std::vector<double> along = table.column(s.along), time = table.column("time_s"),
-                              last = table.column(to ? to->column : s.along);
-    if (along.empty()) throw Failure(ExitCode::io, fmt::format("{} has no rows", name));
-    const double end = to && to->column == s.along ? std::min(to->value, along.back()) : along.back();
-    s.from = from ? from->value : 0.5 * (along.front() + end);
-    const std::vector<double> keys = s.key.empty() ? std::vector<double>{} : table.column(s.key);
-    std::vector<double> moments;
-    std::map<double, long> rows;  // of a place at this time
-    const double margin = 1e-9 * std::abs(along.back());
+        if (column != "time_s" && column != "strain" && column != key) columns.push_back(column);
+    for (const std::string& column : wanted)
+        if (std::find(columns.begin(), columns.end(), column) == columns.end())
+            throw Failure(ExitCode::usage, fmt::format("-columns: found '{}'; {} has {}.{}", column, name,
+                                                       joinWords(columns), didYouMean(column, columns)));
+    return wanted.empty() ? columns : wanted;
+}
+
+// Adds the rows that `isWanted` to the series, cells of one time together. Returns the times, in the column `along`.
+template <class IsWanted>
+std::vector<double> addRows(Selection& s, const io::CsvTable& table, IsWanted&& isWanted) {
+    const std::vector<double> along = table.column(s.along), time = table.column("time_s");
+    const bool isByPlace = !s.key.empty() && s.key != "cell";
+    const std::vector<double> places = isByPlace ? table.column(s.key) : std::vector<double>(along.size());
     std::map<std::string, std::vector<double>> values;
     for (const std::string& column : s.columns) values[column] = table.column(column);
+    std::vector<double> moments;
+    std::map<double, long> rows;  // of a place at this time
     for (std::size_t row = 0; row < along.size(); ++row) {
-        if (along[row] < s.from - margin || (to && last[row] > to->value * (1 + 1e-9))) continue;
-        if (moments.empty() || time[row] != time[row - 1] || rows.empty()) moments.push_back(along[row]), rows.clear();
-        const double place = s.key.empty() || s.key == "cell" ? 0 : keys[row];
-        const long before = rows[place]++;
+        if (!isWanted(row)) continue;
+        if (rows.empty() || time[row] != time[row - 1]) moments.push_back(along[row]), rows.clear();
+        const long before = rows[places[row]]++;
         for (const std::string& column : s.columns) {
-            std::vector<double>& series = s.series[place][column];
+            std::vector<double>& series = s.series[places[row]][column];
             if (before == 0)
                 series.push_back(values[column][row]);
             else  // mean over the cells
                 series.back() += (values[column][row] - series.back()) / static_cast<double>(before + 1);
         }
     }
-    if (moments.empty())
-        throw Failure(ExitCode::usage, fmt::format("no row of {} lies there; its {} goes from {} to {}", name,
-                                                   s.along == "strain" ? "strain" : "time", numberText(along.front()),
-                                                   numberText(along.back())));
+    return moments;
+}
+
+// Blocks are of equal lengths in time. A row that does not fit at the end is that of the end of the run: it is left
+// out.
+void setInterval(Selection& s, const std::string& name, const std::vector<double>& moments) {
     s.times = moments.size(), s.from = moments.front(), s.to = moments.back();
-    // Blocks are of equal lengths in time. A row that does not fit at the end is that of the end of the run.
     s.interval = moments.size() > 1 ? moments[1] - moments[0] : 0;
     for (std::size_t k = 1; k < moments.size(); ++k) {
         const double step = moments[k] - moments[k - 1];
@@ -144,15 +147,33 @@ Selection select(const io::CsvTable& table, const std::string& name, std::option
         if (k + 1 < moments.size())
             throw Failure(
                 ExitCode::usage,
-                fmt::format("rows of {} are not evenly spaced: after {} {} the interval is {} in place of {}; "
-                            "take -from and -to so that it is the same throughout",
-                            name, s.along == "strain" ? "strain" : "time", numberText(moments[k - 1]), numberText(step),
-                            numberText(s.interval)));
+                fmt::format("rows of {} are not evenly spaced: after {} {} the interval is {} in place of "
+                            "{}; take -from and -to so that it is the same throughout",
+                            name, s.alongWord(), numberText(moments[k - 1]), numberText(step), numberText(s.interval)));
         for (auto& [place, columns] : s.series)
             for (auto& [column, series] : columns)
                 if (series.size() == s.times) series.pop_back();
         --s.times, s.to = moments[k - 1];
     }
+}
+
+Selection select(const io::CsvTable& table, const std::string& name, const std::optional<Moment>& from,
+                 const std::optional<Moment>& to, const std::vector<std::string>& wanted) {
+    Selection s;
+    s.along = alongOf(table, name, from, to);
+    s.key = keyOf(table);
+    s.columns = columnsOf(table, name, s.key, wanted);
+    const std::vector<double> along = table.column(s.along), ends = table.column(to ? to->column : s.along);
+    if (along.empty()) throw Failure(ExitCode::io, fmt::format("{} has no rows", name));
+    const double end = to && to->column == s.along ? std::min(to->value, along.back()) : along.back();
+    const double begin = from ? from->value : 0.5 * (along.front() + end), margin = 1e-9 * std::abs(along.back());
+    const std::vector<double> moments = addRows(s, table, [&](std::size_t row) {
+        return along[row] >= begin - margin && (!to || ends[row] <= to->value * (1 + 1e-9));
+    });
+    if (moments.empty())
+        throw Failure(ExitCode::usage, fmt::format("no row of {} lies there; its {} goes from {} to {}", name,
+                                                   s.alongWord(), numberText(along.front()), numberText(along.back())));
+    setInterval(s, name, moments);
     return s;
 }
 

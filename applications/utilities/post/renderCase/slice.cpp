@@ -15,9 +15,18 @@ namespace {
 constexpr double reach = 2.2, near = 1.3;  // in spacings
 constexpr int mostPoints = 700;            // of the grid along an axis
 
+// What is shown of a particle, or of its image, whose velocity is greater by `slide`.
 struct Source {
-    std::vector<double> values;
+    std::vector<double> values;                     // empty: of the velocity
+    const std::vector<Vec3>* velocities = nullptr;  // where there are
+    int component = -1;                             // of the velocity; -1: its magnitude
     bool nearest = false;
+
+    Vec3 velocity(std::size_t i, const Vec3& slide) const { return (*velocities)[i] + slide; }
+    double value(std::size_t i, const Vec3& slide) const {
+        if (!values.empty()) return values[i];
+        return component < 0 ? velocity(i, slide).norm() : velocity(i, slide)[component];
+    }
 };
 
 Source sourceOf(const io::PolyData& fluid, const std::string& field) {
@@ -25,11 +34,12 @@ Source sourceOf(const io::PolyData& fluid, const std::string& field) {
     const auto velocity = arrays.vectors.find("velocity");
     const bool moves = velocity != arrays.vectors.end();
     Source source;
+    if (moves) source.velocities = &velocity->second;
     const std::string components = "uvw";
     if (moves && field.size() == 1 && components.find(field) != std::string::npos) {
-        for (const Vec3& v : velocity->second) source.values.push_back(v[static_cast<int>(components.find(field))]);
+        source.component = static_cast<int>(components.find(field));
     } else if (moves && (field == "speed" || field == "velocity")) {
-        for (const Vec3& v : velocity->second) source.values.push_back(v.norm());
+        source.component = -1;
     } else if (const auto scalars = arrays.scalars.find(field); scalars != arrays.scalars.end()) {
         source.values = scalars->second;
     } else if (const auto vectors = arrays.vectors.find(field); vectors != arrays.vectors.end()) {
@@ -53,12 +63,23 @@ double spacingOf(const io::PolyData& fluid, const Vec3& size) {
     return std::cbrt(size.prod() / static_cast<double>(fluid.points.size()));
 }
 
-// The particles, and images of those at periodic faces, near a plane, in squares of the reach.
+// With the images that the fluid's field data say how they slide.
+Periodicity periodicityOf(const io::PolyData& fluid, const particles::Box& box) {
+    Periodicity periodicity = box.periodicity();
+    const auto number = [&](const char* name) { return fluid.field.at(name); };
+    if (fluid.field.count("slidingAxis") != 0)
+        periodicity.slide(static_cast<int>(number("slidingAxis")), Vec3(number("imageOffset"), 0, 0),
+                          Vec3(number("imageVelocity"), 0, 0));
+    return periodicity;
+}
+
+// The particles and their images near a plane, in squares of the reach.
 class NearPlane {
   public:
     struct Particle {
         Vec3 x;
-        int source;
+        std::size_t source;
+        Vec3 slide;  // of the image's velocity
     };
 
     NearPlane(const io::PolyData& fluid, const particles::Box& box, const SlicePlane& plane, double h)
@@ -66,8 +87,16 @@ class NearPlane {
         columns_ = 1 + static_cast<int>((box.size()[plane.first()] + 2 * h) / h);
         rows_ = 1 + static_cast<int>((box.size()[plane.second()] + 2 * h) / h);
         squares_.resize(static_cast<std::size_t>(columns_) * rows_);
-        for (std::size_t i = 0; i < fluid.points.size(); ++i)
-            add(box.periodicity().wrap(fluid.points[i]), static_cast<int>(i), box, 0);
+        Vec3 low = box.low - Vec3::Constant(h), high = box.high + Vec3::Constant(h);
+        low[plane.axis] = plane.position - h, high[plane.axis] = plane.position + h;
+        const Periodicity periodicity = periodicityOf(fluid, box);
+        for (std::size_t i = 0; i < fluid.points.size(); ++i) {
+            const Vec3& x = fluid.points[i];
+            periodicity.forImagesWithin(x, low, high, [&](const Vec3& image) {
+                squares_[static_cast<std::size_t>(row(image)) * columns_ + column(image)].push_back(
+                    {image, i, periodicity.slideOf(x, image)});
+            });
+        }
     }
 
     template <class Visit>
@@ -81,24 +110,9 @@ class NearPlane {
     }
 
   private:
-    int column(const Vec3& x) const { return static_cast<int>(std::floor((x[plane_.first()] - x0_) / h_)); }
-    int row(const Vec3& x) const { return static_cast<int>(std::floor((x[plane_.second()] - y0_) / h_)); }
-    // The particle with its images along axis k and those after it.
-    void add(const Vec3& x, int source, const particles::Box& box, int k) {
-        if (k == 3) {
-            if (std::abs(x[plane_.axis] - plane_.position) > h_) return;
-            const int c = column(x), r = row(x);
-            if (c < 0 || c >= columns_ || r < 0 || r >= rows_) return;
-            squares_[static_cast<std::size_t>(r) * columns_ + c].push_back({x, source});
-            return;
-        }
-        add(x, source, box, k + 1);
-        if (!box.periodic[k]) return;
-        const double length = box.size()[k];
-        Vec3 image = x;
-        image[k] += x[k] < box.low[k] + h_ ? length : -length;
-        if (image[k] > box.low[k] - h_ && image[k] < box.high[k] + h_) add(image, source, box, k + 1);
-    }
+    int column(const Vec3& x) const { return std::min(square(x[plane_.first()] - x0_), columns_ - 1); }
+    int row(const Vec3& x) const { return std::min(square(x[plane_.second()] - y0_), rows_ - 1); }
+    int square(double distance) const { return std::max(static_cast<int>(std::floor(distance / h_)), 0); }
 
     SlicePlane plane_;
     double h_, x0_, y0_;
@@ -111,36 +125,33 @@ struct Fit {
     Vec3 velocity = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
-Fit fitAt(const Vec3& x, const NearPlane& particles, double dx, const Source& source,
-          const std::vector<Vec3>* velocity) {
+Fit fitAt(const Vec3& x, const NearPlane& particles, double dx, const Source& source, bool withVelocity) {
     const double h = reach * dx;
     Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
     Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // columns: value, velocity
     double closest = std::numeric_limits<double>::max();
-    int closestSource = -1;
+    Fit fit;
+    double closestValue = fit.value;
     particles.around(x, [&](const NearPlane::Particle& p) {
         const Vec3 d = (p.x - x) / h;
         const double q = d.norm();
         if (q < closest) {
             closest = q;
-            closestSource = p.source;
+            closestValue = source.value(p.source, p.slide);
         }
         if (q >= 1) return;
         const double w = std::pow(1 - q, 4) * (4 * q + 1);
         const Eigen::Vector4d basis(1, d[0], d[1], d[2]);
         moments += w * basis * basis.transpose();
-        sums.col(0) += w * basis * source.values[static_cast<std::size_t>(p.source)];
-        if (velocity)
-            for (int k = 0; k < 3; ++k)
-                sums.col(1 + k) += w * basis * (*velocity)[static_cast<std::size_t>(p.source)][k];
+        sums.col(0) += w * basis * source.value(p.source, p.slide);
+        if (withVelocity) sums.rightCols<3>() += w * basis * source.velocity(p.source, p.slide).transpose();
     });
-    Fit fit;
     if (closest * reach > near || moments(0, 0) <= 0) return fit;
     const Eigen::LDLT<Eigen::Matrix4d> solver(moments);
     const bool determined = solver.info() == Eigen::Success && solver.vectorD().minCoeff() > 1e-3 * moments(0, 0);
     const Eigen::Vector4d first = determined ? Eigen::Vector4d(solver.solve(sums).row(0).transpose())
                                              : Eigen::Vector4d(sums.row(0).transpose() / moments(0, 0));
-    fit.value = source.nearest ? source.values[static_cast<std::size_t>(closestSource)] : first[0];
+    fit.value = source.nearest ? closestValue : first[0];
     fit.velocity = first.tail<3>();
     return fit;
 }
@@ -158,8 +169,7 @@ Vec3 Slice::place(int column, int row) const {
 Slice sampleSlice(const io::PolyData& fluid, const std::optional<particles::Box>& box, const SlicePlane& plane,
                   const std::string& field, bool withVelocity) {
     const Source source = sourceOf(fluid, field);
-    const auto velocity = fluid.point.vectors.find("velocity");
-    if (withVelocity && velocity == fluid.point.vectors.end())
+    if (withVelocity && !source.velocities)
         throw Failure(ExitCode::usage, "-arrows: the fluid has no array 'velocity'; add it to write.fields.");
 
     particles::Box extent;
@@ -189,8 +199,7 @@ Slice sampleSlice(const io::PolyData& fluid, const std::optional<particles::Box>
     slice.dy = extent.size()[plane.second()] / (slice.rows - 1);
     for (int row = 0; row < slice.rows; ++row) {
         for (int column = 0; column < slice.columns; ++column) {
-            const Fit fit =
-                fitAt(slice.place(column, row), particles, dx, source, withVelocity ? &velocity->second : nullptr);
+            const Fit fit = fitAt(slice.place(column, row), particles, dx, source, withVelocity);
             slice.values.push_back(fit.value);
             if (withVelocity) slice.velocity.push_back(fit.velocity);
         }
