@@ -39,11 +39,13 @@ class Periodicity {
     bool slides() const { return sliding_ >= 0; }
     int slidingAxis() const { return sliding_; }    // -1: nothing slides
     const Vec3& offset() const { return offset_; }  // of the next image along this axis [m]
-    // Velocity of this image of x less that of x [m/s].
-    Vec3 slideOf(const Vec3& x, const Vec3& image) const {
-        if (!slides()) return Vec3::Zero();
-        return std::nearbyint((image[sliding_] - x[sliding_]) / length_[sliding_]) * slide_;
+    const Vec3& slide() const { return slide_; }    // its velocity less that of the particle [m/s]
+    // Periods along this axis from x to this image of it.
+    double periods(const Vec3& x, const Vec3& image) const {
+        return slides() ? std::nearbyint((image[sliding_] - x[sliding_]) / length_[sliding_]) : 0;
     }
+    // Velocity of this image of x less that of x [m/s].
+    Vec3 slideOf(const Vec3& x, const Vec3& image) const { return periods(x, image) * slide_; }
 
     Image image(const Index3& n) const {
         Image image{Vec3(n[0], n[1], n[2]).cwiseProduct(length_), Vec3::Zero()};

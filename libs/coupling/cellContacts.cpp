@@ -186,6 +186,18 @@ double CellContacts::energy(const Cells& cells, const ParticleSystem& system) co
     return sum;
 }
 
+// With images n periods off, sum x f^T of the images that touch less that of their nodes is sum (n L + ...) f^T; along
+// the sliding axis the places of images have nothing else.
+double CellContacts::powerOfImages(const Periodicity& period) const {
+    if (!period.slides()) return 0;
+    NodeVectors f(x_.size(), Vec3::Zero());
+    contacts_.addForces(f);
+    const int axis = period.slidingAxis();
+    Vec3 force = contacts_.virial().row(axis).transpose();  // times n L
+    for (std::size_t m = 0; m < f.size(); ++m) force -= x_[m][axis] * f[m];
+    return period.slide().dot(force) / period.lengths()[axis];
+}
+
 // Of a node at a wall x f^T is that of the way from the wall to the node.
 Mat3 CellContacts::stresslet(const Cells& cells, const ParticleSystem& system) const {
     const Now here = now(cells, system);

@@ -7,6 +7,7 @@
 #include "coupling/adjoint.hpp"
 #include "coupling/scene.hpp"
 #include "implicit/term.hpp"
+#include "particles/vectorField.hpp"
 #include "sph/operators.hpp"
 
 namespace corpuscle::implicit {
@@ -47,6 +48,18 @@ class FluidTerm final : public Term<Real> {
     }
     double diagonal(std::size_t i) const override {
         return operators_.viscousDiagonal(i) + stiffness_[i] * operators_.bulkDiagonal(i);
+    }
+
+    double slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w) override {
+        using particles::vectorAt;
+        Forces force(particles::fieldWidth * operators_.shared().entries(), 0.0);  // -L w
+        operators_.addForces(
+            *scene_.system, w, sph::FieldOf::velocities, [](std::size_t, double) { return 0.0; }, force);
+        double power = 0;
+        for (std::size_t i = 0; i < stiffness_.size(); ++i)
+            power += vectorAt(v, i).dot(vectorAt(force, i)) +
+                     operators_.volume(i) * pressure(i, divergence[i]) * operators_.divergence(i);
+        return power;
     }
 
     sph::Operators<Real>& operators() { return operators_; }

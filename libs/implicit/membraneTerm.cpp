@@ -91,11 +91,23 @@ double MembraneTerm<Real>::power(const Field& v, const Field& w) {
 }
 
 template <class Real>
+double MembraneTerm<Real>::slidingPower(const Field& /*v*/, const std::vector<double>& /*divergence*/, const Field& w) {
+    Vectors f = load_;
+    immersed_.addResistance(reach_.total(), nodes_, f);
+    return immersed_.ownDot(immersed_.interpolateVelocities(w.data()), f) + contactAcrossImages();
+}
+
+template <class Real>
+double MembraneTerm<Real>::contactAcrossImages() const {
+    return immersed_.contacts() ? immersed_.contacts()->powerOfImages(system_.periodicity()) : 0;
+}
+
+template <class Real>
 void MembraneTerm<Real>::addRates(sph::Budget::Values& rates) const {
     Vectors elastic = load_, viscous(nodes_.size(), Vec3::Zero());
     immersed_.addStiffness(-reach_.total(), nodes_, elastic);
     immersed_.addDamping(nodes_, viscous);
-    rates[sph::Budget::elastic] -= immersed_.ownDot(nodes_, elastic);
+    rates[sph::Budget::elastic] -= immersed_.ownDot(nodes_, elastic) + contactAcrossImages();
     rates[sph::Budget::inMembranes] -= immersed_.ownDot(nodes_, viscous);
 }
 

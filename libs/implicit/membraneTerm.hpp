@@ -40,6 +40,7 @@ class MembraneTerm final : public Term<Real> {
     void addDefect(Forces& forces) override;
     void takeDefect() override;
     double power(const Field& v, const Field& w) override;
+    double slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w) override;
 
     // What the velocity last given does for the budget, of the cells that this rank owns: power against elasticity and
     // against viscosity.
@@ -57,6 +58,7 @@ class MembraneTerm final : public Term<Real> {
   private:
     Vectors displacement() const;                           // from x*, of the velocity last given
     void give(const Vectors& nodes, Forces& forces) const;  // those of the velocities of the nodes
+    double contactAcrossImages() const;                     // power of its forces by the slide of images [W]
     coupling::Immersed& immersed_;
     const particles::ParticleSystem& system_;
     const std::vector<double>& volumes_;

@@ -19,13 +19,36 @@ void Movement<Real>::moveFluid(double seconds) {
     for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + seconds * s.velocity(i));
 }
 
+// What crosses the faces between sliding images in `wrap` gains momentum and energy.
+template <class Real>
+template <class Wrap>
+void Movement<Real>::countCrossings(Wrap&& wrap) {
+    coupling::Scene& scene = system_.scene();
+    if (!scene.budget.kept || !scene.system->periodicity().slides()) return wrap();
+    const ParticleStore& s = scene.store();
+    const auto add = [&](double sign) {
+        double energy = 0;
+        Vec3 momentum = Vec3::Zero();
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (particles::isBoundary(s.kindOf(i))) continue;
+            const Vec3 u = s.velocity(i);
+            energy += 0.5 * system_.mass(i) * u.squaredNorm(), momentum += system_.mass(i) * u;
+        }
+        scene.budget.total[sph::Budget::ofImages] += sign * energy;
+        sph::Budget::add(scene.budget.total, sph::Budget::images, sign * momentum);
+    };
+    add(-1);
+    wrap();
+    add(1);
+}
+
 template <class Real>
 void Movement<Real>::depart(const TimeDifference& time) {
     moveFluid(time.begin());
     if (system_.immersed()) system_.immersed()->depart(time.begin(), !time.isAtEnd());
-    if (system_.rigid()) system_.rigid()->depart(time.begin());
     system_.scene().system->moveImages(time.begin());
-    system_.scene().system->rebuild();
+    if (system_.rigid()) system_.rigid()->depart(time.begin());
+    countCrossings([&] { system_.scene().system->rebuild(); });
 }
 
 template <class Real>
@@ -56,12 +79,13 @@ void Movement<Real>::arrive(const Field& velocity) {
         s.fx[i] = a[0], s.fy[i] = a[1], s.fz[i] = a[2];
         s.setVelocity(i, v);
     }
-    if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
     particles::ParticleSystem& system = *system_.scene().system;
     system.moveImages(dt - time.begin());
+    if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
     if (noFlux_) noFlux_->keepSides(system);
     if (!system.periodicity().slides()) return;
-    system.wrapAll();  // what looks at velocities until the next step need not ask of which image they are
+    // What looks at velocities until the next step need not ask of which image they are.
+    countCrossings([&] { system.wrapAll(); });
     if (system_.immersed()) system_.immersed()->wrapCells();
 }
 

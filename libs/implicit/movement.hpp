@@ -35,6 +35,8 @@ class Movement {
 
   private:
     void moveFluid(double seconds);
+    template <class Wrap>
+    void countCrossings(Wrap&& wrap);
     System<Real>& system_;
     coupling::NoFlux* noFlux_;
     coupling::Transport transport_;

@@ -75,17 +75,23 @@ void RigidUnknowns<Real>::prepare(const Reach&) {
 template <class Real>
 void RigidUnknowns<Real>::findOthers() {
     particles::SharedParticles& shared = operators_.shared();
-    RealArray rows(width * shared.entries(), 0.0);  // body, counted from 1, and arm
+    constexpr std::size_t numbers = 5;  // body, counted from 1, arm, periods
+    RealArray rows(numbers * shared.entries(), 0.0);
+    periods_.clear();
     for (const auto& m : members()) {
-        double* row = rows.data() + width * static_cast<std::size_t>(m.particle);
+        const auto i = static_cast<std::size_t>(m.particle);
+        double* row = rows.data() + numbers * i;
         row[0] = m.group + 1;
         Vec3::Map(row + 1) = m.arm;
+        row[4] = scene_.system->periodicity().periods(bodies()[static_cast<std::size_t>(m.group)].state.centre + m.arm,
+                                                      scene_.store().position(i));
+        periods_.push_back(row[4]);
     }
-    shared.distribute(rows.data(), static_cast<int>(width));
+    shared.distribute(rows.data(), static_cast<int>(numbers));
     others_.clear();
     for (std::size_t e = shared.owned(); e < shared.entries(); ++e)
-        if (const double* row = rows.data() + width * e; row[0] > 0)
-            others_.push_back({e, static_cast<std::size_t>(row[0]) - 1, Vec3::Map(row + 1)});
+        if (const double* row = rows.data() + numbers * e; row[0] > 0)
+            others_.push_back({e, static_cast<std::size_t>(row[0]) - 1, Vec3::Map(row + 1), row[4]});
 }
 
 template <class Real>
@@ -94,7 +100,7 @@ void RigidUnknowns<Real>::extrapolate(double h, Field& u) const {
         const RigidMotion guess = extrapolated(h, b);
         put(u, b, guess.linear, guess.angular);
     }
-    spread(u);
+    spread(u, sph::FieldOf::velocities);
 }
 
 template <class Real>
@@ -122,10 +128,40 @@ double RigidUnknowns<Real>::largestDifference(double h, const Field& u) const {
 }
 
 template <class Real>
-void RigidUnknowns<Real>::addProduct(const Field& u, Forces& force) {
+void RigidUnknowns<Real>::addLayer(const Field& u, sph::FieldOf of, Forces& force) {
     reaction_.assign(bodies().size(), {});
     layer_.addProduct(
-        u, [&](std::size_t b) { return motion(u, b); }, force, reaction_);
+        u, of, [&](std::size_t b) { return motion(u, b); }, force, reaction_);
+}
+
+// By the layer alone, whose A is symmetric.
+template <class Real>
+double RigidUnknowns<Real>::slidingPower(const Field& v, const std::vector<double>& /*divergence*/, const Field& w) {
+    Forces force(width * operators_.shared().entries(), 0.0);
+    const std::vector<Wrench> atV = reaction_;
+    addLayer(w, sph::FieldOf::velocities, force);
+    double power = reactionPower(v);
+    for (std::size_t i = 0; i < scene_.store().size(); ++i) power += vectorAt(v, i).dot(vectorAt(force, i));
+    reaction_ = atV;
+    return power;
+}
+
+template <class Real>
+double RigidUnknowns<Real>::reactionPower(const Field& u) const {
+    double power = 0;
+    for (std::size_t b = 0; b < bodies().size(); ++b) {
+        const RigidMotion now = motion(u, b);
+        power += now.linear.dot(reaction_[b].force) + now.angular.dot(reaction_[b].torque);
+    }
+    return power;
+}
+
+template <class Real>
+double RigidUnknowns<Real>::powerOfSlides(const RealArray& force) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < periods_.size(); ++k)
+        sum += periods_[k] * vectorAt(force, static_cast<std::size_t>(members()[k].particle));
+    return sum.dot(scene_.system->periodicity().slide());
 }
 
 // row(body, P^T of the forces) of free bodies; the rest 0.
@@ -233,7 +269,7 @@ auto RigidUnknowns<Real>::distribute(const Field& r) -> const Field& {
         f = particles_[b].solve(f);
         put(shared_, b, f.template head<3>(), f.template tail<3>());
     }
-    spread(shared_);
+    spread(shared_, sph::FieldOf::changes);
     return shared_;
 }
 
@@ -254,7 +290,7 @@ void RigidUnknowns<Real>::project(Field& z) {
         }
         put(z, b, found.template head<3>(), found.template tail<3>());
     }
-    spread(z);
+    spread(z, sph::FieldOf::changes);
 }
 
 template <class Real>
@@ -272,11 +308,9 @@ void RigidUnknowns<Real>::findWrenches(const RealArray& force) {
 
 template <class Real>
 double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const {
-    double continuation = 0;
     for (std::size_t b = 0; b < bodies().size(); ++b) {
         const Body& body = bodies()[b];
         const RigidMotion now = motion(u, b), &last = body.state.motion, &rate = body.acceleration;
-        continuation += now.linear.dot(reaction_[b].force) + now.angular.dot(reaction_[b].torque);
         if (!isRoot()) continue;
         scene_.bodies->addRates(*scene_.system, body, now, rates);
         if (!isFree(b)) continue;
@@ -286,7 +320,7 @@ double RigidUnknowns<Real>::addRates(double c1, double c2, const Field& u, sph::
         rates[sph::Budget::ofSolver] +=
             now.linear.dot(body.wrench.force - force) + now.angular.dot(body.wrench.torque - torque - gyroscopic_[b]);
     }
-    return continuation;
+    return reactionPower(u);
 }
 
 template <class Real>
@@ -316,14 +350,17 @@ void RigidUnknowns<Real>::put(Field& f, std::size_t body, const Vec3& linear, co
 }
 
 template <class Real>
-void RigidUnknowns<Real>::spread(Field& u) const {
+void RigidUnknowns<Real>::spread(Field& u, sph::FieldOf of) const {
+    const Vec3 slide = of == sph::FieldOf::velocities ? scene_.system->periodicity().slide() : Vec3(0, 0, 0);
     std::vector<RigidMotion> motions;
     for (std::size_t b = 0; b < bodies().size(); ++b) motions.push_back(motion(u, b));
-    const auto set = [&](std::size_t entry, std::size_t group, const Vec3& arm) {
-        setVector(u, entry, motions[group].at(arm));
+    const auto set = [&](std::size_t entry, std::size_t group, const Vec3& arm, double periods) {
+        setVector(u, entry, motions[group].at(arm) + periods * slide);
     };
-    for (const auto& m : members()) set(static_cast<std::size_t>(m.particle), static_cast<std::size_t>(m.group), m.arm);
-    for (const OtherMember& m : others_) set(m.entry, m.group, m.arm);
+    for (std::size_t k = 0; k < members().size(); ++k)
+        set(static_cast<std::size_t>(members()[k].particle), static_cast<std::size_t>(members()[k].group),
+            members()[k].arm, periods_[k]);
+    for (const OtherMember& m : others_) set(m.entry, m.group, m.arm, m.periods);
 }
 
 template <class Real>

@@ -61,8 +61,9 @@ class RigidUnknowns final : public Term<Real> {
 
     // As a term: what the surfaces add. Bodies get theirs in the next rows.
     void prepare(const Reach& reach) override;
-    void addForces(const Field& u, Forces& forces) override { addProduct(u, forces); }
-    void addProduct(const Field& u, Forces& forces) override;
+    void addForces(const Field& u, Forces& forces) override { addLayer(u, sph::FieldOf::velocities, forces); }
+    void addProduct(const Field& u, Forces& forces) override { addLayer(u, sph::FieldOf::changes, forces); }
+    double slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w) override;
     double diagonal(std::size_t i) const override { return layer_.diagonal(i); }
 
     // First guess: the velocity extrapolated over h.
@@ -103,6 +104,17 @@ class RigidUnknowns final : public Term<Real> {
     // is returned. This rank's part.
     double addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const;
 
+    // In a flow w whose images slide: sets the velocities of bodies to w at their centres, and of their particles.
+    template <class W>
+    void setMotions(W&& w, Field& u) const {
+        for (std::size_t b = 0; b < bodies().size(); ++b) put(u, b, w(bodies()[b].state.centre), Vec3::Zero());
+        spread(u, sph::FieldOf::velocities);
+    }
+    // u.(the surface layer's reaction on bodies), of what was found last: this rank's part. Of the forces on their
+    // particles, the power by the slide of those that are in another image than their body.
+    double reactionPower(const Field& u) const;
+    double powerOfSlides(const particles::RealArray& force) const;
+
     bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }
 
   private:
@@ -123,7 +135,8 @@ class RigidUnknowns final : public Term<Real> {
     sph::RigidMotion motion(const Field& u, std::size_t body) const;
     sph::RigidMotion extrapolated(double h, std::size_t body) const;
     void put(Field& f, std::size_t body, const Vec3& linear, const Vec3& angular) const;
-    void spread(Field& u) const;  // P
+    void addLayer(const Field& u, sph::FieldOf of, Forces& forces);
+    void spread(Field& u, sph::FieldOf of) const;  // P
     template <class Row>
     void putRows(const particles::RealArray& force, Field& rows, Row&& row) const;
     std::vector<sph::Wrench> gather(const particles::RealArray& force) const;
@@ -135,8 +148,10 @@ class RigidUnknowns final : public Term<Real> {
     struct OtherMember {
         std::size_t entry, group;
         Vec3 arm;
+        double periods;
     };
     std::vector<OtherMember> others_;               // particles of bodies that other ranks have
+    std::vector<double> periods_;                   // of members, from where their body has them
     std::vector<bodies::RigidState> saved_;         // at the beginning of the step
     SurfaceLayer<Real> layer_;                      // beside the surfaces
     std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies

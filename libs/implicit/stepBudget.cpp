@@ -1,7 +1,10 @@
 #include "implicit/stepBudget.hpp"
 
+#include <cmath>
+
 namespace corpuscle::implicit {
 
+using particles::setVector;
 using particles::vectorAt;
 using sph::Budget;
 
@@ -19,7 +22,9 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
     const particles::ParticleStore& s = scene.store();
     const Vec3 &g = scene.model().bodyForce, middle = scene.system->box().middle();
     Budget::Values rates = Budget::zero(scene.model().walls.count());
-    double power = 0;  // of the terms on everything that moves, walls included
+    const bool slides = scene.system->periodicity().slides();
+    if (slides) findStep();
+    double power = 0, inStep = 0;  // of the terms on everything that moves, walls included; of the same forces in w
     for (std::size_t i = 0; i < s.size(); ++i) {
         rates[Budget::compression] -=
             system_.operators().volume(i) * system_.fluid().pressure(i, divergence[i]) * divergence[i];
@@ -32,11 +37,13 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
         }
         const Vec3 v = vectorAt(velocity, i), a(s.fx[i], s.fy[i], s.fz[i]);
         if (rigid) power += v.dot(system_.force(i));
+        if (rigid && slides) inStep += vectorAt(step_, i).dot(system_.force(i));
         if (rigid && rigid->isMember(i)) continue;
         const double mass = system_.mass(i);
         const Vec3 inertia = mass * (time.c1 * (v - s.velocity(i)) - time.c2 * a), byBodyForce = mass * g;
         const Vec3 left = rigid ? Vec3(system_.force(i) + byBodyForce - inertia) : vectorAt(left_, i);
         if (!rigid) power += v.dot(left + inertia - byBodyForce);
+        if (slides && !rigid) inStep += vectorAt(step_, i).dot(left + inertia - byBodyForce);
         Budget::addBodyForce(rates, v, x - middle, byBodyForce);
         rates[Budget::kinetic] += v.dot(inertia);
         rates[Budget::ofSolver] += v.dot(left);
@@ -49,8 +56,29 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
             Budget::addWall(rates, on.wall, wall.velocityAt(on.place), on.place - middle, -on.force);
         }
     }
-    rates[Budget::viscous] = -power - rates[Budget::compression] - rates[Budget::elastic] - rates[Budget::inMembranes];
+    double ofImages = 0;
+    if (slides) {
+        if (rigid) inStep += rigid->reactionPower(step_);
+        ofImages = inStep - system_.slidingPower(velocity, divergence, step_);
+        rates[Budget::ofImages] = ofImages - (rigid ? rigid->powerOfSlides(system_.forces()) : 0);
+    }
+    rates[Budget::viscous] =
+        ofImages - power - rates[Budget::compression] - rates[Budget::elastic] - rates[Budget::inMembranes];
     scene.budget.add(time.dt, rates);
+}
+
+template <class Real>
+void StepBudget<Real>::findStep() {
+    const particles::ParticleSystem& system = *system_.scene().system;
+    const Periodicity& period = system.periodicity();
+    const particles::ParticleStore& s = system.store();
+    const int axis = period.slidingAxis();
+    const double middle = system.box().middle()[axis], length = period.lengths()[axis];
+    const auto at = [&](const Vec3& x) { return (std::floor((x[axis] - middle) / length) + 1) * period.slide(); };
+    step_.assign(system_.length(), Real(0));
+    for (std::size_t i = 0; i < s.size(); ++i) setVector(step_, i, at(s.position(i)));
+    system_.shared().distribute(step_.data(), static_cast<int>(particles::fieldWidth));
+    if (system_.rigid()) system_.rigid()->setMotions(at, step_);
 }
 
 template class StepBudget<double>;

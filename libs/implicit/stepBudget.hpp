@@ -4,6 +4,14 @@
 // The energy balance of the system, v.(A v - b) = - v.left: all forces of the terms follow from it without another
 // application, where there are no bodies. So v.L v is what their power and that of pressure and membranes do not
 // explain, exactly.
+//
+// Where images slide past each other with the velocity s, forces across the faces between them do work as walls do.
+// Let w be a flow whose images slide as those of v, 0 up to the middle of the box and s above it: across the faces it
+// has no step. All forces f, those across the faces included, have the power P(w) in it, found by another application,
+// and
+//
+//     sum w.f - P(w)
+// is the power of the images (docs/theory/conservation.md).
 #pragma once
 #include "implicit/system.hpp"
 
@@ -23,8 +31,10 @@ class StepBudget {
     void keep(const Field& v, const Field& residual, const std::vector<double>& divergence);
 
   private:
+    void findStep();
+
     System<Real>& system_;
-    Field left_;
+    Field left_, step_;  // step_: w, where images slide
 };
 
 extern template class StepBudget<double>;

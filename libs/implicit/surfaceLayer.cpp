@@ -149,7 +149,8 @@ auto SurfaceLayer<Real>::sharesOfAll(const Records& records) const -> std::vecto
         for (end = first; end < near.size() && near[end].particle == near[first].particle; ++end) {
             const auto b = static_cast<std::size_t>(near[end].group);
             sides.push_back(sideOf(b, near[end].arm));
-            found.push_back({b, 0, 0, near[end].arm});
+            const Vec3 image = scene_.bodies->all()[b].state.centre + near[end].arm;
+            found.push_back({b, 0, 0, near[end].arm, scene_.system->periodicity().periods(records.position(i), image)});
         }
         T.assign(found.size(), 0.0);
         records.forNear(i, [&](std::size_t k, const Vec3& d, double l) {
@@ -179,7 +180,7 @@ auto SurfaceLayer<Real>::sharesOfAll(const Records& records) const -> std::vecto
 template <class Real>
 void SurfaceLayer<Real>::findStretches(std::vector<std::vector<Share>>& shares) {
     particles::SharedParticles& shared = operators_.shared();
-    constexpr std::size_t numbers = 5, perEntry = mostBodies * numbers;  // body, counted from 1; gamma; arm
+    constexpr std::size_t numbers = 6, perEntry = mostBodies * numbers;  // body, counted from 1; gamma; arm; periods
     particles::RealArray rows(perEntry * shared.entries(), 0.0);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         double* r = rows.data() + perEntry * i;
@@ -189,7 +190,7 @@ void SurfaceLayer<Real>::findStretches(std::vector<std::vector<Share>>& shares) 
                 continue;
             }
             r[0] = static_cast<double>(shares[i][s].body + 1), r[1] = shares[i][s].stretch;
-            Vec3::Map(r + 2) = shares[i][s].arm;
+            Vec3::Map(r + 2) = shares[i][s].arm, r[5] = shares[i][s].periods;
         }
     }
     shared.distribute(rows.data(), static_cast<int>(perEntry));
@@ -198,7 +199,7 @@ void SurfaceLayer<Real>::findStretches(std::vector<std::vector<Share>>& shares) 
     for (std::size_t e = 0; e < shared.entries(); ++e)
         for (std::size_t s = 0; s < mostBodies; ++s)
             if (const double* r = rows.data() + perEntry * e + numbers * s; r[1] > 0)
-                stretches_.emplace_back(e, Share{static_cast<std::size_t>(r[0]) - 1, r[1], 0, Vec3::Map(r + 2)});
+                stretches_.emplace_back(e, Share{static_cast<std::size_t>(r[0]) - 1, r[1], 0, Vec3::Map(r + 2), r[5]});
 }
 
 template <class Real>
@@ -213,6 +214,11 @@ void SurfaceLayer<Real>::findRows(const Records& records, const std::vector<std:
         if (isStretched[entryOf(k)])
             records.system.forOwnedNear(records.position(k), records.H + 0.5 * records.system.skin(),
                                         [&](int i) { hasRow[static_cast<std::size_t>(i)] = 1; });
+    const Vec3& slide = records.system.periodicity().slide();
+    const std::vector<Vec3>& slides = operators_.slides();
+    const auto periods = [&](std::size_t k) {  // of the image that k is
+        return k < n || slides.empty() ? 0 : std::round(slides[k - n].dot(slide) / slide.squaredNorm());
+    };
     rows_.clear(), pairs_.clear(), shares_.clear();
     firstPair_.assign(1, 0), firstShare_.assign(1, 0), diagonal_.assign(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -222,7 +228,7 @@ void SurfaceLayer<Real>::findRows(const Records& records, const std::vector<std:
         records.forNear(i, [&](std::size_t k, const Vec3&, double l) {
             const std::size_t e = entryOf(k);
             if (!isStretched[i] && !isStretched[e]) return;
-            pairs_.push_back({e, l});
+            pairs_.push_back({e, l, periods(k)});
             diagonal_[i] += l * (stretch * stretch - 1);
         });
         diagonal_[i] += resistance * stretch * stretch;

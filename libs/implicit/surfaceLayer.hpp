@@ -51,8 +51,10 @@ class SurfaceLayer {
     // forces -= A u of own particles, A what this adds to L; the opposite to `reaction` of the bodies, or to their
     // particles. u: of all entries; motion(b): velocity of body b.
     template <class Motion>
-    void addProduct(const Field& u, Motion&& motion, Forces& forces, std::vector<sph::Wrench>& reaction) {
-        findExcess(u, motion);
+    void addProduct(const Field& u, sph::FieldOf of, Motion&& motion, Forces& forces,
+                    std::vector<sph::Wrench>& reaction) {
+        const Vec3 slide = of == sph::FieldOf::velocities ? scene_.system->periodicity().slide() : Vec3(0, 0, 0);
+        findExcess(u, slide, motion);
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             const std::size_t i = rows_[row];
             const Vec3 own = particles::vectorAt(u, i), excess = excessAt(i);
@@ -60,11 +62,13 @@ class SurfaceLayer {
             for (std::size_t k = firstPair_[row]; k < firstPair_[row + 1]; ++k) {
                 const Vec3 change = excess - excessAt(pairs_[k].entry);
                 onVelocity -= pairs_[k].coefficient * change;
-                onExcess -= pairs_[k].coefficient * (own - particles::vectorAt(u, pairs_[k].entry) + change);
+                onExcess -= pairs_[k].coefficient *
+                            (own - (particles::vectorAt(u, pairs_[k].entry) + pairs_[k].periods * slide) + change);
             }
             for (std::size_t k = firstShare_[row]; k < firstShare_[row + 1]; ++k) {
                 const Share& share = shares_[k];
-                const Vec3 f = -share.resistance * (own + excess - motion(share.body).at(share.arm));
+                const Vec3 f =
+                    -share.resistance * (own + share.periods * slide + excess - motion(share.body).at(share.arm));
                 onVelocity += f, onExcess += f;
                 give(reaction[share.body], share.arm, f);
             }
@@ -93,11 +97,12 @@ class SurfaceLayer {
     struct Share {  // of a body, in what a fluid particle beside it feels
         std::size_t body = 0;
         double stretch = 0, resistance = 0;  // gamma; kappa [N s/m]
-        Vec3 arm = Vec3::Zero();             // from the body's centre to the particle
+        Vec3 arm = Vec3::Zero();             // from the body's centre to the image of the particle that is there
+        double periods = 0;                  // of that image, across faces whose images slide
     };
     struct Pair {
         std::size_t entry;
-        double coefficient;
+        double coefficient, periods;  // periods: of the image of the entry's particle
     };
     struct Records;
     struct Side;
@@ -112,11 +117,12 @@ class SurfaceLayer {
     }
     Vec3 excessAt(std::size_t entry) const { return Vec3::Map(excess_.data() + width * entry); }
     template <class Motion>
-    void findExcess(const Field& u, Motion&& motion) {
+    void findExcess(const Field& u, const Vec3& slide, Motion&& motion) {
         for (const auto& [entry, share] : stretches_) Vec3::Map(excess_.data() + width * entry).setZero();
         for (const auto& [entry, share] : stretches_)
             Vec3::Map(excess_.data() + width * entry) +=
-                share.stretch * (particles::vectorAt(u, entry) - motion(share.body).at(share.arm));
+                share.stretch *
+                (particles::vectorAt(u, entry) + share.periods * slide - motion(share.body).at(share.arm));
     }
 
     coupling::Scene& scene_;

@@ -106,6 +106,13 @@ double System<Real>::power(const Field& v, const Field& w) {
 }
 
 template <class Real>
+double System<Real>::slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w) {
+    double sum = 0;
+    for (Term<Real>* term : terms_) sum += term->slidingPower(v, divergence, w);
+    return sum;
+}
+
+template <class Real>
 void System<Real>::findDiagonal() {
     static_assert(sizeof(Row) == particles::fieldWidth * sizeof(double));
     const std::size_t n = owned();

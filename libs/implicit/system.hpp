@@ -61,8 +61,11 @@ class System {
     void findForcesOnBodies(const Field& v);
     // Of what was found last [N].
     Vec3 force(std::size_t i) const { return particles::vectorAt(forces_, i); }
+    const RealArray& forces() const { return forces_; }
     // w.(load - A v) of the terms outside the fluid's budget, this rank's share [W]. Collective.
     double power(const Field& v, const Field& w);
+    // w.(load - A v) of all terms, images sliding in both flows (term.hpp); divergence: of v. This rank's share [W].
+    double slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w);
 
     // The diagonal: inertia and place of each entry, as its own rank has them, and 1/(inertia + diagonal of the terms),
     // 0 where the velocity is prescribed or belongs to a body.

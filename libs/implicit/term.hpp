@@ -14,7 +14,9 @@
 // To add one: derive from Term, with a test that A is symmetric and semi-definite, and put it into the list of System
 // (system.hpp).
 #pragma once
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "particles/particleStore.hpp"
 
@@ -58,6 +60,11 @@ class Term {
     // w.(load - A v) [W] where it is not in the fluid's budget: energy that the flow v gives to the disturbance w. Of
     // this rank's share; collective.
     virtual double power(const Field& /*v*/, const Field& /*w*/) { return 0; }
+    // w.(load - A v) [W] of the velocity v found last, where images slide as in v and in w: with what acts across the
+    // faces between images. divergence: of v. Of this rank's share; collective.
+    virtual double slidingPower(const Field& /*v*/, const std::vector<double>& /*divergence*/, const Field& /*w*/) {
+        throw std::logic_error("a term does not know images that slide");
+    }
 };
 
 }  // namespace corpuscle::implicit

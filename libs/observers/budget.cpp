@@ -84,20 +84,21 @@ BudgetTable::Balance BudgetTable::balance(const Scene& scene) const {
     b.elastic = now.elastic - start_.elastic, b.compression = now.compression - start_.compression,
     b.kinetic = now.kinetic - start_.kinetic;
     b.dissipated = w[Budget::viscous] + w[Budget::inMembranes];
-    const double given = w[Budget::ofWalls] + w[Budget::ofBodyForce] + w[Budget::ofBodies];
+    const double given = w[Budget::ofWalls] + w[Budget::ofBodyForce] + w[Budget::ofBodies] + w[Budget::ofImages];
     b.residual = given - b.dissipated - w[Budget::released] - b.elastic - b.compression - b.kinetic;
     b.ofInertia = w[Budget::kinetic] - b.kinetic;
     b.ofMembranes = w[Budget::elastic] - w[Budget::released] - b.elastic;
     b.ofCompression = w[Budget::compression] - b.compression;
     b.ofSolver = w[Budget::ofSolver];
-    const double largest =
-        std::max({std::abs(given), std::abs(w[Budget::ofWalls]), std::abs(w[Budget::ofBodyForce]),
-                  std::abs(w[Budget::ofBodies]), std::abs(b.dissipated), std::abs(b.elastic), std::abs(b.kinetic)});
+    const double largest = std::max({std::abs(given), std::abs(w[Budget::ofWalls]), std::abs(w[Budget::ofBodyForce]),
+                                     std::abs(w[Budget::ofBodies]), std::abs(w[Budget::ofImages]),
+                                     std::abs(b.dissipated), std::abs(b.elastic), std::abs(b.kinetic)});
     b.share = largest > 0 ? std::abs(b.residual) / largest : 0;
 
     b.momentum = Vec3::Map(now.momentum) - Vec3::Map(start_.momentum);
     b.angular = Vec3::Map(now.angular) - Vec3::Map(start_.angular);
-    const Vec3 force = Budget::vector(w, Budget::bodyForce), bodies = Budget::vector(w, Budget::givenBodies);
+    const Vec3 force = Budget::vector(w, Budget::bodyForce), bodies = Budget::vector(w, Budget::givenBodies),
+               images = Budget::vector(w, Budget::images);
     b.drift = b.momentum;
     double byWalls = 0;
     for (std::size_t n = 0; n < parts_.walls.size(); ++n) {
@@ -105,7 +106,7 @@ BudgetTable::Balance BudgetTable::balance(const Scene& scene) const {
         b.drift -= impulse;
         byWalls += impulse.norm();
     }
-    b.drift = b.drift - force - bodies;
+    b.drift = b.drift - force - bodies - images;
     const double exchanged = std::max({byWalls, force.norm(), bodies.norm(), now.speeds, start_.speeds});
     b.driftShare = exchanged > 0 ? b.drift.norm() / exchanged : 0;
     b.mass = now.mass / start_.mass - 1, b.volume = now.volume / start_.volume - 1;
@@ -121,6 +122,8 @@ std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
     if (!parts.walls.empty()) joules("workOfWalls", "energy put in by the walls since the start");
     if (parts.bodyForce) joules("workOfBodyForce", "energy put in by the body force since the start");
     if (parts.givenBodies) joules("workOfBodies", "energy put in by bodies whose motion is given, since the start");
+    if (parts.slidingImages)
+        joules("workOfImages", "energy put in by images that slide past each other, since the start");
     joules("dissipated", "energy dissipated by viscosity since the start, all of it");
     if (parts.viscousMembranes)
         joules("dissipatedInMembranes", "of that, by the viscosity of the membranes themselves");
@@ -142,6 +145,8 @@ std::vector<io::Column> BudgetTable::columns(const SceneParts& parts) {
         addVector(columns, "impulseOfBodyForce", "Ns", "component of the time integral of the body force");
     if (parts.givenBodies)
         addVector(columns, "impulseOfBodies", "Ns", "component of the time integral of the force of given bodies");
+    if (parts.slidingImages)
+        addVector(columns, "impulseOfImages", "Ns", "component of what particles gain at faces whose images slide");
     addVector(columns, "momentumDrift", "Ns", "component of the change of momentum that no force explains");
     addVector(columns, "angularMomentum", "Js", "component of the change of angular momentum about the box's middle");
     if (!parts.walls.empty())
@@ -163,6 +168,7 @@ std::vector<double> BudgetTable::row(const Scene& scene) const {
     if (walls) row.push_back(w[Budget::ofWalls]);
     if (force) row.push_back(w[Budget::ofBodyForce]);
     if (bodies) row.push_back(w[Budget::ofBodies]);
+    if (parts_.slidingImages) row.push_back(w[Budget::ofImages]);
     row.push_back(b.dissipated);
     if (parts_.viscousMembranes) row.push_back(w[Budget::inMembranes]);
     if (cells) row.push_back(b.elastic);
@@ -174,6 +180,7 @@ std::vector<double> BudgetTable::row(const Scene& scene) const {
     for (std::size_t n = 0; n < parts_.walls.size(); ++n) add(row, Budget::vector(w, Budget::wall(n)));
     if (force) add(row, Budget::vector(w, Budget::bodyForce));
     if (bodies) add(row, Budget::vector(w, Budget::givenBodies));
+    if (parts_.slidingImages) add(row, Budget::vector(w, Budget::images));
     add(row, b.drift);
     add(row, b.angular);
     if (walls) add(row, Budget::vector(w, Budget::wallTorque));
@@ -197,6 +204,7 @@ Summary BudgetTable::summary(const Scene& scene) const {
     if (!parts_.walls.empty()) given += "walls put in " + joule(w[Budget::ofWalls]) + ", ";
     if (parts_.bodyForce) given += "the body force " + joule(w[Budget::ofBodyForce]) + ", ";
     if (parts_.givenBodies) given += "bodies of given motion " + joule(w[Budget::ofBodies]) + ", ";
+    if (parts_.slidingImages) given += "sliding images " + joule(w[Budget::ofImages]) + ", ";
     if (!parts_.cells.empty()) given += "stored in membranes " + joule(b.elastic) + ", ";
     summary.lines.push_back(
         fmt::format("energy budget: {}dissipated {}, kinetic {}, compression {}; closes to {:.2g} %", given,

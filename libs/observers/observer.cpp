@@ -45,10 +45,11 @@ SceneParts SceneParts::of(const Scene& scene) {
     parts.shear = scene.flow.shearRate != 0;
     parts.bodyForce = !scene.model().bodyForce.isZero();
     parts.budget = scene.budget.kept;
+    parts.slidingImages = scene.system->periodicity().slides();
     return parts;
 }
 
-SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, {"<wall>"}, true, true, true, true, true, true}; }
+SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, {"<wall>"}, true, true, true, true, true, true, true}; }
 
 std::optional<Summary> Observation::summary(const Scene&, const Time&) { return {}; }
 

@@ -42,7 +42,7 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 struct SceneParts {
     std::vector<std::string> cells, bodies, walls;  // names of the types of cells, and of the others
     bool shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false, rupture = false,
-         budget = false;
+         budget = false, slidingImages = false;
     static SceneParts of(const Scene& scene);
     // Everything, with types of cells, bodies and walls "<cell>", "<body>" and "<wall>": for the documentation.
     static SceneParts all();

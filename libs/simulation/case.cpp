@@ -132,12 +132,14 @@ double springRate2(const Case& c) {
     return most;
 }
 
-// Absent: 0.1 with immersed membranes and in flows of three dimensions, 0 otherwise. Where the flow draws a perfect
-// lattice out its planes part: all neighbours of a particle come to lie in one plane, and shifting, which follows
-// gradients, does not see it because every particle has its mirror image.
+// Absent: 0.1 with immersed membranes, in flows of three dimensions and with rigid bodies where images slide (spheres
+// that pass each other draw the fluid between them out), 0 otherwise. Where the flow draws a perfect lattice out its
+// planes part: all neighbours of a particle come to lie in one plane, and shifting, which follows gradients, does not
+// see it because every particle has its mirror image.
 double jitterOf(const Case& c) {
     constexpr double usual = 0.1;
-    const bool disordered = c.flowModel->isThreeDimensional() || (c.numerics.isImmersed() && !c.mesh.cells.empty());
+    const bool disordered = c.flowModel->isThreeDimensional() || (c.numerics.isImmersed() && !c.mesh.cells.empty()) ||
+                            (c.flowModel->slides() && !c.mesh.bodies.empty());
     return c.mesh.fill.jitter.value_or(disordered ? usual : 0);
 }
 

@@ -264,14 +264,6 @@ void checkContact(const Case& c, Problems& problems) {
             "there is contact of membranes, but system/mesh.yaml has no cells; remove the file, or name cells");
 }
 
-void checkSlides(const Case& c, Problems& problems) {
-    if (!c.flowModel->slides()) return;
-    const Mark flow{"constant/flow.yaml", 0, 0};
-    const std::string found = "found " + c.flowModel.name + ", whose periodic images slide; ";
-    if (!c.mesh.bodies.empty())
-        problems.add(flow, "type", found + "rigid bodies are not possible with them yet: take shear, between walls");
-}
-
 void checkSupport(const Case& c, Problems& problems) {
     const double support = c.support() / c.spacing();
     if (!(support >= leastSupport && support <= largestSupport))
@@ -291,7 +283,6 @@ void checkTogether(const Case& c, Problems& problems) {
     schemes::check(c.numerics, c.written, c.facts(), problems);
     checkFirstBreak(c, problems);
     checkContact(c, problems);
-    checkSlides(c, problems);
     checkSupport(c, problems);
 }
 

@@ -210,8 +210,8 @@ const Schema<FillSettings>& FillSettings::schema() {
         Schema<FillSettings>("fill", "how particleFill places particles")
             .quantity(
                 "jitter", &FillSettings::jitter, unit::none,
-                "largest random displacement in spacings; when absent 0.1 around immersed membranes and in flows of "
-                "three dimensions, else 0",
+                "largest random displacement in spacings; when absent 0.1 around immersed membranes, in flows of three "
+                "dimensions and with rigid bodies where images slide, else 0",
                 {.range = between(0, 0.45)})
             .integer("seed", &FillSettings::seed, "of the random displacements",
                      {.fallback = "1", .range = nonNegative})

@@ -139,7 +139,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     if (const Periodicity& period = scene.system->periodicity(); period.slides())
         file.writeReplicated("imageOffset", flat({period.offset()}));
     file.writeReplicated("observers", state.observers);
-    if (scene.budget.kept) file.writeReplicated("budgetByWall", gathered(scene.budget, comm));
+    if (scene.budget.kept) file.writeReplicated("budgetEntries", gathered(scene.budget, comm));
     scene.store().forEachField([&](std::string_view name, const auto& array) {
         using T = typename std::remove_cvref_t<decltype(array)>::value_type;
         file.writeDistributed("particles/" + std::string(name), std::span<const T>(array.data(), array.size()));
@@ -175,12 +175,11 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     std::vector<Cell> cells;
     for (std::size_t type = 0; type < scene.cells.types().size(); ++type) loadType(file, where, scene, type, cells);
     scene.cells.take(std::move(cells), scene.system->decomposition().rank());
-    if (scene.budget.kept && file.has("budget"))
-        throw Failure(ExitCode::io, where +
-                                        " holds the budget of an earlier version, which counted the forces of walls "
-                                        "otherwise; start from firstTime");
-    if (scene.budget.kept && file.has("budgetByWall"))
-        restoreBudget(scene.budget, file.template readReplicated<double>("budgetByWall"), file.sameRanks(),
+    if (scene.budget.kept && (file.has("budget") || file.has("budgetByWall")))
+        throw Failure(ExitCode::io,
+                      where + " holds the budget of an earlier version, with other entries; start from firstTime");
+    if (scene.budget.kept && file.has("budgetEntries"))
+        restoreBudget(scene.budget, file.template readReplicated<double>("budgetEntries"), file.sameRanks(),
                       scene.system->decomposition().rank());
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())

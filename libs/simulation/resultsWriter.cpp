@@ -64,13 +64,10 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     if (meanPressure) means = sph::localMean(*scene.system, *model.kernel, model.mass, pressures);
     auto& spacing = data.point.scalars["spacing"];
     const Periodicity& periodicity = scene.system->periodicity();
-    if (periodicity.slides()) {
-        Index3 next{0, 0, 0};
-        next[static_cast<std::size_t>(periodicity.slidingAxis())] = 1;
+    if (periodicity.slides())
         data.field = {{"slidingAxis", periodicity.slidingAxis()},
                       {"imageOffset", periodicity.offset().x()},
-                      {"imageVelocity", periodicity.image(next).slide.x()}};
-    }
+                      {"imageVelocity", periodicity.slide().x()}};
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;
         Vec3 x = s.position(i), u = s.velocity(i);

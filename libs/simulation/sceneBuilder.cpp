@@ -147,8 +147,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.flow = input.flow;
     scene.fluidVolume = input.fluidVolume();
     scene.budget = sph::Budget(input.flow.walls.count());
-    // What crosses faces whose images slide is not added up.
-    scene.budget.kept = input.observers.wantBudget() && !input.flow.slides();
+    scene.budget.kept = input.observers.wantBudget();
     const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
     const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
                                          .viscosity = input.varyingViscosity(),

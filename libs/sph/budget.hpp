@@ -5,8 +5,8 @@
 //     sum u.F = - dissipation - d(compression)/dt
 //         of pairs: viscosity and pressure are adjoint to the rates of density
 //     sum u.f = - d(elastic)/dt - dissipation in membranes            of membranes
-//     walls + bodies + body force = dissipation of both + d(kinetic + elastic + compression)/dt + what the solver
-//         leaves
+//     walls + bodies + body force + images = dissipation of both + d(kinetic + elastic + compression)/dt + what the
+//         solver leaves
 //
 // What is added up here are rates of the step; the energies themselves are functions of the state, and what both differ
 // by is what the step makes or loses (observers/conservation.cpp). Every rank has its part and nothing is reduced until
@@ -24,6 +24,7 @@ struct Budget {
         ofWalls,                       // power of the walls on the fluid [W]
         ofBodyForce,                   // of the body force on fluid, nodes and bodies that yield
         ofBodies,                      // of bodies whose motion is given
+        ofImages,                      // of periodic images that slide past each other
         viscous,                       // dissipated by the viscosity of the fluid: velocity . L velocity
         inMembranes,                   // dissipated by that of membranes
         kinetic,                       // velocity . mass d(velocity)/dt as the step has it
@@ -33,7 +34,8 @@ struct Budget {
         released,                      // elastic energy of what broke, no rate [J]
         bodyForce,                     // force [N], three numbers
         givenBodies = bodyForce + 3,   // force of bodies whose motion is given
-        wallTorque = givenBodies + 3,  // of all walls about the middle of the box [N m]
+        images = givenBodies + 3,      // momentum of what crosses the faces between images that slide [N s]
+        wallTorque = images + 3,       // of all walls about the middle of the box [N m]
         forceTorque = wallTorque + 3,  // of the body force
         count = forceTorque + 3
     };

@@ -80,6 +80,9 @@ class Operators {
     const particles::SharedParticles& shared() const { return shared_; }
     double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]
 
+    // Of ghosts, by how much they are faster than their particles [m/s]; empty in a box whose images do not slide.
+    const std::vector<Vec3>& slides() const { return slides_; }
+
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
     const std::vector<double>& volumes() const { return volume_; }
     double viscousScale(std::size_t i) const { return scale_[i]; }  // 1/S2

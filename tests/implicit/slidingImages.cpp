@@ -18,7 +18,7 @@ namespace {
 constexpr double rate = 1;
 
 // Sets the images of a box moving, whose velocities are those of the flow.
-void slide(coupling::Scene& scene) {
+void slide(coupling::Scene& scene, double rate = ::rate) {
     const double length = scene.system->box().size()[2], middle = scene.system->box().middle()[2];
     scene.flow.shearRate = scene.flow.rate = rate;
     scene.flow.gradient = 2;
@@ -49,6 +49,7 @@ struct SlidingFluid : FluidScene {
         ImplicitStep::Options options;
         options.settings = settings;
         if (jitter > 0) options.shifting = 1;
+        scene.budget.kept = true;
         step = ImplicitStep::make(scene, options);
     }
     static std::vector<sph::testing::Particle> still(const Index3& size, double jitter) {
@@ -119,17 +120,22 @@ TEST(SlidingImages, wavesTurnWithTheFlowAndDecay) {
 
 namespace {
 
-// A cell in a box of sliding images, everything moved by half a period across, to see it on the faces.
+// A cell in a box of sliding images, everything moved by half a period across, to see it on the faces. slower: with a
+// viscosity as many times as high, for less inertia.
 struct CellInShear {
     static constexpr double length = 10;
     coupling::Scene scene;
     std::unique_ptr<ImplicitStep> step;
 
-    explicit CellInShear(double up, double bondStrain = ImplicitSettings{}.bondStrain)
-        : scene(
-              SphereScene({10, 9, 10}, {{5.1, 4.4, 4.7}}, true).immersedScene(rate, [](const Vec3& d) { return d; })) {
-        scene.forces = std::make_unique<sph::FluidForces>(fluid(1), *scene.system);
-        slide(scene);
+    explicit CellInShear(double up, double bondStrain = ImplicitSettings{}.bondStrain, double slower = 1)
+        : scene(SphereScene({10, 9, 10}, {{5.1, 4.4, 4.7}}, true).immersedScene(rate / slower, [](const Vec3& d) {
+              return d;
+          })) {
+        sph::FluidModel model = fluid(1);
+        model.viscosity = slower;
+        scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
+        scene.budget.kept = true;
+        slide(scene, rate / slower);
         const Vec3 shift(0, 0, up);
         ParticleStore& s = scene.store();
         for (std::size_t i = 0; i < s.size(); ++i) {
@@ -204,4 +210,84 @@ TEST(SlidingImages, aStepThatFailsPutsEverythingBack) {
         for (std::size_t n = 0; n < cell.membrane.position.size(); ++n)
             ASSERT_LT((cell.membrane.position[n] - other->membrane.position[n]).norm(), 1e-6) << "node " << n;
     }
+}
+
+namespace {
+
+// Mean power of the images from this step on, over mu gammadot^2 V.
+template <class Box>
+double powerOfImages(Box& box, int steps, double dt) {
+    const auto work = [&] { return sph::testing::sumOverRanks(box.scene.budget.total[sph::Budget::ofImages]); };
+    const double before = work(), rate = box.scene.flow.shearRate;
+    for (int k = 0; k < steps; ++k) box.step->advance(dt);
+    return (work() - before) /
+           (steps * dt * box.scene.model().viscosity * rate * rate * box.scene.system->box().volume());
+}
+
+}  // namespace
+
+// What the images do is the shear stress that the fluid has.
+TEST(SlidingImages, workAsMuchAsTheFluidDissipates) {
+    constexpr double dt = 0.05 / rate;
+    SlidingFluid box({10, 8, 12}, 0.2, fluid(40), {.step = 0.05, .tolerance = 1e-7},
+                     [](const Vec3&) { return Vec3(0, 0, 0); });
+    for (int k = 0; k < 4; ++k) box.step->advance(dt);
+    EXPECT_NEAR(powerOfImages(box, 10, dt), 1, 0.03);
+}
+
+// A stream across the faces, and a wave along it that it carries: momentum changes by what crosses, and energy by what
+// the images do and the fluid dissipates.
+TEST(SlidingImages, whatCrossesTheFacesGainsMomentumAndEnergy) {
+    constexpr double dt = 0.01 / rate;
+    constexpr int length = 12;
+    SlidingFluid box({length, 6, length}, 0, fluid(0.5), {.step = 0.01, .tolerance = 1e-9},
+                     [](const Vec3& x) { return Vec3(0, 0.3 * std::sin(2 * std::numbers::pi * x[2] / length), 2); });
+    const ParticleStore& s = box.scene.store();
+    const auto energy = [&] { return box.sum([&](std::size_t i) { return 0.5 * s.velocity(i).squaredNorm(); }); };
+    const auto momentum = [&] {
+        Vec3 sum;
+        for (int k = 0; k < 3; ++k) sum[k] = box.sum([&](std::size_t i) { return s.velocity(i)[k]; });
+        return sum;
+    };
+    const auto total = [&](std::size_t entry) { return sph::testing::sumOverRanks(box.scene.budget.total[entry]); };
+    const auto impulse = [&] {
+        Vec3 sum;
+        for (int k = 0; k < 3; ++k) sum[k] = total(sph::Budget::images + static_cast<std::size_t>(k));
+        return sum;
+    };
+    for (int k = 0; k < 4; ++k) box.step->advance(dt);
+    const Vec3 before = momentum(), had = impulse();
+    const double energyBefore = energy(), worked = total(sph::Budget::ofImages),
+                 lost = total(sph::Budget::viscous) + total(sph::Budget::compression);
+    for (int k = 0; k < 50; ++k) box.step->advance(dt);
+    const Vec3 gained = impulse() - had;
+    EXPECT_GT(gained.norm(), 0.9 * length * 6 * length * rate) << "a twelfth of the box for each of its planes";
+    EXPECT_LT((momentum() - before - gained).norm(), 1e-5 * gained.norm());
+    const double work = total(sph::Budget::ofImages) - worked,
+                 left = total(sph::Budget::viscous) + total(sph::Budget::compression) - lost;
+    EXPECT_NEAR(energy() - energyBefore, work - left, 0.01 * work);
+}
+
+// Forces across a face through a cell are those of its membrane, too: the stress by images is that of fluid and
+// membrane, wherever the faces are.
+TEST(SlidingImages, stressByImagesIsThatOfFluidAndCell) {
+    constexpr double slower = 30, dt = 0.05 * slower / rate;
+    const double bondStrain = ImplicitSettings{}.bondStrain;
+    CellInShear inside(0, bondStrain, slower), across(0.5 * CellInShear::length, bondStrain, slower),
+        high(0.31 * CellInShear::length, bondStrain, slower);
+    for (int k = 0; k < 30; ++k) inside.step->advance(dt), across.step->advance(dt), high.step->advance(dt);
+    const double stress = powerOfImages(inside, 10, dt);
+    EXPECT_NEAR(powerOfImages(across, 10, dt), stress, 2e-3 * stress);
+    EXPECT_NEAR(powerOfImages(high, 10, dt), stress, 2e-3 * stress);
+    double ofCell = 0;
+    for (const coupling::Cell& cell : inside.scene.cells) {
+        if (!cell.isOwnedBy(inside.scene.system->decomposition().rank())) continue;
+        const std::vector<Vec3>& x = cell.membrane.position;
+        std::vector<Vec3> force(x.size(), Vec3::Zero());
+        cell.membrane.addElasticForces(x, force);
+        for (std::size_t n = 0; n < x.size(); ++n) ofCell -= x[n][2] * force[n][0];
+    }
+    ofCell = sph::testing::sumOverRanks(ofCell) / (rate * inside.scene.system->box().volume());  // mu gammadot: 1
+    EXPECT_GT(ofCell, 0.06);
+    EXPECT_NEAR(stress, 1 + ofCell, 0.015);  // the viscosity of the disordered particles is 0.8 % low
 }

@@ -1,4 +1,5 @@
 """Stress of a dilute suspension of capsules in a shear flow without walls, against boundary elements."""
+import math
 import pathlib
 import statistics
 
@@ -48,12 +49,22 @@ def mean(table, key):
     return statistics.mean(intrinsic(row, key) for row in table if row["strain"] > STEADY)
 
 
+def byImages(folder, n):
+    """Relative viscosity by the work of the sliding images."""
+    first, *_, last = [row for row in series(folder, "balance", "budget.csv") if row["strain"] > STEADY - 1e-9]
+    rate = last["strain"] / last["time_s"]
+    volume = math.prod(fromOn(BOX, n)) * RADIUS**3
+    return (last["workOfImages_J"] - first["workOfImages_J"]) / (last["time_s"] - first["time_s"]) / (VISCOSITY * rate**2 * volume)
+
+
 def figures(done, n):
     viscosity, first, second = fromOn(ALLOWED, n)
     found = []
     for law, Ca, table in courses(done):
         theirs, name = expected(law, Ca), f"{law}, Ca {Ca:g}"
         found.append(relative(f"{name}: intrinsic viscosity", mean(table, "shearStress_membranes_Pa"), theirs["viscosity"], viscosity))
+        byCells = statistics.mean(row["relativeViscosity"] for row in table if row["strain"] > STEADY)
+        found.append(relative(f"{name}: relative viscosity by the work of images, against that by cells", byImages(done[label(law, Ca)], n), byCells, 1))
         found.append(relative(f"{name}: N1", mean(table, "N1_Pa"), theirs["N1"], first))
         N2 = mean(table, "N2_Pa")
         found.append(Figure(f"{name}: N2", N2 - theirs["N2"], second, "", N2, theirs["N2"]))
