@@ -153,7 +153,7 @@ struct ConservationObserver : Observer {
                 .include<ObserverSettings>();
         return s;
     }
-    bool wantsBudget() const override { return true; }
+    bool wantsBudget(bool) const override { return true; }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<Table> all{{"conservation", columnsOf(parts)}};
         for (const std::string& type : parts.cells) all.push_back({type, cellTable(columnsOfCells())});

@@ -106,7 +106,7 @@ class Observer : public ObserverSettings {
     // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
     virtual std::string whyNot(const Subject&) const { return {}; }
     // Whether the scene is to keep its budget of energy and momentum (sph/budget.hpp).
-    virtual bool wantsBudget() const { return false; }
+    virtual bool wantsBudget(bool /*slidingImages*/) const { return false; }
     // What it writes of a scene with these parts.
     virtual std::vector<Table> tables(const SceneParts& parts) const = 0;
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;

@@ -29,8 +29,9 @@ void ObserversSettings::check(const Node& dictionary, const Subject& subject, Pr
     }
 }
 
-bool ObserversSettings::wantBudget() const {
-    return std::any_of(models.begin(), models.end(), [](const auto& entry) { return entry.second->wantsBudget(); });
+bool ObserversSettings::wantBudget(bool slidingImages) const {
+    return std::any_of(models.begin(), models.end(),
+                       [&](const auto& entry) { return entry.second->wantsBudget(slidingImages); });
 }
 
 namespace {

@@ -29,7 +29,7 @@ struct ObserversSettings {
     // Adds a problem for each observer that does not suit the subject, at its place in `dictionary`, from which these
     // were read.
     void check(const Node& dictionary, const Subject& subject, Problems& problems) const;
-    bool wantBudget() const;  // whether any does
+    bool wantBudget(bool slidingImages) const;  // whether any does
 };
 
 class Observers {

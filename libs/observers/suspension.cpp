@@ -17,6 +17,9 @@
 // the fluid's inertia is gone, so that 1 + sigma_xg/(mu gammadot) is then the effective viscosity of `wallStress`,
 // found in another way. Forces are those of the present places, velocities (of the implicit step) those of its middle.
 //
+// Where images slide, their work is a second route (docs/theory/conservation.md): relativeViscosity_images, a mean
+// since the row before.
+//
 // The axis of a cell is the one about which its moment of inertia is the largest, in which it is thinnest: of a red
 // cell at rest its axis of symmetry. Semi-axes are those of the ellipsoid with the moments of inertia of the enclosed
 // volume. Of an open cell, volume and moments are those with each hole closed by a fan over its rim.
@@ -26,6 +29,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/communicator.hpp"
 #include "observers/cells.hpp"
@@ -63,12 +68,34 @@ Mat3 ofVelocities(const coupling::Cell& cell) {
     return sum;
 }
 
+// Mean power of sliding images since the last look.
+class ImagePower {
+  public:
+    explicit ImagePower(const Scene& scene) : work_(workOf(scene)) {}
+    double since(const Scene& scene, double time) {  // W; nan where no time has passed. Collective
+        const double work = workOf(scene),
+                     power = time > time_ ? (work - work_) / (time - time_) : std::numeric_limits<double>::quiet_NaN();
+        work_ = work, time_ = time;
+        return power;
+    }
+    std::vector<double> state() const { return {work_, time_}; }
+    void setState(std::span<const double> saved) { work_ = saved[0], time_ = saved[1]; }
+
+  private:
+    static double workOf(const Scene& scene) {
+        return Communicator(scene.system->comm()).sum(scene.budget.total[sph::Budget::ofImages]);
+    }
+    double work_ = 0, time_ = 0;
+};
+
 class SuspensionObservation : public Observation {
   public:
-    using Observation::Observation;
+    SuspensionObservation(std::vector<Table> tables, const Scene& scene) : Observation(std::move(tables)) {
+        if (SceneParts::of(scene).slidingImages) images_.emplace(scene);
+    }
 
     bool leavesGaps() const override { return true; }  // of a cell torn to the last triangle
-    std::vector<Row> observe(const Scene& scene, const Time&) override {
+    std::vector<Row> observe(const Scene& scene, const Time& time) override {
         const double mu = scene.model().viscosity;
         double volume = 0;  // of cells
         const auto numbers = ofEachCell(scene, count + 1, [&](const coupling::Cell& cell, double* out) {
@@ -90,6 +117,8 @@ class SuspensionObservation : public Observation {
                                 all(0, 0) - all(g, g),      all(g, g) - all(v, v)};
         if (const double rate = scene.flow.shearRate; rate != 0)
             row.push_back(1 + (row[1] + row[2] + row[3]) / (mu * rate));
+        if (const double rate = scene.flow.shearRate; images_)
+            row.push_back(images_->since(scene, time.t) / (mu * rate * rate * scene.fluidVolume));
 
         std::vector<Row> rows{{0, std::move(row)}};
         std::vector<std::vector<double>> ofCells;
@@ -102,8 +131,15 @@ class SuspensionObservation : public Observation {
         for (Row& one : rowsByType(scene, 1, ofCells)) rows.push_back(std::move(one));
         return rows;
     }
+    std::vector<double> state() const override { return images_ ? images_->state() : std::vector<double>{}; }
+
+  protected:
+    void setState(std::span<const double> saved) override {
+        if (images_) images_->setState(saved);
+    }
 
   private:
+    std::optional<ImagePower> images_;
     static void findShape(const Scene& scene, const coupling::Cell& cell, double* out) {
         const geometry::TriangleMesh surface = closedSurface(cell);
         const double volume = surface.volume();
@@ -131,6 +167,7 @@ struct SuspensionObserver : Observer {
         return s;
     }
     std::string whyNot(const Subject& subject) const override { return needsCells(subject); }
+    bool wantsBudget(bool slidingImages) const override { return slidingImages; }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<io::Column> whole{
             {"haematocrit", "", "volume of the cells over that of fluid and cells together"},
@@ -141,6 +178,9 @@ struct SuspensionObserver : Observer {
             {"N2", "Pa", "second one, along the gradient less along the vorticity"}};
         if (parts.shear)
             whole.push_back({"relativeViscosity", "", "1 + the sum of the three shear stresses over mu gammadot"});
+        if (parts.slidingImages)
+            whole.push_back({"relativeViscosity_images", "",
+                             "by the work of sliding images since the row before, over mu gammadot^2 V and the time"});
         std::vector<io::Column> each;
         addVector(each, "centroid", "m", "coordinate of the centroid of the enclosed volume, in the box");
         addVector(each, "velocity", "m_s", "component of the mean velocity of the nodes");
@@ -157,7 +197,7 @@ struct SuspensionObserver : Observer {
         return all;
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<SuspensionObservation>(tables(SceneParts::of(scene)));
+        return std::make_unique<SuspensionObservation>(tables(SceneParts::of(scene)), scene);
     }
 };
 

@@ -147,7 +147,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     scene.flow = input.flow;
     scene.fluidVolume = input.fluidVolume();
     scene.budget = sph::Budget(input.flow.walls.count());
-    scene.budget.kept = input.observers.wantBudget();
+    scene.budget.kept = input.observers.wantBudget(input.flow.slides());
     const bool nodesAreParticles = hasCells && !input.numerics.isImmersed();
     const ParticleStore::Optional fields{.mass = nodesAreParticles || hasBodies,
                                          .viscosity = input.varyingViscosity(),

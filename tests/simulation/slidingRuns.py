@@ -52,6 +52,8 @@ def test_ranks(folder):
         byImages = power / (1e-3 * (end["strain"] / end["time_s"]) ** 2 * 11.2e-6 * 8.4e-6 ** 2)
         byCells = statistics.mean(row["relativeViscosity"] for row in stress if row["strain"] > 0.99)
         assert abs(byImages / byCells - 1) < 0.05, (byImages, byCells)
+        steps = [row for row in stress if first["strain"] + 0.01 < row["strain"] < end["strain"] + 0.01]
+        assert abs(statistics.mean(row["relativeViscosity_images"] for row in steps) / byImages - 1) < 1e-6, (steps, byImages)
         print(ranks, byImages, byCells, budget[-1]["residualShare"], drift)
         last = table(case, "mean", "profile.csv")[-6:]
         rate = stress[-1]["strain"] / stress[-1]["time_s"]
