@@ -188,13 +188,16 @@ double CellContacts::energy(const Cells& cells, const ParticleSystem& system) co
 
 // With images n periods off, sum x f^T of the images that touch less that of their nodes is sum (n L + ...) f^T; along
 // the sliding axis the places of images have nothing else.
-double CellContacts::powerOfImages(const Periodicity& period) const {
+double CellContacts::powerOfImages(const Periodicity& period, const NodeVectors& displacement) const {
     if (!period.slides()) return 0;
-    NodeVectors f(x_.size(), Vec3::Zero());
-    contacts_.addForces(f);
+    NodeVectors x = x_, f(x_.size(), Vec3::Zero());
+    for (std::size_t m = 0; m < x.size(); ++m) x[m] += displacement[m];
+    contact::Contacts there = contacts_;
+    there.evaluate(x);
+    there.addForces(f);
     const int axis = period.slidingAxis();
-    Vec3 force = contacts_.virial().row(axis).transpose();  // times n L
-    for (std::size_t m = 0; m < f.size(); ++m) force -= x_[m][axis] * f[m];
+    Vec3 force = there.virial().row(axis).transpose();  // times n L
+    for (std::size_t m = 0; m < f.size(); ++m) force -= x[m][axis] * f[m];
     return period.slide().dot(force) / period.lengths()[axis];
 }
 

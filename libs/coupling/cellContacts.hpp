@@ -40,8 +40,9 @@ class CellContacts {
     void addForces(NodeVectors& f) const;                                          // N
     void addStiffness(double factor, const NodeVectors& u, NodeVectors& f) const;  // f += factor K u
     void addForcesAt(const NodeVectors& displacement, NodeVectors& f) const;       // nodes displaced from there [m]
-    // Power of the forces on nodes beside images of others that slide, by the slide alone; this rank's part [W].
-    double powerOfImages(const Periodicity& period) const;
+    // Power of the forces on nodes beside images of others that slide, by the slide alone, nodes displaced [m] from
+    // their places at `place`; this rank's part [W].
+    double powerOfImages(const Periodicity& period, const NodeVectors& displacement) const;
     // What walls feel of the cells that this rank owns, nodes displaced [m] from their places at `place`.
     struct OnWall {
         int wall;           // its number

@@ -99,7 +99,7 @@ double MembraneTerm<Real>::slidingPower(const Field& /*v*/, const std::vector<do
 
 template <class Real>
 double MembraneTerm<Real>::contactAcrossImages() const {
-    return immersed_.contacts() ? immersed_.contacts()->powerOfImages(system_.periodicity()) : 0;
+    return immersed_.contacts() ? immersed_.contacts()->powerOfImages(system_.periodicity(), displacement()) : 0;
 }
 
 template <class Real>

@@ -53,6 +53,7 @@ void RigidUnknowns<Real>::depart(double seconds) {
 template <class Real>
 void RigidUnknowns<Real>::takeBack() {
     for (std::size_t b = 0; b < saved_.size(); ++b) bodies()[b].state = saved_[b];
+    scene_.bodies->findMembers(*scene_.system);  // lists may have been made since
     scene_.bodies->place(*scene_.system);
 }
 

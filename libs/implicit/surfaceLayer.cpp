@@ -216,10 +216,7 @@ void SurfaceLayer<Real>::findRows(const Records& records, const std::vector<std:
                                         [&](int i) { hasRow[static_cast<std::size_t>(i)] = 1; });
     const Vec3& slide = records.system.periodicity().slide();
     const std::vector<Vec3>& slides = operators_.slides();
-    const auto periods = [&](std::size_t k) {  // of the image that k is
-        return k < n || slides.empty() ? 0 : std::round(slides[k - n].dot(slide) / slide.squaredNorm());
-    };
-    rows_.clear(), pairs_.clear(), shares_.clear();
+    rows_.clear(), pairs_.clear(), periods_.clear(), shares_.clear();
     firstPair_.assign(1, 0), firstShare_.assign(1, 0), diagonal_.assign(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         if (!hasRow[i] || operators_.isWall(i)) continue;
@@ -228,7 +225,9 @@ void SurfaceLayer<Real>::findRows(const Records& records, const std::vector<std:
         records.forNear(i, [&](std::size_t k, const Vec3&, double l) {
             const std::size_t e = entryOf(k);
             if (!isStretched[i] && !isStretched[e]) return;
-            pairs_.push_back({e, l, periods(k)});
+            pairs_.push_back({e, l});
+            if (records.system.periodicity().slides())
+                periods_.push_back(k < n ? 0 : std::round(slides[k - n].dot(slide) / slide.squaredNorm()));
             diagonal_[i] += l * (stretch * stretch - 1);
         });
         diagonal_[i] += resistance * stretch * stretch;

@@ -54,6 +54,7 @@ class SurfaceLayer {
     void addProduct(const Field& u, sph::FieldOf of, Motion&& motion, Forces& forces,
                     std::vector<sph::Wrench>& reaction) {
         const Vec3 slide = of == sph::FieldOf::velocities ? scene_.system->periodicity().slide() : Vec3(0, 0, 0);
+        const bool slides = of == sph::FieldOf::velocities && !periods_.empty();
         findExcess(u, slide, motion);
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             const std::size_t i = rows_[row];
@@ -62,8 +63,8 @@ class SurfaceLayer {
             for (std::size_t k = firstPair_[row]; k < firstPair_[row + 1]; ++k) {
                 const Vec3 change = excess - excessAt(pairs_[k].entry);
                 onVelocity -= pairs_[k].coefficient * change;
-                onExcess -= pairs_[k].coefficient *
-                            (own - (particles::vectorAt(u, pairs_[k].entry) + pairs_[k].periods * slide) + change);
+                onExcess -= pairs_[k].coefficient * (own - particles::vectorAt(u, pairs_[k].entry) + change);
+                if (slides) onExcess += pairs_[k].coefficient * periods_[k] * slide;
             }
             for (std::size_t k = firstShare_[row]; k < firstShare_[row + 1]; ++k) {
                 const Share& share = shares_[k];
@@ -102,7 +103,7 @@ class SurfaceLayer {
     };
     struct Pair {
         std::size_t entry;
-        double coefficient, periods;  // periods: of the image of the entry's particle
+        double coefficient;
     };
     struct Records;
     struct Side;
@@ -133,6 +134,8 @@ class SurfaceLayer {
     // Rows of A: own particles, fluid and bodies', each with its pairs and the bodies beside it.
     std::vector<std::size_t> rows_, firstPair_, firstShare_;
     std::vector<Pair> pairs_;  // in which one of the two has a gamma
+    // Of the image of each pair's entry, across faces whose images slide; empty where none does.
+    std::vector<double> periods_;
     std::vector<Share> shares_;
     std::vector<double> diagonal_;
 };

@@ -85,7 +85,7 @@ class ImagePower {
     static double workOf(const Scene& scene) {
         return Communicator(scene.system->comm()).sum(scene.budget.total[sph::Budget::ofImages]);
     }
-    double work_ = 0, time_ = 0;
+    double work_ = 0, time_ = std::numeric_limits<double>::quiet_NaN();  // before the first look
 };
 
 class SuspensionObservation : public Observation {

@@ -44,6 +44,18 @@ void ResultsWriter::goBack(const Ticker& ticker, const Time& time) {
     if (holes_) holes_->goBack(time.t);
 }
 
+namespace {
+
+// Where images are and how they move, if they slide: for whoever draws what crosses a face.
+std::map<std::string, double> imagesOf(const Periodicity& periodicity) {
+    if (!periodicity.slides()) return {};
+    return {{"slidingAxis", periodicity.slidingAxis()},
+            {"imageOffset", periodicity.offset().x()},
+            {"imageVelocity", periodicity.slide().x()}};
+}
+
+}  // namespace
+
 io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     const auto& s = scene.store();
     const sph::FluidModel& model = scene.model();
@@ -64,10 +76,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     if (meanPressure) means = sph::localMean(*scene.system, *model.kernel, model.mass, pressures);
     auto& spacing = data.point.scalars["spacing"];
     const Periodicity& periodicity = scene.system->periodicity();
-    if (periodicity.slides())
-        data.field = {{"slidingAxis", periodicity.slidingAxis()},
-                      {"imageOffset", periodicity.offset().x()},
-                      {"imageVelocity", periodicity.slide().x()}};
+    data.field = imagesOf(periodicity);
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;
         Vec3 x = s.position(i), u = s.velocity(i);
@@ -116,6 +125,7 @@ io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
 
 io::PolyData typePiece(const Scene& scene, std::size_t type) {
     io::PolyData all;
+    all.field = imagesOf(scene.system->periodicity());
     for (const char* name : {"force", "velocity"}) all.point.vectors[name];
     for (const char* name : {"stretch", "spacing"}) all.point.scalars[name];
     for (const char* name : {"areaStrain", "tension1", "tension2"}) all.cell.scalars[name];
@@ -155,6 +165,7 @@ void addRims(const membrane::Membrane& m, io::PolyData& data) {
 
 io::PolyData bodyPiece(const Scene& scene, const bodies::Body& body, bool writer) {
     io::PolyData data;
+    data.field = imagesOf(scene.system->periodicity());
     auto& velocity = data.point.vectors["velocity"];
     auto& spacing = data.point.scalars["spacing"];
     if (writer) data.points = body.nodes();

@@ -152,6 +152,26 @@ TEST(CellContacts, aWayOnWhichCellsMeetIsNotFree) {
     EXPECT_EQ(travel(-1), 1);
 }
 
+// Two cells that touch across a sliding face: the energy of contact changes by the slide alone.
+TEST(CellContacts, powerOfImagesIsWhatTheirSlideTakesFromTheEnergy) {
+    for (const double along : {-0.5, 0.5}) {
+        const double up = std::sqrt(1 - along * along);
+        Touching scene({6, 6, 11}, {6 + along * apart, 6, 11 + up * apart - size[2]}, 2.0);
+        scene.system->slideImages(2, {2, 0, 0});
+        scene.place();
+        const NodeVectors still(scene.layout.nodes(), Vec3::Zero());
+        const double power =
+            sph::testing::sumOverRanks(scene.contacts.powerOfImages(scene.system->periodicity(), still));
+        EXPECT_GT(power * along, 1e-3) << "contact pushes the image on its way where it is ahead";
+        constexpr double seconds = 1e-6;
+        scene.system->moveImages(seconds);
+        const double after = scene.energy();
+        scene.system->moveImages(-2 * seconds);
+        const double before = scene.energy();
+        EXPECT_NEAR((after - before) / (2 * seconds), -power, 1e-5 * std::abs(power));
+    }
+}
+
 // Images of the second cell come past the first one by themselves, and meet it after 1.08 s where they come nearer.
 TEST(CellContacts, aWayOnWhichAnImageSlidesIntoACellIsNotFree) {
     for (const double speed : {-1.0, 1.0}) {

@@ -141,6 +141,30 @@ TEST(RigidBodies, aStepTakenBackLeavesThemAsTheyWere) {
     EXPECT_EQ(s.sphere.body().state.orientation.coeffs(), before.orientation.coeffs());
 }
 
+// Particles have changed their order, and their ranks, since bodies knew which are theirs.
+TEST(RigidBodies, aStepTakenBackAfterNewListsMovesBodiesAlone) {
+    SphereSystem s("free");
+    s.sphere.body().state.motion = turning;
+    s.rigid().depart(2);
+    particles::ParticleStore& store = s.sphere.scene.store();
+    for (std::size_t i = 0; i < store.size(); ++i)
+        if (store.kindOf(i) == particles::Kind::fluid) store.setPosition(i, store.position(i) + Vec3(2.5, -1.5, 4));
+    s.sphere.scene.system->rebuild();
+    std::vector<Vec3> before;
+    for (std::size_t i = 0; i < store.size(); ++i) before.push_back(store.position(i));
+    s.rigid().takeBack();
+    const bodies::Body& body = s.sphere.body();
+    for (std::size_t i = 0; i < store.size(); ++i) {
+        if (store.kindOf(i) == particles::Kind::fluid) {
+            EXPECT_EQ(store.position(i), before[i]);
+            continue;
+        }
+        const Vec3 place = body.particles[static_cast<std::size_t>(store.member[i])].place,
+                   off = store.position(i) - body.state.centre - body.state.orientation * place;
+        EXPECT_LT(s.sphere.scene.system->periodicity().shortest(off).norm(), 1e-12);
+    }
+}
+
 TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
     for (const char* method : {"midpoint", "backwardEuler"}) {
         SphereInFluid f({12, 12, 12}, Vec3(3, 6, 9), "free", 2.5, 0.1);

@@ -204,6 +204,10 @@ TEST(SlidingImages, aStepThatFailsPutsEverythingBack) {
     EXPECT_EQ(parts.step->statistics.halvings, 0);
     EXPECT_NEAR(failing.scene.system->periodicity().offset()[0], 0, 1e-9) << "of 10, in a period of 10";
     EXPECT_EQ(failing.scene.system->periodicity().offset(), parts.scene.system->periodicity().offset());
+    const auto work = [](const CellInShear& box) {
+        return sph::testing::sumOverRanks(box.scene.budget.total[sph::Budget::ofImages]);
+    };
+    EXPECT_NEAR(work(failing) / work(parts), 1, 1e-6) << "crossings of the failed attempt are taken back";
     for (const coupling::Cell& cell : failing.scene.cells) {
         const coupling::Cell* const other = parts.scene.cells.find(cell.membrane.cell);
         ASSERT_TRUE(other);

@@ -96,6 +96,10 @@ def test_viscous(folder):
         rate = found[ranks][1][-1]["strain"] / found[ranks][1][-1]["time_s"]
         for row in last:
             assert abs(row["u_m_s"] - rate * row["position_m"]) < 0.12 * rate * 8.4e-6, row
+        assert table(one, "balance", "budget.csv")[-1]["residualShare"] < 5e-3
+        late = [row for row in found[ranks][1] if row["strain"] > 0.5]
+        byImages, byCells = (statistics.mean(row[key] for row in late) for key in ("relativeViscosity_images", "relativeViscosity"))
+        assert abs(byImages / byCells - 1) < 0.1, (byImages, byCells)
     for ranks in (2, 4):
         for one, other in zip(found[1][0], found[ranks][0], strict=True):
             assert abs(one["D12_inertia"] - other["D12_inertia"]) < 3e-4, (ranks, one, other)
@@ -106,6 +110,49 @@ def test_viscous(folder):
     run(upright, "dmpFlow", ranks=2)
     for one, other in zip(found[1][0], [*table(upright, "form", "a.csv"), *table(upright, "form", "b.csv")], strict=True):
         assert abs(one["D12_inertia"] - other["D12_inertia"]) < 3e-3, (one, other)
+
+
+BEADS = {
+    **CASE,
+    "system/mesh.yaml": "domain: {size: [11.2 um, 8.4 um, 8.4 um], periodic: [true, true, true]}\n"
+                        f"cells: [{SPHERE.format('a', -1.4, 0, 1.2).replace('2.4 um', '1.6 um')}]\n"
+                        "bodies: [{name: free, shape: {type: sphere, radius: 1.4 um}, edge: 0.4 um, centre: [2.8 um, 0.2 um, 4.1 um]},\n"
+                        "  {name: held, shape: {type: sphere, radius: 1.4 um}, edge: 0.4 um, centre: [-4.2 um, -2.8 um, -4.0 um]}]\n",
+    "constant/bodies.yaml": "free: {density: 1000 kg/m^3, motion: free}\nheld: {motion: held}\n",
+    "system/control.yaml": CASE["system/control.yaml"].replace("endStrain: 2", "endStrain: 1"),
+    "system/observers.yaml": CASE["system/observers.yaml"] + "motion: {type: body, every: 0.2 strain}\n",
+}
+
+
+def test_bodies(folder):
+    """A free and a held sphere on the sliding faces, beside a cell: the same on 1, 2 and 4 ranks, in one run and in two; the budget closes."""
+    start = prepared(folder / "start", BEADS)
+    found = {}
+    for ranks in (1, 2, 4):
+        case = copied(start, folder / str(ranks))
+        run(case, "dmpFlow", ranks=ranks)
+        record = json.loads((case / "run.json").read_text())
+        assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] == 0, record["performance"]
+        budget = table(case, "balance", "budget.csv")
+        assert budget[-1]["residualShare"] < 5e-3 and budget[-1]["workOfImages_J"] > 0, budget[-1]
+        # Of the first steps, when the flow meets the held sphere; between walls it is twice that.
+        assert record["observers"]["balance"]["momentumDriftShare"] < 8e-3, record["observers"]["balance"]
+        assert table(case, "balance")[-1]["changedSide"] == 0
+        found[ranks] = table(case, "motion", "free.csv"), budget
+        rate = budget[-1]["strain"] / budget[-1]["time_s"]
+        first, last = found[ranks][0][0], found[ranks][0][-1]
+        assert 0.3 < last["angularVelocity_y_1_s"] / rate < 0.7, last
+        assert last["centre_x_m"] - first["centre_x_m"] > 0.5 * rate * last["time_s"] * 4.1e-6, (first, last)
+        held = table(case, "motion", "held.csv")[-1]
+        assert held["velocity_x_m_s"] == 0 and held["force_x_N"] < 0, held  # the flow at its place goes to -x
+    for ranks in (2, 4):
+        for one, other in zip(found[1][0], found[ranks][0], strict=True):
+            assert abs(one["centre_x_m"] - other["centre_x_m"]) < 1e-3 * 0.7e-6 and abs(one["velocity_x_m_s"] - other["velocity_x_m_s"]) < 1e-3 * 2.6e-3, (one, other)
+        for one, other in zip(found[1][1], found[ranks][1], strict=True):
+            assert abs(one["workOfImages_J"] - other["workOfImages_J"]) <= 1e-3 * abs(one["workOfImages_J"]), (one, other)
+    parts = same_in_parts(folder / "2", start, "dmpFlow", 13, ranks=2)
+    for observer, file in (("motion", "free.csv"), ("motion", "held.csv"), ("balance", "budget.csv")):
+        assert series(folder / "2", observer, file) == series(parts, observer, file), observer
 
 
 def test_restart(folder):

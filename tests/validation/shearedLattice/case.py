@@ -15,7 +15,7 @@ ACROSS = "particles along a cell"
 RESOLUTIONS = (16, 24, 32, 48)
 FRACTIONS = {16: (0.05, 0.1), 32: (0.05, 0.1, 0.3)}  # a sphere must not reach its own image within two supports
 ALLOWED = (1, 0.01)  # % of the viscosity; of the spin over gammadot
-FROM = 1.5  # of strain: until there the lattice in which particles are put at the start is drawn out and falls apart
+FROM = 1.5  # of strain: until there the lattice of the start is drawn out and falls apart
 L, MU, RATE = 10e-6, 1e-3, 100.0  # m, Pa s, 1/s: of system/mesh.yaml and constant
 EDGES = 16  # of the mesh along the radius
 

@@ -111,12 +111,18 @@ void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
         auto& [sum, count] = means.try_emplace(cellOf(p), Vec3(Vec3::Zero()), 0.0).first->second;
         sum += surface.points[p], ++count;
     }
-    std::map<std::int64_t, Vec3> shifts;
+    const Periodicity periodicity = periodicityOf(surface, box);
+    std::map<std::int64_t, Periodicity::Image> images;
     for (const auto& [cell, points] : means) {
-        const Vec3 mean = points.first / points.second;
-        shifts[cell] = box.periodicity().wrap(mean) - mean;
+        const Vec3 mean = points.first / points.second, there = periodicity.wrap(mean);
+        images[cell] = {there - mean, periodicity.slideOf(mean, there)};
     }
-    for (std::size_t p = 0; p < surface.points.size(); ++p) surface.points[p] += shifts.at(cellOf(p));
+    const auto velocity = surface.point.vectors.find("velocity");
+    for (std::size_t p = 0; p < surface.points.size(); ++p) {
+        const Periodicity::Image& image = images.at(cellOf(p));
+        surface.points[p] += image.shift;
+        if (velocity != surface.point.vectors.end()) velocity->second[p] += image.slide;
+    }
 }
 
 // One mesh, once at each place, as cells of one stream. Arrays of a mesh in 0/ are those of the stress-free state, the

@@ -63,16 +63,6 @@ double spacingOf(const io::PolyData& fluid, const Vec3& size) {
     return std::cbrt(size.prod() / static_cast<double>(fluid.points.size()));
 }
 
-// With the images that the fluid's field data say how they slide.
-Periodicity periodicityOf(const io::PolyData& fluid, const particles::Box& box) {
-    Periodicity periodicity = box.periodicity();
-    const auto number = [&](const char* name) { return fluid.field.at(name); };
-    if (fluid.field.count("slidingAxis") != 0)
-        periodicity.slide(static_cast<int>(number("slidingAxis")), Vec3(number("imageOffset"), 0, 0),
-                          Vec3(number("imageVelocity"), 0, 0));
-    return periodicity;
-}
-
 // The particles and their images near a plane, in squares of the reach.
 class NearPlane {
   public:
@@ -157,6 +147,15 @@ Fit fitAt(const Vec3& x, const NearPlane& particles, double dx, const Source& so
 }
 
 }  // namespace
+
+Periodicity periodicityOf(const io::PolyData& data, const particles::Box& box) {
+    Periodicity periodicity = box.periodicity();
+    const auto axis = data.field.find("slidingAxis");
+    if (axis == data.field.end() || !periodicity.isAlong(static_cast<int>(axis->second))) return periodicity;
+    periodicity.slide(static_cast<int>(axis->second), Vec3(data.field.at("imageOffset"), 0, 0),
+                      Vec3(data.field.at("imageVelocity"), 0, 0));
+    return periodicity;
+}
 
 Vec3 Slice::place(int column, int row) const {
     Vec3 x;

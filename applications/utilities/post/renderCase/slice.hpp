@@ -34,6 +34,9 @@ struct Slice {
     std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * columns + column; }
 };
 
+// Images of the box, which slide as the field data of results say.
+Periodicity periodicityOf(const io::PolyData& data, const particles::Box& box);
+
 // `field`: u, v, w or speed of the particles' velocity, or an array of theirs. Without a box the slice is as large as
 // the fluid. Throws Failure(usage) for a field that there is not, naming those that there are.
 Slice sampleSlice(const io::PolyData& fluid, const std::optional<particles::Box>& box, const SlicePlane& plane,
