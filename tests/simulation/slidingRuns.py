@@ -28,15 +28,21 @@ CASE = {
 }
 
 
-def test_ranks(folder):
-    """The same on 1, 2 and 4 ranks: shapes, stress, volumes; nobody crosses, and the fluid keeps its shear."""
-    start = prepared(folder / "start", CASE)
-    found = {}
+def onRanks(start, folder):
+    """Ranks, case and record of a run on 1, 2 and 4 ranks, in which no step is taken back."""
     for ranks in (1, 2, 4):
         case = copied(start, folder / str(ranks))
         run(case, "dmpFlow", ranks=ranks)
         record = json.loads((case / "run.json").read_text())
         assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] == 0, record["performance"]
+        yield ranks, case, record
+
+
+def test_ranks(folder):
+    """The same on 1, 2 and 4 ranks: shapes, stress, volumes; nobody crosses, and the fluid keeps its shear."""
+    start = prepared(folder / "start", CASE)
+    found = {}
+    for ranks, case, record in onRanks(start, folder):
         rows = [*table(case, "form", "a.csv"), *table(case, "form", "b.csv")]
         stress = table(case, "blood", "suspension.csv")
         balance = table(case, "balance")
@@ -84,11 +90,7 @@ def test_viscous(folder):
     }
     start = prepared(folder / "start", case)
     found = {}
-    for ranks in (1, 2, 4):
-        one = copied(start, folder / str(ranks))
-        run(one, "dmpFlow", ranks=ranks)
-        record = json.loads((one / "run.json").read_text())
-        assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] == 0, record["performance"]
+    for ranks, one, _ in onRanks(start, folder):
         balance = table(one, "balance")
         assert max(abs(row["volumeChange"]) for row in balance) < 1e-6 and balance[-1]["changedSide"] == 0, balance[-1]
         found[ranks] = [*table(one, "form", "a.csv"), *table(one, "form", "b.csv")], table(one, "blood", "suspension.csv")
@@ -128,11 +130,7 @@ def test_bodies(folder):
     """A free and a held sphere on the sliding faces, beside a cell: the same on 1, 2 and 4 ranks, in one run and in two; the budget closes."""
     start = prepared(folder / "start", BEADS)
     found = {}
-    for ranks in (1, 2, 4):
-        case = copied(start, folder / str(ranks))
-        run(case, "dmpFlow", ranks=ranks)
-        record = json.loads((case / "run.json").read_text())
-        assert record["performance"]["rollbacks"] == 0 and record["performance"]["halvings"] == 0, record["performance"]
+    for ranks, case, record in onRanks(start, folder):
         budget = table(case, "balance", "budget.csv")
         assert budget[-1]["residualShare"] < 5e-3 and budget[-1]["workOfImages_J"] > 0, budget[-1]
         # Of the first steps, when the flow meets the held sphere; between walls it is twice that.
