@@ -110,9 +110,10 @@ class RigidUnknowns final : public Term<Real> {
         for (std::size_t b = 0; b < bodies().size(); ++b) put(u, b, w(bodies()[b].state.centre), Vec3::Zero());
         spread(u, sph::FieldOf::velocities);
     }
-    // u.(the surface layer's reaction on bodies), of what was found last: this rank's part. Of the forces on their
-    // particles, the power by the slide of those that are in another image than their body.
+    // Power in the flow u of the surface layer's reaction on bodies, as found last; this rank's part [W].
     double reactionPower(const Field& u) const;
+    // Power of these forces on bodies' particles by the slide alone of those that are in another image than their
+    // body's centre; this rank's part [W].
     double powerOfSlides(const particles::RealArray& force) const;
 
     bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }
