@@ -293,6 +293,18 @@ Codec<std::string> name() {
             [](const std::string& value) { return Node::word(value); }};
 }
 
+Codec<std::vector<std::string>> values() {
+    return {[](const Node& node, std::vector<std::string>& values, Problems& problems) {
+                if (!isListOf(node, 0, "a list like '[0.1, 0.2]'", problems) || !hasNoUnit(node, problems)) return;
+                values.clear();
+                for (const Node& item : node.items)
+                    if (item.isNothing())
+                        complain(item, problems, "found nothing; a value is expected");
+                    else
+                        values.push_back(item.kind == Node::Kind::scalar ? item.scalar : emitInLine(item));
+            },
+            [](const std::vector<std::string>& values) { return Node::list(values); }};
+}
 Codec<std::string> text() {
     return {[](const Node& node, std::string& value, Problems& problems) {
                 if (isScalar(node, "a text", problems)) value = node.scalar;

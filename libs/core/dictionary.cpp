@@ -408,4 +408,6 @@ std::string emit(const Node& node) {
     return text;
 }
 
+std::string emitInLine(const Node& node) { return flowText(node); }
+
 }  // namespace corpuscle

@@ -81,5 +81,6 @@ void applyOverride(Node& root, const Override& change, Problems& problems);
 
 // YAML text of a node; parsing it gives the same node.
 std::string emit(const Node& node);
+std::string emitInLine(const Node& node);  // lists and tables in brackets, without a line end
 
 }  // namespace corpuscle

@@ -177,6 +177,8 @@ class Writer {
         if (f.type == "words")
             return {{"type", "array"}, {"items", f.words.empty() ? text(nameText()) : Json{{"enum", f.words}}}};
         if (f.type == "list") return {{"type", "array"}, {"items", item(f)}};
+        if (f.type == "values")
+            return {{"type", "array"}, {"items", {{"type", {"string", "number", "boolean", "array", "object"}}}}};
         if (f.type == "map" || f.type == "models")
             return {{"type", "object"},
                     {"propertyNames", {{"pattern", whole(nameText())}}},

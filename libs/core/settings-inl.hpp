@@ -23,6 +23,7 @@ Codec<std::string> word(std::vector<std::string> allowed);
 Codec<std::vector<std::string>> words(std::vector<std::string> allowed);  // empty: any names
 Codec<std::string> name();
 Codec<std::string> text();
+Codec<std::vector<std::string>> values();  // of any kind, as YAML in one line
 Codec<std::string> wordOrQuantity(const std::vector<std::string>& allowed, Dimension dimension, Range range);
 Codec<Vec3> vector(Dimension dimension, Range range);
 Codec<Index3> integers(Range range);
@@ -153,6 +154,10 @@ class Schema : public SchemaBase {
                   const Options& o = {}) {
         return add(withWords(describe("words", key, text, o), allowed), m, codec::words(allowed));
     }
+    Schema& words(const Str& key, Maybe<std::vector<Str>> T::*m, const std::vector<Str>& allowed, const Str& text,
+                  const Options& o = {}) {
+        return add(withWords(describe("words", key, text, o), allowed), m, codec::words(allowed));
+    }
     // A free name: a letter, then letters, digits, '-' and '_'.
     Schema& name(const Str& key, Str T::*m, const Str& text, const Options& o = {}) {
         return add(describe("name", key, text, o), m, codec::name());
@@ -166,6 +171,13 @@ class Schema : public SchemaBase {
     }
     Schema& text(const Str& key, Maybe<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("text", key, text, o), m, codec::text());
+    }
+    // Values of any kind, each kept as YAML in one line (of a text in quotes what stands in it), for others to read.
+    Schema& values(const Str& key, std::vector<Str> T::*m, const Str& text, const Options& o = {}) {
+        return add(describe("values", key, text, o), m, codec::values());
+    }
+    Schema& values(const Str& key, Maybe<std::vector<Str>> T::*m, const Str& text, const Options& o = {}) {
+        return add(describe("values", key, text, o), m, codec::values());
     }
 
     // One of the allowed words, or a quantity, kept as it is written.

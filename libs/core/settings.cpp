@@ -60,6 +60,7 @@ std::string FieldInfo::example() const {
     if (type == "word or quantity" && !words.empty()) return words.front();
     if (type == "word" && !words.empty()) return words.front();
     if (type == "words") return fmt::format("[{}]", joinWords(words));
+    if (type == "values") return "[0.1, 8 um]";
     return "";
 }
 
@@ -85,6 +86,8 @@ std::string FieldInfo::description() const {
         what = "a name";
     else if (type == "text")
         what = "a text";
+    else if (type == "values")
+        what = "a list of values of any kind";
     else if (type == "vector")
         what = si.empty() ? "three numbers [x, y, z]" : "a vector [x, y, z] in " + si;
     else if (type == "integers")

@@ -19,8 +19,8 @@
 //     Fluid fluid = read<Fluid>(node, problems);
 //
 // Kinds of fields (each: key, &T::member, ..., one sentence, {.fallback, .range}); settings-inl.hpp declares them:
-//     quantity quantityOr quantities integer boolean word words wordOrQuantity name text vector vectorOr integers
-//     booleans length lengthOr interval table tableOr list map model modelOr models modelTables
+//     quantity quantityOr quantities integer boolean word words wordOrQuantity name text values vector vectorOr
+//     integers booleans length lengthOr interval table tableOr list map model modelOr models modelTables
 // The key "*" of map and models takes every key that is not declared otherwise (a file that is a table of free names).
 // Rules over several keys: exactlyOneOf({"Ca", "shearRate"}), atMostOneOf(...), check(function); include<Base>() adds
 // the fields of a base struct; atRestart(AtRestart::fixed, {"spacing"}) says what a change means to a continued run.
@@ -89,8 +89,8 @@ struct Interval {
 // What a field is, for the reference page, the JSON schema and help.
 struct FieldInfo {
     std::string key;
-    // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text", "vector",
-    // "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
+    // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text", "values",
+    // "vector", "integers", "booleans", "length", "interval", "table", "list", "map", "model", "models"
     std::string type;
     Dimension dimension;
     std::string text;      // one sentence

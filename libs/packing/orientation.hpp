@@ -1,7 +1,7 @@
 // Family of the ways in which cells that are packed are turned.
 #pragma once
+#include "core/random.hpp"
 #include "core/registry.hpp"
-#include "packing/random.hpp"
 
 namespace corpuscle::packing {
 

@@ -1,5 +1,9 @@
 #include "simulation/dictionaries.hpp"
 
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "contact/contactSettings.hpp"
@@ -10,6 +14,7 @@
 #include "simulation/caseSettings.hpp"
 #include "simulation/readyCell.hpp"
 #include "simulation/relaxSettings.hpp"
+#include "study/studySettings.hpp"
 
 namespace corpuscle::simulation {
 namespace {
@@ -28,6 +33,36 @@ SchemaInfo flowInfo() {
     return info;
 }
 
+// A dictionary: its settings, and the reader of them.
+struct Known {
+    std::string file;
+    SchemaInfo info;
+    std::function<void(const Node&, Problems&)> read;
+};
+
+template <class T>
+Known knownAs(const std::string& file) {
+    return {file, T::schema().info(), [](const Node& node, Problems& problems) { corpuscle::read<T>(node, problems); }};
+}
+
+const std::vector<Known>& known() {
+    static const std::vector<Known> all{
+        knownAs<ControlSettings>("system/control.yaml"),
+        knownAs<NumericsSettings>("system/numerics.yaml"),
+        knownAs<MeshSettings>("system/mesh.yaml"),
+        knownAs<packing::PackSettings>("system/pack.yaml"),
+        knownAs<RelaxSettings>("system/relax.yaml"),
+        knownAs<observers::ObserversSettings>("system/observers.yaml"),
+        knownAs<FluidSettings>("constant/fluid.yaml"),
+        knownAs<MembranesSettings>("constant/membranes.yaml"),
+        knownAs<bodies::BodiesSettings>("constant/bodies.yaml"),
+        knownAs<contact::ContactSettings>("constant/contact.yaml"),
+        {"constant/flow.yaml", flowInfo(),
+         [](const Node& node, Problems& problems) { readChoice<sph::Flow>(node, problems); }},
+        knownAs<study::StudySettings>("study.yaml")};
+    return all;
+}
+
 std::string schemaText(const SchemaInfo& info) { return schemaOf(info).dump(2) + "\n"; }
 
 // All, by the file's name.
@@ -42,19 +77,49 @@ std::vector<std::pair<std::string, SchemaInfo>> schemas() {
 }  // namespace
 
 const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries() {
-    static const std::vector<std::pair<std::string, SchemaInfo>> all{
-        {"system/control.yaml", ControlSettings::schema().info()},
-        {"system/numerics.yaml", NumericsSettings::schema().info()},
-        {"system/mesh.yaml", MeshSettings::schema().info()},
-        {"system/pack.yaml", packing::PackSettings::schema().info()},
-        {"system/relax.yaml", RelaxSettings::schema().info()},
-        {"system/observers.yaml", observers::ObserversSettings::schema().info()},
-        {"constant/fluid.yaml", FluidSettings::schema().info()},
-        {"constant/membranes.yaml", MembranesSettings::schema().info()},
-        {"constant/bodies.yaml", bodies::BodiesSettings::schema().info()},
-        {"constant/contact.yaml", contact::ContactSettings::schema().info()},
-        {"constant/flow.yaml", flowInfo()}};
+    static const std::vector<std::pair<std::string, SchemaInfo>> all = [] {
+        std::vector<std::pair<std::string, SchemaInfo>> found;
+        for (const Known& one : known()) found.emplace_back(one.file, one.info);
+        return found;
+    }();
     return all;
+}
+
+void checkDictionary(const std::string& file, const Node& node, Problems& problems) {
+    if (file.starts_with("constant/cells/")) {
+        read<ReadyCell>(node, problems);
+        return;
+    }
+    std::vector<std::string> names;
+    for (const Known& one : known()) {
+        if (one.file == file) return one.read(node, problems);
+        names.push_back(one.file);
+    }
+    problems.add({file, 0, 0}, "", fmt::format("there is no dictionary of this name.{}", didYouMean(file, names)));
+}
+
+namespace {
+
+std::vector<Problem> faultsOf(const std::string& file, const std::string& text) {
+    Problems found;
+    try {
+        const Node node = parseDictionary(text, file, found);
+        found.throwIfAny();
+        checkDictionary(file, node, found);
+        found.throwIfAny();
+    } catch (const CaseError& error) {
+        return error.problems();
+    }
+    return {};
+}
+
+}  // namespace
+
+void addNewProblems(const std::string& file, const std::string& before, const std::string& after, Problems& problems) {
+    std::map<std::string, int> old;
+    for (const Problem& problem : faultsOf(file, before)) ++old[problem.key + problem.message];
+    for (const Problem& problem : faultsOf(file, after))
+        if (old[problem.key + problem.message]-- <= 0) problems.add(problem.mark, problem.key, problem.message);
 }
 
 nlohmann::ordered_json schemaOf(const SchemaInfo& info) {

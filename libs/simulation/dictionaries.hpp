@@ -19,6 +19,13 @@ namespace corpuscle::simulation {
 // "system/control.yaml", ... with what is declared for it.
 const std::vector<std::pair<std::string, SchemaInfo>>& dictionaries();
 
+// Reads a dictionary by its declared settings, as programs do, and adds what is wrong with it. `file`:
+// "system/mesh.yaml", "constant/cells/NAME.yaml", "study.yaml". A file of another name is a problem.
+void checkDictionary(const std::string& file, const Node& node, Problems& problems);
+
+// What is wrong with the text of a dictionary after a change, and was not before it.
+void addNewProblems(const std::string& file, const std::string& before, const std::string& after, Problems& problems);
+
 // "cell", of constant/cells/NAME.yaml, which is read where system/mesh.yaml names it.
 SchemaInfo readyCellInfo();
 

@@ -7,9 +7,9 @@
 
 #include "boundary/planeWalls.hpp"
 #include "contact/barrier.hpp"
+#include "core/random.hpp"
 #include "geometry/mesher.hpp"
 #include "geometry/spheroid.hpp"
-#include "packing/random.hpp"
 
 namespace corpuscle::packing {
 namespace {

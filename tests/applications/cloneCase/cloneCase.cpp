@@ -80,13 +80,15 @@ TEST_F(CloneCase, ChangesStandInTheCopyAndCommentsStay) {
               "domain: {size: [24 um, 24 um, 24 um], periodic: [true, true, false]}\ncells: [{name: rbc, edge: 0.5 "
               "um}]  # one\n");
     EXPECT_TRUE(contains(readText(at("old/constant/flow.yaml")), "Ca: 0.02"));
-    // A key that the file lacks has no place in it.
+    // What the programs would refuse (a rate beside Ca, without its unit) or cannot find.
     for (const std::string change :
          {"constant/flow.yaml:/shearRate=10", "system/mesh.yaml:/cells/3/edge=1", "constant/flo.yaml:/Ca=1"}) {
         const Result other = run("old other -set '" + change + "'");
         EXPECT_EQ(other.code, 2) << other.text;
         EXPECT_FALSE(fs::exists(at("other"))) << change;
     }
+    EXPECT_EQ(run("old added -set 'constant/flow.yaml:/walls={normal: y}'").code, 0);
+    EXPECT_TRUE(contains(readText(at("added/constant/flow.yaml")), "walls: {normal: y}"));
 }
 
 TEST_F(CloneCase, WhatCannotBeIsRefused) {

@@ -4,42 +4,12 @@
 //
 // A line {"file": "system/mesh.yaml", "text": "..."} is answered by ["problem", ...], empty where the text is accepted.
 #include <filesystem>
-#include <functional>
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 
-#include "observers/observers.hpp"
-#include "packing/packSettings.hpp"
-#include "simulation/caseSettings.hpp"
 #include "simulation/dictionaries.hpp"
-#include "simulation/readyCell.hpp"
-#include "simulation/relaxSettings.hpp"
 
 using namespace corpuscle;
-
-namespace {
-
-template <class T>
-void readAs(const Node& node, Problems& problems) {
-    read<T>(node, problems);
-}
-
-const std::map<std::string, std::function<void(const Node&, Problems&)>> readers{
-    {"system/control.yaml", readAs<simulation::ControlSettings>},
-    {"system/numerics.yaml", readAs<simulation::NumericsSettings>},
-    {"system/mesh.yaml", readAs<simulation::MeshSettings>},
-    {"system/pack.yaml", readAs<packing::PackSettings>},
-    {"system/relax.yaml", readAs<simulation::RelaxSettings>},
-    {"system/observers.yaml", readAs<observers::ObserversSettings>},
-    {"constant/fluid.yaml", readAs<simulation::FluidSettings>},
-    {"constant/membranes.yaml", readAs<simulation::MembranesSettings>},
-    {"constant/bodies.yaml", readAs<bodies::BodiesSettings>},
-    {"constant/contact.yaml", readAs<contact::ContactSettings>},
-    {"constant/cells/cell.yaml", readAs<simulation::ReadyCell>},
-    {"constant/flow.yaml", [](const Node& node, Problems& problems) { readChoice<sph::Flow>(node, problems); }}};
-
-}  // namespace
 
 int main(int argc, char* argv[]) {
     if (argc != 2) return 1;
@@ -50,7 +20,7 @@ int main(int argc, char* argv[]) {
         nlohmann::json answer = nlohmann::json::array();
         Problems problems;
         const Node node = parseDictionary(asked.at("text"), file, problems);
-        if (problems.empty()) readers.at(file)(node, problems);
+        if (problems.empty()) simulation::checkDictionary(file, node, problems);
         try {
             problems.throwIfAny();
         } catch (const CaseError& error) {

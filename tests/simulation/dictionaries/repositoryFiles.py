@@ -28,6 +28,8 @@ def dictionaries(source):
 
 
 def kind(file):
+    if file.name == "study.yaml":
+        return file.name
     if file.parent.name == "cells":
         return "constant/cells/cell.yaml"
     return f"{file.parent.name}/{file.name}" if file.parent.name in ("system", "constant") else None
@@ -36,11 +38,11 @@ def kind(file):
 def check(source, file, reader, schemas):
     text = (source / file).read_text()
     name = kind(file)
-    if name is None or FOLDER.get(pathlib.PurePath(name).stem, "cells") != pathlib.PurePath(name).parent.name:
+    if name is None or name != "study.yaml" and FOLDER.get(pathlib.PurePath(name).stem, "cells") != pathlib.PurePath(name).parent.name:
         return [f"{file}: no dictionary stands there"]
     faults = [f"{file}: reader: {p}" for p in reader.problems(name, text)]
-    up = "../.." if name.startswith("constant/cells/") else ".."
-    first = f"# yaml-language-server: $schema={up}/.schema/{pathlib.PurePath(name).stem}.json"
+    up = "../../" if name.startswith("constant/cells/") else "" if name == "study.yaml" else "../"
+    first = f"# yaml-language-server: $schema={up}.schema/{pathlib.PurePath(name).stem}.json"
     if text.split("\n")[0] != first:
         faults.append(f"{file}: the first line is not '{first}'")
     for which, load in (("YAML 1.1", yaml.safe_load), ("YAML 1.2", yaml12.load)):

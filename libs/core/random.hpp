@@ -6,7 +6,7 @@
 
 #include "core/vec.hpp"
 
-namespace corpuscle::packing {
+namespace corpuscle {
 
 class Random {
   public:
@@ -32,4 +32,4 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-}  // namespace corpuscle::packing
+}  // namespace corpuscle

@@ -1,0 +1,17 @@
+// The mean, with its standard error by blocks (core/blockAverage.hpp). Where no range is given, of the second half of
+// the run.
+#pragma once
+#include "study/statistic.hpp"
+
+namespace corpuscle::study {
+
+struct MeanStatistic : Statistic {
+    Estimate of(std::span<const double> along, std::span<const double> values) const override;
+    bool hasError() const override { return true; }
+    bool needsEvenSpacing() const override { return true; }
+    bool isOfWholeRun() const override { return false; }
+    std::string text() const override { return "mean"; }
+    static const Schema<MeanStatistic>& schema();
+};
+
+}  // namespace corpuscle::study

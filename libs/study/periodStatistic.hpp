@@ -1,0 +1,18 @@
+// Period of an oscillation: the mean distance, in strain or time, between the places where it goes up through its mean.
+//
+// Such a place counts once the series has been below the mean by 5 % of its whole range, so that noise around the mean
+// does not. Places are found by linear interpolation. For n >= 2 periods the standard error is that of n independent
+// ones.
+#pragma once
+#include "study/statistic.hpp"
+
+namespace corpuscle::study {
+
+struct PeriodStatistic : Statistic {
+    Estimate of(std::span<const double> along, std::span<const double> values) const override;
+    bool hasError() const override { return true; }
+    std::string text() const override { return "period"; }
+    static const Schema<PeriodStatistic>& schema();
+};
+
+}  // namespace corpuscle::study

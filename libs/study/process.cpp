@@ -1,0 +1,98 @@
+#include "study/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "core/error.hpp"
+
+extern char** environ;
+
+namespace corpuscle::study {
+
+Environment Environment::ofThisProcess() {
+    Environment all;
+    for (char** entry = environ; *entry; ++entry) all.entries_.emplace_back(*entry);
+    return all;
+}
+
+void Environment::set(const std::string& name, const std::string& value) {
+    const std::string start = name + "=";
+    if (std::none_of(entries_.begin(), entries_.end(), [&](const auto& entry) { return entry.starts_with(start); }))
+        entries_.push_back(start + value);
+}
+
+std::vector<char*> Environment::pointers() {
+    std::vector<char*> all;
+    all.reserve(entries_.size() + 1);
+    for (std::string& entry : entries_) all.push_back(entry.data());
+    all.push_back(nullptr);
+    return all;
+}
+
+Process::Process(std::vector<std::string> words, const std::filesystem::path& log, Environment environment,
+                 const std::vector<int>& kept) {
+    std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::vector<char*> variables = environment.pointers();
+    const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (output < 0)
+        throw Failure(ExitCode::io, fmt::format("{}: cannot be written: {}.", log.string(), std::strerror(errno)));
+    const pid_t parent = getpid();
+    id_ = fork();
+    if (id_ == 0) {
+        setpgid(0, 0);
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        if (getppid() != parent) _exit(127);  // it has ended in between
+        for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
+        const int input = open("/dev/null", O_RDONLY);
+        dup2(input, 0);
+        dup2(output, 1);
+        dup2(output, 2);
+        for (const int descriptor : kept) fcntl(descriptor, F_SETFD, 0);
+        execvpe(arguments[0], arguments.data(), variables.data());
+        dprintf(2, "%s cannot be started: %s\n", arguments[0], std::strerror(errno));
+        _exit(127);
+    }
+    const int error = errno;
+    close(output);
+    if (id_ < 0) throw Failure(ExitCode::io, fmt::format("{} cannot be started: {}.", words[0], std::strerror(error)));
+    setpgid(id_, id_);  // whichever of the two comes first
+}
+
+Process::Process(Process&& other) noexcept : id_(std::exchange(other.id_, -1)), code_(other.code_) {}
+
+Process& Process::operator=(Process&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(code_, other.code_);
+    return *this;
+}
+
+Process::~Process() {
+    if (id_ > 0 && !code_) stop();
+}
+
+std::optional<int> Process::poll() {
+    if (code_ || id_ < 0) return code_;
+    int status = 0;
+    const pid_t ended = waitpid(id_, &status, WNOHANG);
+    if (ended == id_) code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (ended < 0 && errno != EINTR) code_ = 127;
+    return code_;
+}
+
+void Process::stop() {
+    if (id_ > 0 && !code_) kill(-id_, SIGTERM);
+}
+
+}  // namespace corpuscle::study

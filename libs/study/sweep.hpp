@@ -1,0 +1,93 @@
+// Runs the cases of a study, several at a time, and goes on where an earlier run of it was stopped or killed.
+//
+// A case is made under a hidden name and renamed once it is complete. In each case the programs run one after the
+// other, their output in log.caseSweep; a program that has ended with 0 does not run again. A lock on the hidden file
+// .NAME.lock beside a case lasts as long as one of its programs runs, so that several runs of one study, on one machine
+// or on several, share its cases between them.
+//
+//     new -> waiting -> running -> done
+//                               -> failed      a program ended with another code than 0 and 5: the others go on
+//                               -> stopped     on request; waiting again when the study is run again
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+
+#include "study/caseRecord.hpp"
+#include "study/process.hpp"
+
+namespace corpuscle::study {
+
+// What is done with a case that differs from what the study would make of the template now.
+enum class Differing {
+    refuse,  // named, with the entries; nothing is run
+    keep,    // it stays as it is
+    update,  // its dictionaries are changed, and all programs run again; a solver continues where it may
+    fresh,   // it is removed and made anew
+};
+
+struct SweepOptions {
+    std::filesystem::path base;  // folder of study.yaml
+    std::string studyFile;       // its name, for records
+    std::filesystem::path templateCase, cases;
+    std::vector<std::string> programs;
+    std::filesystem::path programFolder;  // where programs are looked for before PATH
+    long jobs = 1, ranks = 1;
+    Differing differing = Differing::refuse;
+    bool retry = false;  // run again what has failed
+};
+
+enum class CaseState { waiting, running, elsewhere, done, failed, stopped };
+const char* nameOf(CaseState state);
+
+// A case and how far it is.
+struct CaseStatus {
+    StudyCase what;
+    CaseState state = CaseState::waiting;
+    CaseRecord record = {};
+    std::string program = {};   // that runs, ran or comes next
+    std::string progress = {};  // "34.1 %", where the program tells it
+    double seconds = 0;         // of run time so far
+};
+
+class Sweep {
+  public:
+    // Reads what is there. Throws Failure where cases differ (Differing::refuse), with all of them.
+    Sweep(SweepOptions options, std::vector<StudyCase> cases, Environment environment);
+    ~Sweep();
+    Sweep(const Sweep&) = delete;
+    Sweep& operator=(const Sweep&) = delete;
+
+    const std::vector<CaseStatus>& cases() const { return cases_; }
+    std::filesystem::path folder(const StudyCase& one) const { return options_.cases / one.name; }
+
+    // Starts what there is room for, and sees what has ended; returns whether something has changed. Call it several
+    // times a second until isEnded().
+    bool advance();
+    bool isEnded() const;
+    // Asks what runs to stop, and starts nothing more.
+    void stop();
+    bool isStopping() const { return isStopping_; }
+
+  private:
+    struct Run;
+
+    void inspect(CaseStatus& one, std::vector<std::string>& different);
+    std::vector<std::string> changesOf(const StudyCase& one, const CaseRecord& record) const;
+    void make(CaseStatus& one);
+    void update(CaseStatus& one);
+    bool begin(std::size_t k);
+    void startNext(std::size_t k);
+    void settle(std::size_t k, int code);
+    std::vector<std::string> wordsFor(const std::string& program) const;
+
+    SweepOptions options_;
+    std::vector<CaseStatus> cases_;
+    std::vector<std::unique_ptr<Run>> runs_;  // one for each case; null unless it runs
+    Environment environment_;
+    std::map<std::string, std::string> files_;  // of the template, but dictionaries
+    bool isStopping_ = false;
+    std::chrono::steady_clock::time_point looked_;
+};
+
+}  // namespace corpuscle::study

@@ -1,0 +1,20 @@
+"""Corpuscle's cases from Python: open them, read their tables, meshes and particles, change and run them, run studies.
+
+    import corpuscle
+    case = corpuscle.Case("tutorials/rbcShear/Ca0.02")
+    shape = case.table("deformation/rbc")            # a pandas.DataFrame; shape.attrs["units"], shape.attrs["meanings"]
+    shape.plot(x="strain", y="D12_extent")
+    cell = case.surface("rbc", strain=2)             # points, triangles, arrays as numpy
+    corpuscle.period(shape, "D12_extent")
+
+Needs python3-pandas; python3-vtk9 for meshes and particles; the programs of Corpuscle for changes and runs. They are looked for in
+$CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
+"""
+from .analysis import crossing, mean, period, tankTreadingFrequency, unwrapped
+from .case import Case
+from .programs import CorpuscleError, program
+from .results import Surface
+from .study import Study
+from .tables import readTable
+
+__all__ = ["Case", "CorpuscleError", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "tankTreadingFrequency", "unwrapped"]
