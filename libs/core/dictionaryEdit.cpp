@@ -140,9 +140,9 @@ class Layout {
     std::size_t closingQuote(std::size_t at) const {
         const char quote = text_[at];
         for (std::size_t i = at + 1; i < text_.size(); ++i) {
-            if (quote == '"' && text_[i] == '\\')
-                ++i;
-            else if (text_[i] == quote && quote == '\'' && i + 1 < text_.size() && text_[i + 1] == '\'')
+            const bool isEscape = quote == '"' && text_[i] == '\\';
+            const bool isDoubled = quote == '\'' && text_[i] == quote && i + 1 < text_.size() && text_[i + 1] == quote;
+            if (isEscape || isDoubled)
                 ++i;
             else if (text_[i] == quote)
                 return i + 1;
@@ -165,8 +165,10 @@ std::string keyText(const std::string& key) {
 // "b: {c: value}" for the words from `first` on.
 std::string nested(const std::vector<std::string>& words, std::size_t first, const std::string& value) {
     std::string text = value;
-    for (std::size_t k = words.size(); k-- > first;)
-        text = keyText(words[k]) + ": " + (k + 1 == words.size() ? text : "{" + text + "}");
+    for (std::size_t k = words.size(); k-- > first;) {
+        const bool isLast = k + 1 == words.size();
+        text = fmt::format("{}: {}{}{}", keyText(words[k]), isLast ? "" : "{", text, isLast ? "" : "}");
+    }
     return text;
 }
 
@@ -259,9 +261,10 @@ void compare(const Node* first, const Node* second, const std::string& path, std
     const auto textOf = [](const Node* node) { return node ? emitInLine(*node) : std::string(); };
     if (first && second && first->kind == second->kind && first->kind != Node::Kind::scalar) {
         if (first->kind == Node::Kind::table) {
-            for (const auto& [key, value] : first->entries) compare(&value, second->find(key), path + "/" + key, found);
+            for (const auto& [key, value] : first->entries)
+                compare(&value, second->find(key), fmt::format("{}/{}", path, key), found);
             for (const auto& [key, value] : second->entries)
-                if (!first->find(key)) compare(nullptr, &value, path + "/" + key, found);
+                if (!first->find(key)) compare(nullptr, &value, fmt::format("{}/{}", path, key), found);
             return;
         }
         if (first->items.size() == second->items.size()) {

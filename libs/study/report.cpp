@@ -68,6 +68,7 @@ std::vector<Curve> curvesOver(const Summary& summary, std::size_t x, std::size_t
         curves[title].rows.push_back(&row);
     }
     std::vector<Curve> all;
+    all.reserve(order.size());
     for (const std::string& title : order) all.push_back(std::move(curves[title]));
     for (Curve& curve : all)
         std::stable_sort(curve.rows.begin(), curve.rows.end(),

@@ -61,6 +61,7 @@ void LiveTable::finish(const std::vector<CaseStatus>& cases) {
 // Of more cases than lines, those that run and that failed first.
 void LiveTable::draw(const std::vector<CaseStatus>& cases) {
     std::vector<const CaseStatus*> shown;
+    shown.reserve(cases.size());
     for (const CaseStatus& one : cases) shown.push_back(&one);
     const std::size_t room = terminalLines() - 3;
     if (shown.size() > room) {
@@ -74,6 +75,7 @@ void LiveTable::draw(const std::vector<CaseStatus>& cases) {
         shown.resize(room);
     }
     std::vector<std::vector<std::string>> rows;
+    rows.reserve(shown.size());
     for (const CaseStatus* one : shown) rows.push_back(rowOf(*one));
     std::vector<std::string> lines = alignedTable({"case", "state", "program", "progress", "run time"}, rows);
     lines.push_back(countsText(cases));
