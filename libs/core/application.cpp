@@ -124,6 +124,19 @@ void Application::parse(int argc, char** argv) {
 }
 
 std::string Application::helpText() const {
+    if (json()) {  // for man pages and completion (etc/makeManual)
+        nlohmann::ordered_json usage{{"name", name_}, {"text", text_}};
+        const auto add = [&](const char* kind, const std::vector<Option>& options) {
+            usage[kind] = nlohmann::ordered_json::array();
+            for (const Option& o : options)
+                usage[kind].push_back({{"name", o.name}, {"argument", o.argument}, {"text", o.text}});
+        };
+        add("arguments", usage_.arguments);
+        usage["optionalArguments"] = usage_.optionalArguments;
+        add("options", allOptions());
+        usage["samples"] = usage_.samples;
+        return usage.dump(2) + "\n";
+    }
     std::string text = fmt::format("{}: {}\n\nUsage: {}", name_, text_, name_);
     for (std::size_t i = 0; i < usage_.arguments.size(); ++i)
         text += i + usage_.optionalArguments < usage_.arguments.size() ? " " + usage_.arguments[i].name

@@ -63,6 +63,19 @@ const std::vector<Known>& known() {
     return all;
 }
 
+// A ready cell brings its shape along, which is put in when a case is read: here any shape stands for it.
+void checkMesh(Node node, Problems& problems) {
+    Node none;
+    Node* cells = node.find("cells");
+    for (Node& cell : (cells ? cells : &none)->items)
+        if (cell.kind == Node::Kind::table && cell.find("cell") && !cell.find("shape")) {
+            Problems ignored;
+            cell.entries.emplace_back("shape", parseValue("{type: sphere, radius: 1 um}", "", ignored));
+            std::erase_if(cell.entries, [](const Node::Entry& entry) { return entry.key == "cell"; });
+        }
+    read<MeshSettings>(node, problems);
+}
+
 std::string schemaText(const SchemaInfo& info) { return schemaOf(info).dump(2) + "\n"; }
 
 // All, by the file's name.
@@ -90,6 +103,7 @@ void checkDictionary(const std::string& file, const Node& node, Problems& proble
         read<ReadyCell>(node, problems);
         return;
     }
+    if (file == "system/mesh.yaml") return checkMesh(node, problems);
     std::vector<std::string> names;
     for (const Known& one : known()) {
         if (one.file == file) return one.read(node, problems);

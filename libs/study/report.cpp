@@ -105,8 +105,8 @@ std::string plotScript(const Summary& summary, std::size_t x, std::size_t result
                              k + 1, curves[k].title.empty() ? "notitle" : "title " + forGnuplot(curves[k].title));
     }
     return fmt::format(
-        "set terminal svg size 640,420 dynamic font 'sans-serif,14' noenhanced background '#ffffff'\n"
-        "set output {}\nset key bottom outside center horizontal\nset grid lc rgb '#dddddd'\n"
+        "set terminal svg size 540,400 dynamic font 'sans-serif,15' noenhanced background '#ffffff'\n"
+        "set output {}\nset key outside top center horizontal\nset grid lc rgb '#dddddd'\n"
         "set xlabel {}\nset ylabel {}\n{}set offsets graph 0.03, graph 0.03, graph 0.05, graph 0.05\n"
         "{}{}\nunset output\nreset\n",
         forGnuplot(file.string()),

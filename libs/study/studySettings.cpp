@@ -143,7 +143,8 @@ std::string ParameterSettings::value(double u) const {
         part = n == 1 ? 0 : std::floor(u * static_cast<double>(n)) / static_cast<double>(n - 1);
     const double number =
         logRange ? low.value * std::pow(high.value / low.value, part) : low.value + part * (high.value - low.value);
-    return fmt::format("{:.6g}{}{}", number, low.unit.empty() ? "" : " ", low.unit);
+    // Of a logarithmic range four digits, which make shorter names.
+    return fmt::format("{:.{}g}{}{}", number, logRange ? 4 : 6, low.unit.empty() ? "" : " ", low.unit);
 }
 
 const Schema<ParameterSettings>& ParameterSettings::schema() {

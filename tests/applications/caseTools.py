@@ -57,6 +57,8 @@ def dictionaries(case):
     different = json.loads(said("-compare", str(other), "-json"))
     assert [(d["file"], d["path"], d["first"], d["second"]) for d in different] == [
         ("system/control.yaml", "/endStrain", "6", "3"), ("system/numerics.yaml", "/implicit/step", "0.05", "0.02")], different
+    said("-set", "system/mesh.yaml:/cells/0={name: red, cell: healthyRBC, edge: 1 um}")  # its shape comes from etc/cells
+    assert "Did you mean 'edge'?" in said("-set", "system/mesh.yaml:/cells/0={name: red, cell: healthyRBC, edg: 1 um}", code=2)
     assert "All dictionaries say the same." in said("-compare", str(case))
 
 

@@ -121,7 +121,7 @@ Study readStudy(const Application& app) {
                       fmt::format("{}: there is no such file. A study is a dictionary with 'template' and 'parameters' "
                                   "(docs/study.md); tutorials/rbcShear/study has one.",
                                   study.file.string()));
-    study.base = fs::absolute(study.file).parent_path().lexically_normal();
+    study.base = fs::absolute(study.file).lexically_normal().parent_path();
     study.name = study.file.stem().string();
     Problems problems;
     Node node = readDictionary(study.file, study.file.lexically_normal().string(), problems);

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""`cmake --install`: the tree is moved, and then its programs, data, pages and CMake package do their work without the build folder.
+
+    install.py BUILD SOURCE
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+BUILD, SOURCE = map(pathlib.Path, sys.argv[1:])
+COARSE = ["system/numerics.yaml:/spacing=1.25 um", "system/mesh.yaml:/cells/0/edge=1 um", "system/control.yaml:/endStrain=0.1"]
+CONSUMER = {
+    "CMakeLists.txt": """cmake_minimum_required(VERSION 3.25)
+project(consumer LANGUAGES C CXX)
+set(CMAKE_CXX_STANDARD 20)
+find_package(Corpuscle 0.1 REQUIRED)
+add_executable(consumer consumer.cpp)
+target_link_libraries(consumer PRIVATE corpuscle::sph)
+""",
+    "consumer.cpp": """#include <iostream>
+
+#include "core/units.hpp"
+#include "sph/kernels.hpp"
+int main() { std::cout << corpuscle::parseQuantity("8 um").value * 1e6 << '\\n'; }
+""",
+}
+
+
+def run(words, cwd, environment):
+    done = subprocess.run([str(word) for word in words], cwd=cwd, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, f"{words}: code {done.returncode}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
+def main():
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
+        run(["cmake", "--install", BUILD, "--prefix", folder / "first"], folder, environment)
+        root = (folder / "first").rename(folder / "moved")
+        environment["PATH"] = f"{root / 'bin'}:{os.environ['PATH']}"
+        libraries = run(["ldd", root / "bin/dmpFlow"], folder, environment)
+        ours = [line for line in libraries.splitlines() if "libcorpuscle" in line]
+        assert ours and all(f"=> {root.resolve()}" in line or f"=> {root}" in line for line in ours), libraries
+
+        share = root / "share/corpuscle"
+        tutorial = share / "tutorials/rbcShear/Ca0.02"
+        run(["cloneCase", tutorial, "case", *[word for change in COARSE for word in ("-set", change)]], folder, environment)
+        for program in ("membraneMesh", "particleFill", "dmpFlow"):
+            run([program, "-quiet", "-case", "case"], folder, environment)
+        assert "0.1" in run(["listTimes", "-latest", "-case", "case"], folder, environment)
+        # Ready cells lie beside the programs, and the sources are not looked at before them.
+        run(["cloneCase", "case", "ready", "-set", "system/mesh.yaml:/cells=[{name: rbc, cell: healthyRBC, edge: 1 um}]"], folder, environment)
+        run(["membraneMesh", "-quiet", "-case", "ready"], folder, environment)
+        assert (tutorial / "Allrun").stat().st_mode & 0o111 and not (tutorial / "0").exists()
+        assert (share / "docs/quickstart.md").exists() and (share / "schema/mesh.json").exists()
+
+        names = sorted(path.name for path in (root / "bin").iterdir())
+        assert {"dmpFlow", "caseSweep", "renderCase"} <= set(names) and not any(name.startswith("test_") for name in names), names
+        assert sorted(path.stem for path in (root / "share/man/man1").iterdir()) == names
+        page = (root / "share/man/man1/caseSweep.1").read_text()
+        assert '.BR "\\-jobs" " N"' in page and ".SH EXAMPLES" in page, page
+        completion = root / "share/bash-completion/completions/caseSweep"
+        shown = run(["bash", "-c", f"source {completion}; COMP_WORDS=(caseSweep -jo); COMP_CWORD=1; _corpuscle_caseSweep; echo ${{COMPREPLY[@]}}"], folder, environment)
+        assert shown.strip() == "-jobs", shown
+
+        package = dict(environment, PYTHONPATH=str(share / "python"))
+        script = "import corpuscle; case = corpuscle.Case('case'); print(len(case.table('deformation/rbc')) > 2, case['constant/flow.yaml:/Ca'])"
+        assert run(["/usr/bin/python3", "-c", script], folder, package).strip() == "True 0.02"
+
+        consumer = folder / "consumer"
+        consumer.mkdir()
+        for name, text in CONSUMER.items():
+            (consumer / name).write_text(text)
+        run(["cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={root}"], consumer, environment)
+        run(["ninja", "-C", "build"], consumer, environment)
+        assert run(["build/consumer"], consumer, environment).strip() == "8"
+    print("passed")
+
+
+main()
