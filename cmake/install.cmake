@@ -15,10 +15,12 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/libs/ DESTINATION ${CMAKE_INSTALL_INCLUDED
 install(EXPORT CorpuscleTargets NAMESPACE corpuscle:: DESTINATION ${config} COMPONENT corpuscle)
 configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/CorpuscleConfig.cmake.in ${CMAKE_BINARY_DIR}/CorpuscleConfig.cmake INSTALL_DESTINATION ${config})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/CorpuscleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/CorpuscleConfig.cmake ${CMAKE_BINARY_DIR}/CorpuscleConfigVersion.cmake DESTINATION ${config} COMPONENT corpuscle)
+install(FILES ${CMAKE_BINARY_DIR}/CorpuscleConfig.cmake ${CMAKE_BINARY_DIR}/CorpuscleConfigVersion.cmake ${CMAKE_SOURCE_DIR}/cmake/CorpusclePlugin.cmake
+    DESTINATION ${config} COMPONENT corpuscle)
 
 # Where readyCell looks beside a program, and where everything else lies as in the repository.
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/etc/cells ${CMAKE_SOURCE_DIR}/etc/schema DESTINATION ${data} COMPONENT corpuscle)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/etc/cells ${CMAKE_SOURCE_DIR}/etc/schema ${CMAKE_SOURCE_DIR}/etc/models DESTINATION ${data} COMPONENT corpuscle)
+install(PROGRAMS ${CMAKE_SOURCE_DIR}/etc/newModel DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT corpuscle)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/python DESTINATION ${data} COMPONENT corpuscle PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${data} COMPONENT corpuscle PATTERN __pycache__ EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/LICENSE ${CMAKE_SOURCE_DIR}/CITATION.cff

@@ -15,6 +15,7 @@
 #include "core/atomicFile.hpp"
 #include "core/buildInfo.hpp"
 #include "core/dictionaryText.hpp"
+#include "core/plugins.hpp"
 #include "core/runRecord.hpp"
 #include "core/startMpi.hpp"
 #include "core/together.hpp"
@@ -345,6 +346,7 @@ int Application::outcome(const std::function<ExitCode()>& body) {
             return endTogether(ExitCode::done, nullptr);
         }
         checkOverrides();
+        loadPlugins(*this);
         const ExitCode code = body();
         requireOutput();
         return endTogether(code, nullptr);

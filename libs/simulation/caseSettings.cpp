@@ -86,8 +86,10 @@ const Schema<ControlSettings>& ControlSettings::schema() {
             .table("write", &ControlSettings::write, "results", {.fallback = "{}"})
             .table("checkpoint", &ControlSettings::checkpoint, "checkpoints", {.fallback = "{}"})
             .table("stop", &ControlSettings::stop, "early end", {.fallback = "{}"})
+            .values("libs", &ControlSettings::libs, pluginsText, {.fallback = "[]"})
             .atRestart(AtRestart::free,
-                       {"application", "startFrom", "endTime", "endStrain", "write", "checkpoint", "stop"});
+                       {"application", "startFrom", "endTime", "endStrain", "write", "checkpoint", "stop"})
+            .atRestart(AtRestart::noted, {"libs"});
     return s;
 }
 

@@ -31,6 +31,10 @@ struct StopSettings {
     bool firstBreak = false;
     static const Schema<StopSettings>& schema();
 };
+// What is said of the key `libs`, here and in system/relax.yaml.
+inline constexpr const char* pluginsText =
+    "libraries with models of your own, such as [myLaw.so]; paths from the case directory";
+
 struct ControlSettings {
     std::string application;
     std::string startFrom = "latestTime";
@@ -41,6 +45,7 @@ struct ControlSettings {
     WriteSettings write;
     CheckpointSettings checkpoint;
     StopSettings stop;
+    std::vector<std::string> libs;  // loaded by core/plugins before anything is read
     static const Schema<ControlSettings>& schema();
 };
 

@@ -55,6 +55,7 @@ const Schema<RelaxSettings>& RelaxSettings::schema() {
                       {.fallback = "1 pN", .range = positive})
             .integer("iterations", &RelaxSettings::iterations, "of Newton's method, each stage at most",
                      {.fallback = "500", .range = atLeast(1)})
+            .values("libs", &RelaxSettings::libs, pluginsText, {.fallback = "[]"})
             .check([](const RelaxSettings& s, const Node& node, Problems& problems) {
                 if (!s.cell || !s.cell->edgeLength.inSpacings) return;
                 const Node* edge = node.find("cell")->find("edge");

@@ -25,6 +25,7 @@ struct RelaxSettings {
     double tolerance = 1e-6;  // of the largest load, or of forceScale
     double forceScale = 0;    // N; for stages without loads
     long iterations = 500;    // of Newton's method, each stage
+    std::vector<std::string> libs = {};
     static const Schema<RelaxSettings>& schema();
 
     const std::string& name() const { return cell ? cell->name : sheet->name; }

@@ -34,6 +34,47 @@ def run(words, cwd, environment):
     return done.stdout + done.stderr
 
 
+def refused(words, cwd, environment, *messages):
+    done = subprocess.run([str(word) for word in words], cwd=cwd, env=environment, capture_output=True, text=True)
+    assert done.returncode == 2, (words, done.returncode, done.stdout + done.stderr)
+    for message in messages:
+        assert message in done.stderr, (message, done.stderr)
+
+
+def plugin(folder, root, environment):
+    """A law of a user's own: from the template to a run with it, on one and two ranks, and what is refused."""
+    run(["newModel", "law", "ownSpring", "-plugin", "own"], folder, environment)
+    run(["cmake", "-S", "own", "-B", "own/build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={root}"], folder, environment)
+    run(["ninja", "-C", "own/build"], folder, environment)
+    (folder / "case/constant/ownSpring.so").write_bytes((folder / "own/build/ownSpring.so").read_bytes())
+    bonds = "constant/membranes.yaml:/rbc/bonds={type: ownSpring, k: 5e-4 N/m}"
+    refused(["caseDict", "-case", "case", "-set", bonds], folder, environment, "unknown bond law 'ownSpring'")
+    run(["caseDict", "-case", "case", "-set", "system/control.yaml:/libs=[constant/ownSpring.so]"], folder, environment)
+    run(["caseDict", "-case", "case", "-set", bonds], folder, environment)
+    assert "spring along each edge" in run(["listModels", "-case", "case", "ownSpring"], folder, environment)
+    endings = []
+    for ranks in (1, 2):
+        case = f"own{ranks}"
+        run(["cloneCase", "case", case], folder, environment)
+        run(["membraneMesh", "-quiet", "-case", case], folder, environment)
+        run(["particleFill", "-quiet", "-case", case], folder, environment)
+        run(["mpirun", "--oversubscribe", "-np", ranks, "dmpFlow", "-quiet", "-case", case], folder, environment)
+        assert "ownSpring.so" in (folder / case / "used.yaml").read_text()
+        endings.append((folder / case / "postProcessing/deformation/rbc.csv").read_text().splitlines()[-1].split(","))
+    # The template is a harmonic spring: the case without it has the same curve.
+    endings.append((folder / "case/postProcessing/deformation/rbc.csv").read_text().splitlines()[-1].split(","))
+    for other in endings[1:]:
+        assert all(abs(float(a) - float(b)) <= 1e-6 * max(1e-6, abs(float(b))) for a, b in zip(endings[0][:5], other[:5])), endings
+    for libs, *messages in (("constant/missing.so", "-set: libs[0]: ", "there is no such file"),
+                            ("noSuchLibrary.so", "cannot be loaded"), ("system/mesh.yaml", "cannot be loaded"),
+                            (f"{root}/lib/libcorpuscle_core.so", "is no plugin")):
+        refused(["dmpFlow", "-case", "case", "-set", f"system/control.yaml:/libs=[{libs}]"], folder, environment, *messages)
+    version = folder / "own/build/ownSpringVersion.cpp"
+    version.write_text(version.read_text().replace('return "', 'return "9.'))
+    run(["c++", "-shared", "-fPIC", "-o", "case/constant/ownSpring.so", version], folder, environment)
+    refused(["dmpFlow", "-case", "case"], folder, environment, "was built with Corpuscle 9.")
+
+
 def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
@@ -57,7 +98,7 @@ def main():
         assert (tutorial / "Allrun").stat().st_mode & 0o111 and not (tutorial / "0").exists()
         assert (share / "docs/quickstart.md").exists() and (share / "schema/mesh.json").exists()
 
-        names = sorted(path.name for path in (root / "bin").iterdir())
+        names = sorted(path.name for path in (root / "bin").iterdir() if path.name != "newModel")
         assert {"dmpFlow", "caseSweep", "renderCase"} <= set(names) and not any(name.startswith("test_") for name in names), names
         assert sorted(path.stem for path in (root / "share/man/man1").iterdir()) == names
         page = (root / "share/man/man1/caseSweep.1").read_text()
@@ -77,6 +118,7 @@ def main():
         run(["cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={root}"], consumer, environment)
         run(["ninja", "-C", "build"], consumer, environment)
         assert run(["build/consumer"], consumer, environment).strip() == "8"
+        plugin(folder, root, environment)
     print("passed")
 
 

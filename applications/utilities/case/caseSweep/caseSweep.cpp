@@ -18,6 +18,7 @@
 #include "core/buildInfo.hpp"
 #include "core/caseFolder.hpp"
 #include "core/dictionaryEdit.hpp"
+#include "core/plugins.hpp"
 #include "core/runRecord.hpp"
 #include "core/wallClock.hpp"
 #include "liveTable.hpp"
@@ -165,6 +166,7 @@ Study readStudy(const Application& app) {
 
     std::vector<std::string> order;
     for (const auto& [name, value] : node.find("parameters")->entries) order.push_back(name);
+    loadPlugins(o.templateCase);
     study.cases = study::casesOf(study.settings, order);
     checkCases(study);
     if (const auto only = app.value("only")) chooseOnly(study, *only);
