@@ -1,4 +1,4 @@
-// Models of users, in shared libraries of their own: `libs: [myLaw.so]` in system/control.yaml, or in system/relax.yaml.
+// Models of users, in shared libraries of their own: `libs: [myLaw.so]` in system/control.yaml or system/relax.yaml.
 //
 // A library is loaded before anything of the case is read; its models register themselves (core/registry.hpp) and are
 // chosen by name like all others. A path is taken from the case directory; a name without '/' that is not there is
