@@ -19,6 +19,11 @@
 namespace corpuscle {
 
 void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room) {
+    std::error_code none;
+    if (std::filesystem::is_symlink(file, none)) {  // the link stays, and what it names is written
+        const std::filesystem::path target = std::filesystem::weakly_canonical(file, none);
+        if (!none && target != file) return writeFileAtomically(target, text, room);
+    }
     if (file.has_parent_path()) {
         std::error_code error;
         std::filesystem::create_directories(file.parent_path(), error);
@@ -28,6 +33,10 @@ void writeFileAtomically(const std::filesystem::path& file, const std::string& t
     temporary += fmt::format(".{}.tmp", getpid());
     std::FILE* stream = std::fopen(temporary.c_str(), "wb");
     if (!stream) throw writeFailure(file, errno);
+    struct stat before {};
+    if (stat(file.c_str(), &before) == 0 && S_ISREG(before.st_mode))  // its permissions stay; where that cannot be,
+        [[maybe_unused]]                                              // it is written all the same
+        const int changed = fchmod(fileno(stream), before.st_mode & 07777);
     bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
     written = written && std::fflush(stream) == 0 && fsync(fileno(stream)) == 0;
     int reason = errno;

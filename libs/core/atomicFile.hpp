@@ -1,5 +1,6 @@
 // A file that is either the old one or the whole new one, whatever happens in between: the text goes to a temporary
-// name beside it, is flushed to disk, and takes the name by a rename.
+// name beside it, is flushed to disk, and takes the name by a rename. Permissions stay, and a link goes on naming its
+// file.
 #pragma once
 #include <filesystem>
 #include <string>

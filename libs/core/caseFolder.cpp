@@ -21,8 +21,14 @@ bool isOutput(const fs::path& path) {
     const std::vector<std::string> written{"0",          "results",         "postProcessing", "checkpoints",
                                            "runs",       "run.json",        "used.yaml",      "stop",
                                            "sweep.json", CaseLock::fileName};
-    return name.starts_with('.') || name.starts_with("log.") ||
-           std::find(written.begin(), written.end(), name) != written.end();
+    if (name.starts_with('.') || name.starts_with("log.") ||
+        std::find(written.begin(), written.end(), name) != written.end())
+        return true;
+    std::error_code ignored;  // the cases of a study
+    if (fs::is_directory(path, ignored))
+        for (const auto& entry : fs::directory_iterator(path, ignored))
+            if (fs::exists(entry.path() / "sweep.json", ignored)) return true;
+    return false;
 }
 
 void requireCase(const fs::path& folder) {
@@ -65,12 +71,47 @@ CopiedCase copyCase(const fs::path& from, const fs::path& to, const std::string&
     return names;
 }
 
+namespace {
+
+bool isEditorsCopy(const std::string& name) {
+    const auto ends = [&](const char* ending) { return name.ends_with(ending); };
+    return name.starts_with('.') || name.starts_with('#') || ends("~") || ends(".bak") || ends(".orig") || ends(".swp");
+}
+
+}  // namespace
+
+std::vector<std::string> dataFilesOf(const fs::path& caseDir, const std::string& excluded) {
+    const std::vector<std::string> dictionaries = dictionariesOf(caseDir);
+    std::vector<std::string> files;
+    for (const auto& top : fs::directory_iterator(caseDir)) {
+        const std::string name = top.path().filename().string();
+        if (isOutput(top.path()) || name == excluded) continue;
+        const auto add = [&](const fs::path& file) {
+            const std::string path = file.lexically_relative(caseDir).string(), ending = file.extension().string();
+            const bool isAtTop = file.parent_path() == caseDir;
+            const bool isOther =
+                ending == ".md" || ending == ".png" ||
+                (isAtTop && (ending.empty() || ending == ".yaml" || ending == ".gp" || ending == ".py"));
+            if (!isOther && !isEditorsCopy(file.filename().string()) &&
+                std::find(dictionaries.begin(), dictionaries.end(), path) == dictionaries.end())
+                files.push_back(path);
+        };
+        if (top.is_regular_file()) add(top.path());
+        if (top.is_directory())
+            for (const auto& entry : fs::recursive_directory_iterator(top.path()))
+                if (entry.is_regular_file()) add(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 std::vector<std::string> dictionariesOf(const fs::path& caseDir) {
     std::vector<std::string> files;
     for (const char* folder : {"system", "constant", "constant/cells"})
         if (fs::is_directory(caseDir / folder))
             for (const auto& entry : fs::directory_iterator(caseDir / folder))
-                if (entry.is_regular_file() && entry.path().extension() == ".yaml")
+                if (entry.is_regular_file() && entry.path().extension() == ".yaml" &&
+                    !entry.path().filename().string().starts_with('.'))
                     files.push_back(std::string(folder) + "/" + entry.path().filename().string());
     std::sort(files.begin(), files.end());
     return files;

@@ -15,7 +15,7 @@ bool isCase(const std::filesystem::path& folder);  // has system/control.yaml or
 // Throws Failure where it is none, with the cases that lie in it.
 void requireCase(const std::filesystem::path& folder);
 
-// Whether programs have written this (a name in a case), or it is hidden.
+// Whether programs have written this (a path in a case), the cases of a study among it, or it is hidden.
 bool isOutput(const std::filesystem::path& path);
 
 struct CopiedCase {
@@ -26,6 +26,10 @@ struct CopiedCase {
 // `excluded`, a name in `from` that is left out too (empty: none). Throws Failure.
 CopiedCase copyCase(const std::filesystem::path& from, const std::filesystem::path& to,
                     const std::string& excluded = {});
+
+// Paths of all other files that a copy takes along and that a run may depend on, sorted: not pages (.md), pictures
+// (.png), a study's dictionary, scripts without ending at the top, and copies that editors leave.
+std::vector<std::string> dataFilesOf(const std::filesystem::path& caseDir, const std::string& excluded = {});
 
 // Paths of all dictionaries: "system/control.yaml", "constant/cells/x.yaml", ..., sorted.
 std::vector<std::string> dictionariesOf(const std::filesystem::path& caseDir);

@@ -177,16 +177,32 @@ std::string replaced(const std::string& text, std::size_t begin, std::size_t end
     return text.substr(0, begin) + by + text.substr(end);
 }
 
+// Whole lines of comment in a part of the text, each with its line end.
+std::string commentLines(const std::string& text, std::size_t begin, std::size_t end) {
+    std::string lines;
+    for (std::size_t at = text.find('\n', begin); at != nowhere && at + 1 < end; at = text.find('\n', at + 1)) {
+        const std::size_t next = std::min(text.find('\n', at + 1), text.size());
+        const std::size_t first = text.find_first_not_of(" \t", at + 1);
+        if (first < next && text[first] == '#' && next <= end) lines += text.substr(at + 1, next - at);
+    }
+    return lines;
+}
+
 // The value that stands at `node`, in place of the old one. Empty: the layout is not understood.
 std::string withValue(const std::string& text, const Layout& layout, const Node& node, const std::string& value) {
     if (node.mark.line == 0) return {};
     const bool ownLines = node.kind != Node::Kind::scalar && !layout.inBrackets(node);
     if (!node.isNothing() && !ownLines) return replaced(text, layout.begin(node), layout.end(node), value);
-    if (!node.keyMark.file.empty()) {
-        const std::size_t colon = layout.behindColon(node);
-        return replaced(text, colon, std::max(colon, layout.end(node)), " " + value);
-    }
-    return replaced(text, layout.begin(node), layout.end(node), value);  // an item of a list, on lines of its own
+    const bool hasKey = !node.keyMark.file.empty();
+    const std::size_t begin = hasKey ? layout.behindColon(node) : layout.begin(node), end = layout.end(node);
+    if (begin == nowhere || end == nowhere) return {};
+    const std::string now = (hasKey ? " " : "") + value;
+    if (!ownLines) return replaced(text, begin, std::max(begin, end), now);
+    // Comments between the lines that go stay, behind the line of the new value.
+    const std::string comments = commentLines(text, begin, end);
+    const std::size_t lineEnd = layout.nextLine(end);
+    return replaced(text, begin, lineEnd,
+                    now + text.substr(end, lineEnd - end) + (comments.empty() || lineEnd == end ? "" : comments));
 }
 
 // `entry` ("key: value") at the end of a table.
@@ -237,7 +253,8 @@ std::string without(const std::string& text, const Layout& layout, const Node& p
         return replaced(text, layout.lineStart(begin), layout.nextLine(end), "");
     // The first key of an item, behind the dash: the next one takes its place.
     if (isItem || &parent.entries.front().value != &node) return {};
-    return replaced(text, begin, layout.offset(parent.entries[1].value.keyMark), "");
+    const std::size_t next = text.find_first_not_of(" \t", layout.nextLine(end));  // a key, or a line of comment
+    return replaced(text, begin, next, "");
 }
 
 std::string checked(const std::string& result, const std::string& file, const Node& wanted,

@@ -2,7 +2,7 @@
 //
 // A new value takes the place of the old one. An entry that is not there is added at the end of the table that it
 // belongs to, in the way that this table is written (in braces, or a line for each key). Of an entry that is taken out,
-// the comment on its last line goes with it; comments on lines of their own stay.
+// the comment on its last line goes with it, and of a table what stands between its lines; other lines of comment stay.
 //
 // Each result is read again and compared with the change made on what was read (applyOverride, removeEntry on a Node),
 // so that a layout that is not understood is refused and never written wrongly.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 namespace corpuscle::study {
 namespace {
 
@@ -23,10 +25,13 @@ std::string forShell(const std::string& text) {
 }  // namespace
 
 std::string slurmScript(const Batch& batch) {
+    std::string cases, jobName;
+    for (const std::string& name : batch.names) cases += forShell(name) + "\n";
+    for (const char c : batch.name) jobName += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
     return fmt::format(R"(#!/bin/bash
 # A job array with one case of {0} in each job. Submit it from this folder:
 #
-#     sbatch {6}.slurm
+#     sbatch {8}.slurm
 #     caseSweep {0} -collect           # afterwards: summary.csv and report.html
 #
 # Two minutes before the time limit a solver writes a checkpoint and stops; submitted again, the array goes on from
@@ -37,19 +42,22 @@ std::string slurmScript(const Batch& batch) {
 #SBATCH --ntasks={3}
 #SBATCH --time=24:00:00
 #SBATCH --signal=B:TERM@120
-#SBATCH --output={1}/slurm-%A_%a.log
+#SBATCH --output="{1}/slurm-%A_%a.log"
 cd "$SLURM_SUBMIT_DIR" || exit 1
-exec {4} {5} -only "$SLURM_ARRAY_TASK_ID" -ranks {3}
+CASES=(
+{7})
+if [ -z "$SLURM_ARRAY_TASK_ID" ]; then echo "submit this script by sbatch" >&2; exit 1; fi
+exec {4} {5} -only "${{CASES[SLURM_ARRAY_TASK_ID - 1]}}" -ranks {3}
 )",
                        batch.study, batch.casesFolder, batch.names.size(), batch.ranks, forShell(batch.program),
-                       forShell(batch.study), batch.name);
+                       forShell(batch.study), jobName, cases, forShell(batch.name));
 }
 
 std::string snakefile(const Batch& batch) {
     std::string names;
     for (const std::string& name : batch.names) names += fmt::format("    {},\n", inQuotes(name));
     return fmt::format(R"(# Rules of Snakemake for the cases of {0}:  snakemake -s {7}.smk -c 8
-# Each case is a job of {3} cores; what is done is not run again, here or by caseSweep.
+# Each case is a job of {3} core{8}; what is done is not run again, here or by caseSweep.
 CASES = [
 {1}]
 STUDY, FOLDER = {5}, {6}
@@ -78,7 +86,7 @@ rule collect:
         {4} " {{params.study:q}} -collect"
 )",
                        batch.study, names, batch.names.size(), batch.ranks, inQuotes(forShell(batch.program)),
-                       inQuotes(batch.study), inQuotes(batch.casesFolder), batch.name);
+                       inQuotes(batch.study), inQuotes(batch.casesFolder), batch.name, batch.ranks == 1 ? "" : "s");
 }
 
 }  // namespace corpuscle::study

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomicFile.hpp"
+#include "core/caseFolder.hpp"
 #include "io/checksum.hpp"
 
 namespace corpuscle::study {
@@ -66,16 +67,10 @@ std::optional<CaseRecord> CaseRecord::read(const fs::path& caseDir) {
     }
 }
 
-std::map<std::string, std::string> otherFiles(const fs::path& caseDir) {
+std::map<std::string, std::string> otherFiles(const fs::path& caseDir, const std::string& excluded) {
     std::map<std::string, std::string> files;
-    for (const char* folder : {"system", "constant"}) {
-        if (!fs::is_directory(caseDir / folder)) continue;
-        for (const auto& entry : fs::recursive_directory_iterator(caseDir / folder)) {
-            if (!entry.is_regular_file() || entry.path().extension() == ".yaml") continue;
-            const std::uint64_t sum = io::checksum(std::string_view(readFile(entry.path())));
-            files[fs::relative(entry.path(), caseDir).string()] = fmt::format("{:016x}", sum);
-        }
-    }
+    for (const std::string& file : dataFilesOf(caseDir, excluded))
+        files[file] = fmt::format("{:016x}", io::checksum(std::string_view(readFile(caseDir / file))));
     return files;
 }
 

@@ -34,7 +34,7 @@ struct CaseRecord {
     static std::optional<CaseRecord> read(const std::filesystem::path& caseDir);
 };
 
-// Checksums of the files in system/ and constant/ that are no dictionaries (surfaces, tables), by path.
-std::map<std::string, std::string> otherFiles(const std::filesystem::path& caseDir);
+// Checksums of the files that a run may depend on beside the dictionaries (core/caseFolder.hpp: dataFilesOf), by path.
+std::map<std::string, std::string> otherFiles(const std::filesystem::path& caseDir, const std::string& excluded);
 
 }  // namespace corpuscle::study

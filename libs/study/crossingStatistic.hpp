@@ -7,6 +7,7 @@ namespace corpuscle::study {
 struct CrossingStatistic : Statistic {
     double level = 0;  // in SI units, as in the table
 
+    bool isAlong() const override { return true; }
     Estimate of(std::span<const double> along, std::span<const double> values) const override;
     std::string text() const override;
     static const Schema<CrossingStatistic>& schema();

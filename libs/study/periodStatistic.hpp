@@ -9,6 +9,7 @@
 namespace corpuscle::study {
 
 struct PeriodStatistic : Statistic {
+    bool isAlong() const override { return true; }
     Estimate of(std::span<const double> along, std::span<const double> values) const override;
     bool hasError() const override { return true; }
     std::string text() const override { return "period"; }

@@ -10,11 +10,37 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
 
 namespace corpuscle::study {
+
+namespace {
+
+// Processes that a process has started, by /proc/PID/stat: "PID (name) state parent ...".
+std::vector<pid_t> childrenOf(pid_t parent) {
+    std::vector<pid_t> found;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        std::ifstream file(entry.path() / "stat");
+        std::string text;
+        std::getline(file, text);
+        const std::size_t end = text.rfind(')');
+        if (end == std::string::npos) continue;
+        std::istringstream words(text.substr(end + 1));
+        char state = 0;
+        pid_t its = 0;
+        if (words >> state >> its && its == parent) found.push_back(static_cast<pid_t>(std::stol(name)));
+    }
+    return found;
+}
+
+}  // namespace
 
 Environment Environment::ofThisProcess() {
     Environment all;
@@ -46,6 +72,7 @@ Process::Process(std::vector<std::string> words, const std::filesystem::path& lo
     const int output = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (output < 0)
         throw Failure(ExitCode::io, fmt::format("{}: cannot be written: {}.", log.string(), std::strerror(errno)));
+    isLauncher_ = std::filesystem::path(words[0]).filename() == "mpirun";
     const pid_t parent = getpid();
     id_ = fork();
     if (id_ == 0) {
@@ -68,10 +95,12 @@ Process::Process(std::vector<std::string> words, const std::filesystem::path& lo
     setpgid(id_, id_);  // whichever of the two comes first
 }
 
-Process::Process(Process&& other) noexcept : id_(std::exchange(other.id_, -1)), code_(other.code_) {}
+Process::Process(Process&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), isLauncher_(other.isLauncher_), code_(other.code_) {}
 
 Process& Process::operator=(Process&& other) noexcept {
     std::swap(id_, other.id_);
+    std::swap(isLauncher_, other.isLauncher_);
     std::swap(code_, other.code_);
     return *this;
 }
@@ -90,7 +119,10 @@ std::optional<int> Process::poll() {
 }
 
 void Process::stop() {
-    if (id_ > 0 && !code_) kill(-id_, SIGTERM);
+    if (id_ <= 0 || code_) return;
+    const std::vector<pid_t> ranks = isLauncher_ ? childrenOf(id_) : std::vector<pid_t>{};
+    for (const pid_t rank : ranks) kill(rank, SIGTERM);
+    if (ranks.empty()) kill(-id_, SIGTERM);
 }
 
 }  // namespace corpuscle::study

@@ -1,7 +1,8 @@
 // A program that runs beside this one, with its output in a file.
 //
 // It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and is asked to stop (SIGTERM) when
-// this process ends in whatever way: a solver then writes a checkpoint and stops.
+// this process ends in whatever way: a solver then writes a checkpoint and stops. Of mpirun the ranks are asked: by
+// itself it would wait, and then end them.
 #pragma once
 #include <sys/types.h>
 
@@ -35,10 +36,11 @@ class Process {
 
     // The exit code, or 128 + the number of the signal that ended it; empty: it is still running.
     std::optional<int> poll();
-    void stop();  // SIGTERM to the whole group
+    void stop();  // SIGTERM, to the ranks of mpirun, else to the whole group
 
   private:
     pid_t id_ = -1;
+    bool isLauncher_ = false;  // mpirun
     std::optional<int> code_;
 };
 

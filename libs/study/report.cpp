@@ -39,14 +39,11 @@ std::string escaped(const std::string& text) {
     return safe;
 }
 
-// In double quotes of gnuplot, without its markup.
+// In single quotes of gnuplot, in which nothing has a meaning but the quotes themselves.
 std::string forGnuplot(const std::string& text) {
     std::string safe;
-    for (const char c : text) {
-        if (c == '"' || c == '\\') safe += '\\';
-        safe += c;
-    }
-    return "\"" + safe + "\"";
+    for (const char c : text) safe += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+    return "'" + safe + "'";
 }
 
 struct Curve {
@@ -187,7 +184,7 @@ std::string tableSection(const Summary& summary) {
         for (std::size_t k = 0; k < row.results.size(); ++k) {
             const CaseResult& result = row.results[k];
             const bool hasError = summary.results[k].second->statistic->hasError();
-            isDoubtful = isDoubtful || (hasError && !result.estimate.isReliable);
+            isDoubtful = isDoubtful || (std::isfinite(result.estimate.error) && !result.estimate.isReliable);
             body += fmt::format("<td data-v=\"{:.12g}\">{}</td>", result.estimate.value, resultText(result, hasError));
         }
         body += fmt::format("<td data-v=\"{:.1f}\">{}</td></tr>\n", row.status->seconds,

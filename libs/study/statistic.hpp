@@ -23,6 +23,7 @@ class Statistic {
     virtual Estimate of(std::span<const double> along, std::span<const double> values) const = 0;
     virtual bool hasError() const { return false; }
     virtual bool needsEvenSpacing() const { return false; }
+    virtual bool isAlong() const { return false; }      // the value is a strain or a time itself
     virtual bool isOfWholeRun() const { return true; }  // where no range is given; else of its second half
     virtual std::string text() const = 0;               // "mean", "first value below 0.5"
 };

@@ -95,15 +95,20 @@ std::map<std::string, std::string> dictionariesWith(const std::filesystem::path&
     return files;
 }
 
-std::vector<std::string> programsOf(const std::filesystem::path& templateCase) {
+std::vector<std::string> programsOf(const std::filesystem::path& templateCase,
+                                    const std::map<std::string, std::string>& dictionaries) {
     const auto has = [&](const char* file) { return std::filesystem::is_regular_file(templateCase / file); };
+    const auto read = [&](const char* file) {
+        Problems problems;
+        const auto changed = dictionaries.find(file);
+        Node node = parseDictionary(changed == dictionaries.end() ? readFile(templateCase / file) : changed->second,
+                                    file, problems);
+        problems.throwIfAny();
+        return node;
+    };
     if (!has("system/control.yaml")) return {"membraneRelax"};
-    Problems problems;
-    const Node control = readDictionary(templateCase / "system/control.yaml", "system/control.yaml", problems);
-    const Node mesh = has("system/mesh.yaml")
-                          ? readDictionary(templateCase / "system/mesh.yaml", "system/mesh.yaml", problems)
-                          : Node();
-    problems.throwIfAny();
+    const Node control = read("system/control.yaml");
+    const Node mesh = has("system/mesh.yaml") ? read("system/mesh.yaml") : Node();
     std::vector<std::string> programs;
     if (has("system/pack.yaml")) programs.emplace_back("cellPack");
     if (mesh.find("cells") || mesh.find("bodies")) programs.emplace_back("membraneMesh");

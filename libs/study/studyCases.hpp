@@ -13,6 +13,7 @@ struct StudyCase {
     std::string name;                                         // of its folder
     std::vector<std::pair<std::string, std::string>> values;  // parameter and value, in the order of the study
     std::vector<Override> settings;                           // what differs from the template
+    std::vector<std::string> programs = {};                   // that are run in it, in order
 };
 
 // In the order of the sampling. Names are the parameters with their values ("Ca0.02-spacing0.5um"), without those that
@@ -25,7 +26,9 @@ std::vector<StudyCase> casesOf(const StudySettings& study, const std::vector<std
 std::map<std::string, std::string> dictionariesWith(const std::filesystem::path& templateCase,
                                                     const std::vector<Override>& settings);
 
-// What a case needs to be run: cellPack, membraneMesh, particleFill and its solver, or membraneRelax.
-std::vector<std::string> programsOf(const std::filesystem::path& templateCase);
+// What a case needs to be run: cellPack, membraneMesh, particleFill and its solver, or membraneRelax. `dictionaries`:
+// those that differ from the template's.
+std::vector<std::string> programsOf(const std::filesystem::path& templateCase,
+                                    const std::map<std::string, std::string>& dictionaries);
 
 }  // namespace corpuscle::study

@@ -109,6 +109,32 @@ void checkFollowers(const StudySettings& study, const Node& node, Problems& prob
     }
 }
 
+// A key that two parameters set, or one beside `set`, or one within another: only the last would count.
+void checkSameKeys(const StudySettings& study, const Node& node, Problems& problems) {
+    const auto isWithin = [](const std::string& inner, const std::string& outer) {
+        return inner == outer || inner.starts_with(outer + "/");
+    };
+    std::vector<std::pair<std::string, std::string>> seen;  // key, and what sets it
+    const auto note = [&](const std::string& key, const std::string& who, const Mark& mark, const std::string& place) {
+        for (const auto& [other, what] : seen)
+            if (isWithin(key, other) || isWithin(other, key))
+                problems.add(
+                    mark, place,
+                    fmt::format("'{}' is set by {} too ('{}'); one of them would have no effect", key, what, other));
+        seen.emplace_back(key, who);
+    };
+    const Node* set = node.find("set");
+    for (std::size_t k = 0; set && k < study.set.size(); ++k)
+        if (const std::string& change = study.set[k]; change.find('=') != std::string::npos)
+            note(change.substr(0, change.find('=')), "'set'", k < set->items.size() ? set->items[k].mark : set->mark,
+                 "set");
+    const Node* table = node.find("parameters");
+    for (const auto& [name, p] : study.parameters)
+        if (const Node* given = table ? table->find(name) : nullptr)
+            for (const std::string& key : p.allKeys())
+                note(key, fmt::format("the parameter '{}'", name), given->place(), given->path);
+}
+
 void checkSampling(const StudySettings& study, const Node& node, Problems& problems) {
     std::vector<std::string> names;
     std::vector<std::size_t> levels;
@@ -141,6 +167,8 @@ std::string ParameterSettings::value(double u) const {
     double part = u;
     if (const std::size_t n = levels(); n > 0)
         part = n == 1 ? 0 : std::floor(u * static_cast<double>(n)) / static_cast<double>(n - 1);
+    if (levels() > 0 && part == 0) return endsOf(*this)[0];  // the ends as they were written
+    if (levels() > 0 && part == 1) return endsOf(*this)[1];
     const double number =
         logRange ? low.value * std::pow(high.value / low.value, part) : low.value + part * (high.value - low.value);
     // Of a logarithmic range four digits, which make shorter names.
@@ -174,8 +202,16 @@ std::optional<Moment> ResultSettings::first() const {
 std::optional<Moment> ResultSettings::last() const { return to ? std::optional(Moment::parse(*to)) : std::nullopt; }
 
 std::string ResultSettings::meaning() const {
-    return fmt::format("{} of {} of {}{}{}", statistic->text(), column, table, from ? " from " + *from : "",
-                       to ? " to " + *to : "");
+    const std::optional<Moment> moment = from ? first() : last();
+    const char* along = moment && moment->column == "time_s" ? ", a time [s]"
+                        : moment                             ? ", a strain"
+                                                             : ", a strain, or a time [s] without shear";
+    const bool isHalf = !from && !statistic->isOfWholeRun();
+    return fmt::format("{} of {} of {}{}{}{}", statistic->text(), column, table,
+                       from     ? " from " + *from
+                       : isHalf ? " in the second half of the run"
+                                : "",
+                       to ? " to " + *to : "", statistic->isAlong() ? along : "");
 }
 
 const Schema<ResultSettings>& ResultSettings::schema() {
@@ -213,7 +249,15 @@ const Schema<StudySettings>& StudySettings::schema() {
                      {.fallback = "1", .range = between(1, 100000)})
             .map("results", &StudySettings::results, "what is collected of each case, by any name", {.fallback = "{}"})
             .check(checkFollowers)
+            .check(checkSameKeys)
             .check(checkSampling)
+            .check([](const StudySettings& study, const Node& node, Problems& problems) {
+                const Node* table = node.find("results");
+                for (const auto& [name, result] : study.results)
+                    if (table && (study.parameters.contains(name) || name == "case" || name == "status"))
+                        problems.add(table->find(name)->place(), "results." + name,
+                                     "a parameter or a column of summary.csv has this name already; take another one");
+            })
             .check([](const StudySettings& study, const Node& node, Problems& problems) {
                 const Node* set = node.find("set");
                 for (std::size_t k = 0; set && k < study.set.size(); ++k) try {

@@ -5,7 +5,7 @@
 //       Ca: {key: constant/flow.yaml:/Ca, values: [0.02, 0.2, 3]}
 //       spacing: {key: system/numerics.yaml:/spacing, values: [0.5 um, 0.4 um]}
 //       edge: {key: system/mesh.yaml:/cells/0/edge, values: [0.525 um, 0.42 um], with: spacing}
-//     set: {system/control.yaml:/endStrain: 6}
+//     set: [system/control.yaml:/endStrain=6]
 //     results:
 //       D12: {table: deformation/rbc, column: D12_extent, statistic: mean, from: 4 strain}
 #pragma once

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 
 #include "core/atomicFile.hpp"
 #include "core/caseFolder.hpp"
+#include "core/caseLock.hpp"
 #include "core/dictionaryEdit.hpp"
 
 namespace corpuscle::study {
@@ -62,7 +64,8 @@ std::string progressOf(const fs::path& log) {
 bool endedByWallClock(const fs::path& caseDir) {
     try {
         const auto record = nlohmann::json::parse(readFile(caseDir / "run.json"));
-        return record.value("reason", "").find("wall-clock limit") != std::string::npos;
+        return record.value("reason", "").find("wall-clock limit") != std::string::npos &&
+               record.at("performance").value("steps", 0) > 0;  // else it would go on for ever
     } catch (const std::exception&) {
         return false;
     }
@@ -87,6 +90,11 @@ class Descriptor {
     int id_;
 };
 
+bool isSolver(const std::string& program) { return program == "dmpFlow" || program == "sphFlow"; }
+
+// Dictionaries that say how long is run, what is written and measured: a solver goes on after any change of them.
+bool isOfTheRun(const std::string& file) { return file == "system/control.yaml" || file == "system/observers.yaml"; }
+
 // The lock on a case; empty where another run of the study has it.
 std::optional<Descriptor> lockOf(const fs::path& folder) {
     const fs::path path = folder.parent_path() / ("." + folder.filename().string() + ".lock");
@@ -95,6 +103,14 @@ std::optional<Descriptor> lockOf(const fs::path& folder) {
         throw Failure(ExitCode::io, fmt::format("{}: cannot be written: {}.", path.string(), std::strerror(errno)));
     // Where a file system has no such locks, the solver's own lock on its case is what remains.
     if (flock(file.id(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return std::nullopt;
+    return file;
+}
+
+// That of the programs themselves (core/caseLock.hpp), which somebody may have started by hand: empty where one holds
+// it.
+std::optional<Descriptor> lockInside(const fs::path& folder) {
+    Descriptor file(open((folder / CaseLock::fileName).c_str(), O_RDWR | O_CLOEXEC));
+    if (file.id() >= 0 && flock(file.id(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return std::nullopt;
     return file;
 }
 
@@ -125,13 +141,21 @@ struct Sweep::Run {
 };
 
 Sweep::Sweep(SweepOptions options, std::vector<StudyCase> cases, Environment environment)
-    : options_(std::move(options)), environment_(std::move(environment)), files_(otherFiles(options_.templateCase)) {
-    // Several MPI programs at a time, each of which would bind its ranks to the first cores; and ranks that are asked
-    // to stop need the time to write a checkpoint.
+    : options_(std::move(options)), environment_(std::move(environment)) {
+    inTemplate_ = options_.cases.lexically_relative(options_.templateCase).begin()->string();
+    if (inTemplate_ == "..") inTemplate_.clear();
+    files_ = otherFiles(options_.templateCase, inTemplate_);
+    // Several MPI programs at a time, each of which would bind its ranks to the first cores. Where this process is
+    // killed, mpirun ends the ranks, which then have a few seconds for a checkpoint; where ranks have stopped by
+    // themselves, with code 5, mpirun waits as long before it ends.
     environment_.set("OMPI_MCA_hwloc_base_binding_policy", "none");
     environment_.set("OMPI_MCA_rmaps_base_oversubscribe", "1");
-    environment_.set("OMPI_MCA_odls_base_sigkill_timeout", "120");
-    fs::create_directories(options_.cases);
+    if (geteuid() == 0) {  // in a container: who runs this as root means it
+        environment_.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
+        environment_.set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
+    }
+    environment_.set("OMPI_MCA_odls_base_sigkill_timeout", "3");
+    if (!options_.readOnly) fs::create_directories(options_.cases);
     std::vector<std::string> different;
     for (StudyCase& one : cases) {
         cases_.push_back({.what = std::move(one)});
@@ -139,92 +163,145 @@ Sweep::Sweep(SweepOptions options, std::vector<StudyCase> cases, Environment env
     }
     runs_.resize(cases_.size());
     if (!different.empty())
-        throw Failure(ExitCode::invalidCase,
-                      fmt::format("these cases differ from what the study makes of its template now:\n  {}\n"
-                                  "-keep leaves them as they are, -update changes their dictionaries and runs them "
-                                  "again (a solver continues where it may), -fresh removes them and makes them anew.",
-                                  joinWords(different, "\n  ")));
+        throw Failure(
+            ExitCode::invalidCase,
+            fmt::format("these cases differ from what the study makes of its template now:\n  {}\n"
+                        "-keep leaves them as they are, -fresh removes them and makes them anew, -update goes on "
+                        "with them after changes of system/control.yaml and system/observers.yaml.",
+                        joinWords(different, "\n  ")));
 }
 
 Sweep::~Sweep() = default;
 
-// Where the case stands, from its record.
+// Where the case stands, by its record: programs that have ended in the order of the list, as long as what they have
+// written is there.
+void Sweep::takeState(CaseStatus& one) const {
+    CaseRecord& record = one.record;
+    const fs::path path = folder(one.what);
+    const std::vector<std::string>& programs = one.what.programs;
+    const auto isThere = [&](const std::string& program) {
+        if (program == "particleFill") return fs::exists(path / "0" / "fluid.vtp");
+        return !(isSolver(program) || program == "membraneRelax") || fs::exists(path / "run.json");
+    };
+    std::size_t count = 0;
+    while (count < record.done.size() && count < programs.size() && record.done[count].program == programs[count] &&
+           isThere(programs[count]))
+        ++count;
+    if (count < record.done.size() && record.done[count].program == "particleFill") count = 0;  // so is the mesh
+    record.done.resize(count);
+    if (options_.retry && one.state == CaseState::waiting) record.failed.reset();
+    one.seconds = record.seconds();
+    one.state = CaseState::waiting;
+    one.program = programs[std::min(count, programs.size() - 1)];
+    if (record.failed)
+        one.state = CaseState::failed, one.program = record.failed->program;
+    else if (count == programs.size())
+        one.state = CaseState::done;
+}
+
 void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
     const fs::path path = folder(one.what);
-    one.program = options_.programs.front();
+    one.program = one.what.programs.front();
     if (!fs::exists(path)) return;
-    const auto record = CaseRecord::read(path);
+    std::optional<CaseRecord> record;
+    try {
+        record = CaseRecord::read(path);
+    } catch (const Failure&) {
+        if (options_.differing != Differing::fresh || options_.readOnly) {
+            different.push_back(one.what.name + ": its sweep.json is damaged; -fresh makes it anew");
+            return;
+        }
+        one.plan = Differing::fresh;
+        return;
+    }
     if (!record)
         throw Failure(ExitCode::io,
                       fmt::format("{} exists and was not made by a study: move it away, or choose another "
                                   "folder for 'cases'.",
                                   path.string()));
     one.record = *record;
-    if (const std::vector<std::string> changes = changesOf(one.what, *record); !changes.empty()) {
-        switch (options_.differing) {
-            case Differing::refuse:
-                different.push_back(one.what.name + ": " + joinWords(changes, "; "));
-                break;
-            case Differing::keep:
-                break;
-            case Differing::update:
-                update(one);
-                break;
-            case Differing::fresh:
-                if (!lockOf(path))
-                    throw Failure(ExitCode::io, fmt::format("{} is being run: stop that first.", path.string()));
-                fs::remove_all(path);
-                one.record = {};
-                return;
-        }
+    takeState(one);
+    const bool isFailed = one.state == CaseState::failed;
+    const Changes changes = changesOf(one.what, *record);
+    const Differing chosen = options_.readOnly ? Differing::keep : options_.differing;
+    if (chosen == Differing::fresh && (isFailed || !changes.texts.empty())) {
+        one.plan = Differing::fresh;
+        one.state = CaseState::waiting;
+        one.program = one.what.programs.front();
+        return;
     }
-    if (options_.retry) one.record.failed.reset();
-    one.seconds = one.record.seconds();
-    const std::size_t count = one.record.done.size();
-    if (one.record.failed)
-        one.state = CaseState::failed, one.program = one.record.failed->program;
-    else if (count >= options_.programs.size())
-        one.state = CaseState::done, one.program = options_.programs.back();
-    else
-        one.program = options_.programs[count];
+    if (changes.texts.empty()) return;
+    switch (chosen) {
+        case Differing::refuse:
+            different.push_back(one.what.name + ": " + joinWords(changes.texts, "; "));
+            break;
+        case Differing::update:
+            if (!changes.areOfTheRun) {
+                different.push_back(one.what.name + ": " + joinWords(changes.texts, "; "));
+                break;
+            }
+            one.plan = Differing::update;
+            one.state = CaseState::waiting;
+            one.program = one.what.programs.back();
+            break;
+        case Differing::keep:  // its row has the values that it was run with
+            if (record->values.size() == one.what.values.size()) one.what.values = record->values;
+            break;
+        case Differing::fresh:
+            break;
+    }
+}
+
+std::string Sweep::wantedText(const StudyCase& one, const std::string& file) const {
+    const auto changed = dictionariesWith(options_.templateCase, one.settings);
+    const auto found = changed.find(file);
+    return found == changed.end() ? readFile(options_.templateCase / file) : found->second;
 }
 
 // What differs between the dictionaries and files of a case and those that it would have now.
-std::vector<std::string> Sweep::changesOf(const StudyCase& one, const CaseRecord& record) const {
+Sweep::Changes Sweep::changesOf(const StudyCase& one, const CaseRecord& record) const {
     const fs::path path = folder(one);
-    std::vector<std::string> changes;
+    Changes changes;
+    const auto note = [&](const std::string& file, const std::string& text) {
+        changes.texts.push_back(text);
+        changes.areOfTheRun = changes.areOfTheRun && isOfTheRun(file);
+    };
     const auto wanted = dictionariesWith(options_.templateCase, one.settings);
-    for (const std::string& file : dictionariesOf(options_.templateCase)) {
+    const std::vector<std::string> files = dictionariesOf(options_.templateCase);
+    for (const std::string& file : files) {
         const auto found = wanted.find(file);
         Problems ignored;
         const Node now = parseDictionary(found == wanted.end() ? readFile(options_.templateCase / file) : found->second,
                                          file, ignored);
         if (!fs::exists(path / file)) {
-            changes.push_back(file + " is missing");
+            note(file, file + " is missing");
             continue;
         }
         const Node there = parseDictionary(readFile(path / file), file, ignored);
         for (const EntryDifference& d : differences(there, now))
-            changes.push_back(fmt::format("{}:{} is {} and would be {}", file, d.path,
-                                          d.first.empty() ? "not there" : shortened(d.first, 60),
-                                          d.second.empty() ? "not there" : shortened(d.second, 60)));
+            note(file, fmt::format("{}:{} is {} and would be {}", file, d.path,
+                                   d.first.empty() ? "not there" : shortened(d.first, 60),
+                                   d.second.empty() ? "not there" : shortened(d.second, 60)));
     }
+    for (const std::string& file : dictionariesOf(path))
+        if (std::find(files.begin(), files.end(), file) == files.end())
+            note(file, fmt::format("{} is not in the template", file));
     for (const auto& [file, sum] : files_)
         if (const auto before = record.files.find(file); before == record.files.end() || before->second != sum)
-            changes.push_back(fmt::format("the template's {} has changed", file));
-    if (const std::size_t count = changes.size(); count > shownDifferences) {
-        changes.resize(shownDifferences);
-        changes.push_back(fmt::format("and {} more", count - shownDifferences));
+            note(file, fmt::format("the template's {} has changed", file));
+    for (const auto& [file, sum] : record.files)
+        if (!files_.contains(file)) note(file, fmt::format("{} is not in the template any more", file));
+    if (const std::size_t count = changes.texts.size(); count > shownDifferences) {
+        changes.texts.resize(shownDifferences);
+        changes.texts.push_back(fmt::format("and {} more", count - shownDifferences));
     }
     return changes;
 }
 
-void Sweep::make(CaseStatus& one) {
-    const fs::path path = folder(one.what);
-    const fs::path hidden = path.parent_path() / fmt::format(".{}.{}", one.what.name, getpid());
-    fs::remove_all(hidden);
-    const std::string inTemplate = options_.cases.lexically_relative(options_.templateCase).begin()->string();
-    copyCase(options_.templateCase, hidden, inTemplate == ".." ? "" : inTemplate);
+void Sweep::make(CaseStatus& one) const {
+    const fs::path path = folder(one.what), hidden = path.parent_path() / ("." + one.what.name + ".new");
+    fs::remove_all(hidden);  // of a run that was killed here: the lock is ours
+    copyCase(options_.templateCase, hidden, inTemplate_);
     for (const auto& [file, text] : dictionariesWith(options_.templateCase, one.what.settings))
         writeFileAtomically(hidden / file, text);
     one.record = {.study = fs::relative(options_.base / options_.studyFile, path).string(),
@@ -234,68 +311,77 @@ void Sweep::make(CaseStatus& one) {
     fs::rename(hidden, path);
 }
 
-void Sweep::update(CaseStatus& one) {
+// The record first: a kill in between leaves a case whose solver has not ended and which differs still.
+void Sweep::update(CaseStatus& one) const {
     const fs::path path = folder(one.what);
-    if (!lockOf(path)) throw Failure(ExitCode::io, fmt::format("{} is being run: stop that first.", path.string()));
-    const auto wanted = dictionariesWith(options_.templateCase, one.what.settings);
-    for (const std::string& file : dictionariesOf(options_.templateCase)) {
-        const auto found = wanted.find(file);
-        writeFileAtomically(path / file,
-                            found == wanted.end() ? readFile(options_.templateCase / file) : found->second);
-    }
-    for (const auto& [file, sum] : files_) {
-        fs::create_directories((path / file).parent_path());
-        fs::copy_file(options_.templateCase / file, path / file, fs::copy_options::overwrite_existing);
-    }
-    one.record.values = one.what.values;
-    one.record.files = files_;
-    one.record.done.clear();
+    const auto isLast = [&](const CaseRecord::Ended& ended) { return ended.program == one.what.programs.back(); };
+    std::erase_if(one.record.done, isLast);
     one.record.failed.reset();
     one.record.write(path);
+    for (const std::string& file : dictionariesOf(options_.templateCase))
+        if (isOfTheRun(file)) writeFileAtomically(path / file, wantedText(one.what, file));
 }
 
 std::vector<std::string> Sweep::wordsFor(const std::string& program) const {
     std::vector<std::string> words;
-    const bool isSolver = program == "dmpFlow" || program == "sphFlow";
-    if (isSolver && options_.ranks > 1) words = {"mpirun", "-np", std::to_string(options_.ranks)};
+    if (isSolver(program) && options_.ranks > 1) words = {"mpirun", "-np", std::to_string(options_.ranks)};
     const fs::path beside = options_.programFolder / program;
     words.push_back(fs::is_regular_file(beside) ? beside.string() : program);
     return words;
 }
 
-// Takes a case up unless another run of the study has it.
+void Sweep::fail(CaseStatus& one, const std::string& reason) const {
+    one.state = CaseState::failed;
+    one.record.failed = CaseRecord::Ended{.program = one.program, .code = 4, .seconds = 0, .logEnd = reason};
+    try {
+        if (fs::exists(folder(one.what))) one.record.write(folder(one.what));
+    } catch (const std::exception&) {  // it is told all the same
+        return;
+    }
+}
+
+// Takes a case up unless another run of the study, or a program that somebody has started, is at it.
 bool Sweep::begin(std::size_t k) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
-    auto lock = lockOf(path);
-    if (!lock) {
-        one.state = CaseState::elsewhere;
-        return false;
-    }
-    if (!fs::exists(path)) {
-        make(one);
-    } else if (const auto record = CaseRecord::read(path)) {  // another run may have gone on with it
-        const bool retry = options_.retry && one.state == CaseState::waiting;
-        one.record = *record;
-        if (retry) one.record.failed.reset();
-        one.seconds = one.record.seconds();
-        if (one.record.failed || one.record.done.size() >= options_.programs.size()) {
-            one.state = one.record.failed ? CaseState::failed : CaseState::done;
-            one.program = one.record.failed ? one.record.failed->program : options_.programs.back();
+    try {
+        auto lock = lockOf(path);
+        const auto inside = lock ? lockInside(path) : std::nullopt;
+        if (!lock || !inside) {
+            one.state = CaseState::elsewhere;
             return false;
         }
+        const Differing plan = std::exchange(one.plan, Differing::keep);
+        if (plan == Differing::fresh && fs::exists(path)) {  // under another name first: never half of a case
+            const fs::path hidden = path.parent_path() / ("." + one.what.name + ".old");
+            fs::remove_all(hidden);
+            fs::rename(path, hidden);
+            fs::remove_all(hidden);
+        }
+        if (!fs::exists(path)) {
+            make(one);
+        } else if (const auto record = CaseRecord::read(path)) {  // another run may have gone on with it
+            one.record = *record;
+            if (plan == Differing::update) update(one);
+            takeState(one);
+            if (one.state != CaseState::waiting) return false;
+        }
+        runs_[k] = std::make_unique<Run>();
+        runs_[k]->lock = std::move(*lock);
+        one.state = CaseState::running;
+        startNext(k);
+        return true;
+    } catch (const std::exception& error) {  // of this case: the others go on
+        runs_[k].reset();
+        fail(one, error.what());
+        return false;
     }
-    runs_[k] = std::make_unique<Run>();
-    runs_[k]->lock = std::move(*lock);
-    one.state = CaseState::running;
-    startNext(k);
-    return true;
 }
 
 void Sweep::startNext(std::size_t k) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
-    one.program = options_.programs[one.record.done.size()];
+    one.program = one.what.programs[one.record.done.size()];
     one.progress.clear();
     std::vector<std::string> words = wordsFor(one.program);
     words.insert(words.end(), {"-case", path.string()});
@@ -308,17 +394,19 @@ void Sweep::settle(std::size_t k, int code) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
     const double seconds = since(runs_[k]->start) + one.record.stoppedSeconds;
-    const bool isStopped = code == static_cast<int>(ExitCode::stopped) || (isStopping_ && code != 0);
+    // A signal from outside, as at the end of a job or of the machine, is a stop too.
+    const bool isSignal = code == 128 + SIGTERM || code == 128 + SIGINT || code == 128 + SIGHUP;
+    const bool isStopped = code == static_cast<int>(ExitCode::stopped) || isSignal || (isStopping_ && code != 0);
     one.record.stoppedSeconds = 0;
     if (code == 0) {
         one.record.done.push_back({.program = one.program, .seconds = seconds});
-        if (one.record.done.size() >= options_.programs.size())
+        if (one.record.done.size() >= one.what.programs.size())
             one.state = CaseState::done;
         else if (isStopping_)
             one.state = CaseState::stopped;
     } else if (isStopped) {
         one.record.stoppedSeconds = seconds;
-        if (isStopping_ || !endedByWallClock(path)) one.state = CaseState::stopped;
+        if (isStopping_ || isSignal || !endedByWallClock(path)) one.state = CaseState::stopped;
     } else {
         one.record.failed = CaseRecord::Ended{
             .program = one.program, .code = code, .seconds = seconds, .logEnd = lastLines(path / logName, shownLines)};

@@ -22,19 +22,19 @@ namespace corpuscle::study {
 enum class Differing {
     refuse,  // named, with the entries; nothing is run
     keep,    // it stays as it is
-    update,  // its dictionaries are changed, and all programs run again; a solver continues where it may
-    fresh,   // it is removed and made anew
+    update,  // changes of system/control.yaml and system/observers.yaml are written into it, and its solver goes on
+    fresh,   // it is removed and made anew; so is one that failed
 };
 
 struct SweepOptions {
     std::filesystem::path base;  // folder of study.yaml
     std::string studyFile;       // its name, for records
     std::filesystem::path templateCase, cases;
-    std::vector<std::string> programs;
     std::filesystem::path programFolder;  // where programs are looked for before PATH
     long jobs = 1, ranks = 1;
     Differing differing = Differing::refuse;
-    bool retry = false;  // run again what has failed
+    bool retry = false;     // run again what has failed
+    bool readOnly = false;  // cases are looked at; nothing is written, and nothing is run
 };
 
 enum class CaseState { waiting, running, elsewhere, done, failed, stopped };
@@ -44,6 +44,7 @@ const char* nameOf(CaseState state);
 struct CaseStatus {
     StudyCase what;
     CaseState state = CaseState::waiting;
+    Differing plan = Differing::keep;  // update or fresh: what is done with it before its programs run
     CaseRecord record = {};
     std::string program = {};   // that runs, ran or comes next
     std::string progress = {};  // "34.1 %", where the program tells it
@@ -72,13 +73,20 @@ class Sweep {
   private:
     struct Run;
 
+    struct Changes {
+        std::vector<std::string> texts;  // "FILE:/path is ... and would be ..."
+        bool areOfTheRun = true;         // of system/control.yaml and system/observers.yaml alone: the solver can go on
+    };
     void inspect(CaseStatus& one, std::vector<std::string>& different);
-    std::vector<std::string> changesOf(const StudyCase& one, const CaseRecord& record) const;
-    void make(CaseStatus& one);
-    void update(CaseStatus& one);
+    void takeState(CaseStatus& one) const;
+    Changes changesOf(const StudyCase& one, const CaseRecord& record) const;
+    std::string wantedText(const StudyCase& one, const std::string& file) const;
+    void make(CaseStatus& one) const;
+    void update(CaseStatus& one) const;
     bool begin(std::size_t k);
     void startNext(std::size_t k);
     void settle(std::size_t k, int code);
+    void fail(CaseStatus& one, const std::string& reason) const;
     std::vector<std::string> wordsFor(const std::string& program) const;
 
     SweepOptions options_;
@@ -86,6 +94,7 @@ class Sweep {
     std::vector<std::unique_ptr<Run>> runs_;  // one for each case; null unless it runs
     Environment environment_;
     std::map<std::string, std::string> files_;  // of the template, but dictionaries
+    std::string inTemplate_;                    // the folder of the cases, where it lies in the template
     bool isStopping_ = false;
     std::chrono::steady_clock::time_point looked_;
 };

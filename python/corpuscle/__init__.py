@@ -10,11 +10,11 @@
 Needs python3-pandas; python3-vtk9 for meshes and particles; the programs of Corpuscle for changes and runs. They are looked for in
 $CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
 """
-from .analysis import crossing, mean, period, tankTreadingFrequency, unwrapped
+from .analysis import Mean, crossing, mean, period, tankTreadingFrequency, unwrapped
 from .case import Case
 from .programs import CorpuscleError, program
 from .results import Surface
 from .study import Study
 from .tables import readTable
 
-__all__ = ["Case", "CorpuscleError", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "tankTreadingFrequency", "unwrapped"]
+__all__ = ["Case", "CorpuscleError", "Mean", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "tankTreadingFrequency", "unwrapped"]

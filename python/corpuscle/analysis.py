@@ -1,5 +1,6 @@
 """Numbers from tables: period, crossings, means with errors, tank-treading. Series are columns of a DataFrame of one cell."""
 import math
+import typing
 
 import numpy
 
@@ -13,6 +14,9 @@ def _alongOf(table, along):
 def _series(table, column, along):
     if "cell" in table and table["cell"].nunique() > 1:
         raise ValueError("this table has several cells: choose one, as in table[table.cell == 1]")
+    for name in filter(None, (column, along)):
+        if name not in table:
+            raise KeyError(f"there is no column {name!r}; there are {', '.join(table.columns)}")
     x, y = table[_alongOf(table, along)].to_numpy(float), table[column].to_numpy(float)
     isThere = numpy.isfinite(y)
     return x[isThere], y[isThere]
@@ -49,26 +53,50 @@ def crossing(table, column, level, along=None):
     return math.nan
 
 
-def mean(table, column, since=None, until=None, along=None):
-    """Mean and standard error by blocks, from `since` to `until` (strain, or along='time_s'); without `since`, of the second half.
+class Mean(typing.NamedTuple):
+    """A mean with its standard error; isReliable is False where the error is a lower bound: the series is too short, or drifts."""
 
-    Blocks of b values are put together until neighbours are independent (libs/core/blockAverage.hpp has method and sources)."""
+    value: float
+    error: float
+    isReliable: bool
+
+
+def mean(table, column, since=None, until=None, along=None):
+    """Mean of a series in time with its standard error by blocks, from `since` to `until` (strain, or along='time_s'); without `since`, of the second
+    half. The method is that of averageTable and caseSweep (libs/core/blockAverage.hpp: variance of the mean by blocks of b values, from b = 3 g on,
+    what is lacking taken out by the difference to twice the length)."""
     x, y = _series(table, column, along)
     end = x[-1] if until is None else until
     begin = (x[0] + end) / 2 if since is None else since
-    y = y[(x >= begin) & (x <= end)]
+    margin = 1e-9 * abs(x[-1])
+    chosen = (x >= begin - margin) & (x <= end + margin)
+    x, y = x[chosen], y[chosen]
     if len(y) == 0:
         raise ValueError(f"no values of {column} lie there")
+    steps = numpy.diff(x)
+    if len(steps) > 1 and abs(steps[-1] - steps[0]) > 0.01 * steps[0]:  # the end of the run
+        x, y, steps = x[:-1], y[:-1], steps[:-1]
+    if len(steps) and (abs(steps - steps[0]) > 0.01 * steps[0]).any():
+        raise ValueError("the rows are not evenly spaced there; take a range in which they are")
 
-    def variance(b):  # of the mean, by blocks of b
-        count = len(y) // b
-        means = y[:count * b].reshape(count, b).mean(axis=1)
-        return ((means - means.mean()) ** 2).mean() / (count - 1) if count > 1 else math.nan
-    single, b = variance(1), 1
-    while len(y) // (2 * b) > 1 and single > 0 and b < 3 * variance(b) / single:
-        b *= 2
-    square = 2 * variance(2 * b) - variance(b) if len(y) // (2 * b) > 1 else variance(b)
-    return float(y.mean()), math.sqrt(square) if square > 0 else math.sqrt(max(variance(b), 0)) if len(y) > 1 else math.nan
+    def variance(blocks):
+        return ((blocks - y.mean()) ** 2).sum() / (len(blocks) * (len(blocks) - 1))
+    variances, counts, blocks = [], [], y
+    while len(blocks) >= 4:
+        variances.append(variance(blocks))
+        counts.append(len(blocks))
+        odd = len(blocks) % 2  # the first is left out then
+        blocks = 0.5 * (blocks[odd::2] + blocks[odd + 1::2])
+    if not variances:
+        return Mean(float(y.mean()), math.sqrt(variance(y)) if len(y) > 1 else math.nan, False)
+    square, isReliable = max(variances), False
+    for level in range(len(variances) - 1):
+        if 2 ** level * variances[0] >= 3 * variances[level]:
+            isReliable = counts[level + 1] >= 8
+            if isReliable:
+                square = max(2 * variances[level + 1] - variances[level], 0.5 * variances[level])
+            break
+    return Mean(float(y.mean()), math.sqrt(square), bool(isReliable or math.sqrt(square) <= 1e-9 * abs(y.mean())))
 
 
 def unwrapped(angles):

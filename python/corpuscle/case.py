@@ -32,10 +32,8 @@ class Case:
 
     def set(self, changes):
         """Several values at once, {"FILE:/path": value}: checked together before any is written. Comments stay."""
-        words = [programs.program("caseDict"), "-case", str(self.folder)]
-        for key, value in changes.items():
-            words += ["-set", f"{key}={_yaml(value)}"]
-        programs.run(words)
+        if changes:
+            programs.run([programs.program("caseDict"), "-case", str(self.folder), *_changes(changes)])
 
     @property
     def record(self):
@@ -67,6 +65,8 @@ class Case:
     @property
     def times(self):
         """Times of results and checkpoints: time_s, strain, results, checkpoints."""
+        if not self.streams and not self._hasBegun():
+            return pandas.DataFrame({"time_s": [], "strain": [], "results": [], "checkpoints": []})
         return pandas.DataFrame(programs.runJson("listTimes", "-case", self.folder))
 
     @property
@@ -92,8 +92,13 @@ class Case:
             known = known[known["results"].apply(lambda names: name in names)]
             if "strain" not in known:
                 raise ValueError("these results have no strain; give a time")
+            low, high = known["strain"].min(), known["strain"].max()
+            if not low - 1e-6 <= strain <= high + 1e-6:
+                raise ValueError(f"these results reach from strain {low:g} to {high:g}")
             time = known["time_s"].iloc[(known["strain"] - strain).abs().argmin()]
         chosen = all_[-1] if time is None else min(all_, key=lambda entry: abs(entry[0] - time))
+        if time is not None and not all_[0][0] - 1e-6 * all_[-1][0] <= time <= all_[-1][0] * (1 + 1e-6):
+            raise ValueError(f"these results reach from {all_[0][0]:g} to {all_[-1][0]:g} s")
         return results.readSurface(chosen[1])
 
     def particles(self, time=None, strain=None):
@@ -104,11 +109,8 @@ class Case:
 
     def clone(self, folder, changes=None):
         """A copy without results, with changes {"FILE:/path": value}."""
-        programs.run([programs.program("cloneCase"), str(self.folder), str(folder)])
-        other = Case(folder)
-        if changes:
-            other.set(changes)
-        return other
+        programs.run([programs.program("cloneCase"), str(self.folder), str(folder), *_changes(changes or {})])
+        return Case(folder)
 
     def clean(self, mesh=False):
         """Removes the results; with mesh=True also the mesh and the particles."""
@@ -127,7 +129,7 @@ class Case:
     def run(self, ranks=1, only=None, show=False):
         """Meshes, fills and runs the case, or the programs that `only` names. Continues a run that was stopped; raises CorpuscleError with the
         program's own message where one fails. Returns False where a solver stopped early with a checkpoint, else True."""
-        for name in only or self.programs:
+        for name in ([only] if isinstance(only, str) else only) or self.programs:
             words = [programs.program(name), "-case", str(self.folder)]
             if name in ("dmpFlow", "sphFlow") and ranks > 1:
                 words = ["mpirun", "-np", str(ranks)] + words
@@ -138,11 +140,33 @@ class Case:
         return True
 
     def _hasBegun(self):
-        return any((self.folder / "checkpoints").glob("*.h5"))
+        """Whether a run goes on from a checkpoint; with `startFrom: firstTime` it begins with mesh and particles."""
+        return any((self.folder / "checkpoints").glob("*.h5")) and self.get("system/control.yaml:/startFrom", "latestTime") != "firstTime"
+
+    def __contains__(self, key):
+        try:
+            self[key]
+        except programs.CorpuscleError as error:
+            if error.code != 2:
+                raise
+            return False
+        return True
+
+    def get(self, key, default=None):
+        """The value at FILE:/path, or the default where it is not there."""
+        return self[key] if key in self else default
+
+
+def _changes(changes):
+    return [word for key, value in changes.items() for word in ("-set", f"{key}={_yaml(value)}")]
 
 
 def _yaml(value):
     """As it is written in a dictionary."""
+    if value is None:
+        raise ValueError("None is no value of a dictionary; remove the entry by `del case[key]`")
+    if hasattr(value, "tolist"):  # numpy
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 
 
@@ -35,17 +36,43 @@ def environment():
     return variables
 
 
+def _childrenOf(parent):
+    found = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            text = stat.read_text()
+        except OSError:  # it has ended
+            continue
+        if int(text.rpartition(")")[2].split()[1]) == parent:
+            found.append(int(stat.parent.name))
+    return found
+
+
+def _stop(process, launches):
+    """Asks a solver to write a checkpoint and stop; of mpirun its ranks, since mpirun by itself would end them."""
+    for one in (_childrenOf(process.pid) if launches else []) or [process.pid]:
+        try:
+            os.kill(one, signal.SIGTERM)
+        except ProcessLookupError:
+            continue
+    process.wait()
+
+
 def run(words, allowed=(0,), show=False):
-    """Runs a program and returns (exit code, standard output). show: its output appears while it runs, and is not returned."""
-    if show:
-        done = subprocess.run(words, env=environment(), stdin=subprocess.DEVNULL)
-        output, errors = "", "see above"
-    else:
-        done = subprocess.run(words, env=environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True)
-        output, errors = done.stdout, done.stderr or done.stdout
-    if done.returncode not in allowed:
-        raise CorpuscleError(os.path.basename(words[0]), done.returncode, errors)
-    return done.returncode, output
+    """Runs a program and returns (exit code, standard output). show: its output appears while it runs, and is not returned. An interrupt
+    (Ctrl-C, a notebook's stop) lets a solver write a checkpoint before it is passed on."""
+    pipe = None if show else subprocess.PIPE
+    # In a group of its own: a terminal's Ctrl-C reaches this process alone.
+    process = subprocess.Popen([str(word) for word in words], env=environment(), stdin=subprocess.DEVNULL, stdout=pipe, stderr=pipe, text=True,
+                               start_new_session=True)
+    try:
+        output, errors = process.communicate()
+    except BaseException:
+        _stop(process, os.path.basename(str(words[0])) == "mpirun")
+        raise
+    if process.returncode not in allowed:
+        raise CorpuscleError(os.path.basename(str(words[0])), process.returncode, "its output stands above" if show else errors or output)
+    return process.returncode, output or ""
 
 
 def runJson(name, *words):

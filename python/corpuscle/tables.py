@@ -3,7 +3,7 @@ import re
 
 import pandas
 
-COLUMN = re.compile(r"# ([A-Za-z0-9_]+): (.*?)(?: \[([^\]]+)\])?$")
+COLUMN = re.compile(r"# ([A-Za-z0-9_-]+): (.*?)(?: \[([^\]]+)\])?$")
 
 
 def readTable(path):
@@ -19,7 +19,7 @@ def readTable(path):
     if not rows:
         raise ValueError(f"{path} has no rows and no head")
     import io
-    table = pandas.read_csv(io.StringIO("".join(rows)), float_precision="round_trip")
+    table = pandas.read_csv(io.StringIO("".join(rows)), float_precision="round_trip", keep_default_na=False, na_values=["", "nan", "-nan"])
     found = {match[1]: match for match in map(COLUMN.match, comments) if match and match[1] in table.columns}
     table.attrs["title"] = comments[0].lstrip("# ") if comments else ""
     table.attrs["meanings"] = {name: match[2] for name, match in found.items()}

@@ -52,6 +52,18 @@ def dictionaries(case):
     assert "say what to do" in said(code=1)
     assert "one at a time" in said("system/mesh.yaml", "-set", "constant/flow.yaml:/Ca=0.1", code=1)
 
+    assert "a dictionary of the case is expected" in said("-set", "../case/constant/flow.yaml:/shearRate=1 1/s", code=1)
+    assert "a dictionary of the case is expected" in said("README.md", code=1)
+    shared = case.parent / "shared.yaml"  # a link stays one, and permissions stay
+    (case / "system/control.yaml").rename(shared)
+    (case / "system/control.yaml").symlink_to(shared)
+    shared.chmod(0o640)
+    said("-set", "system/control.yaml:/endStrain=5")
+    assert (case / "system/control.yaml").is_symlink() and "endStrain: 5" in shared.read_text() and shared.stat().st_mode & 0o777 == 0o640
+    said("-set", "system/control.yaml:/endStrain=6")
+    (case / "system/control.yaml").unlink()
+    shared.rename(case / "system/control.yaml")
+
     other = case.parent / "other"
     run("cloneCase", str(case), str(other), "-set", "system/control.yaml:/endStrain=3", "-set", "system/numerics.yaml:/implicit/step=0.02")
     different = json.loads(said("-compare", str(other), "-json"))

@@ -98,7 +98,6 @@ def goesOn(folder):
 
     page = (calm / "cases/report.html").read_text()
     assert page.count("<svg") == 6 and "Ca0.02-d7um" in page and "src=" not in page, page.count("<svg")
-    (calm / "study.yaml").write_text(STUDY.replace("column: D12_extent}}\n  D12_mean", "column: nothing}}\n  D12_mean"))
     # Results are read anew without a run; a column that is not there is told.
     (calm / "study.yaml").write_text(STUDY.replace("{table: deformation/rbc, column: D12_extent}", "{table: deformation/rbc, column: D12_extend}"))
     assert "Did you mean 'D12_extent'?" in run(calm, "-collect")
@@ -127,9 +126,55 @@ def refuses(folder):
     assert sorted(path.name for path in study.glob("cases/Ca*")) == ["Ca0.2-d7um"]
     (study / "study.yaml").write_text(STUDY.replace("values: [7 um, 8 um]", "values: [7 um, 100 um]"))
     said = run(study, code=3)
-    assert "3 of 6 cases failed" in said and "particleFill" in said or "membraneMesh" in said, said
+    assert "3 of 6 cases failed" in said and "ended with code 2" in said, said
     assert [row["status"] for row in summary(study)] == 3 * ["done", "failed"], summary(study)
     assert "Cases that failed" in (study / "cases/report.html").read_text()
+
+
+def changes(folder):
+    """A longer run goes on from its checkpoint; any other change makes a case anew, with the result of a new one; ranks stop with a checkpoint."""
+    study, new = folder / "changes", folder / "new"
+    for one in (study, new):
+        one.mkdir()
+    single = STUDY.replace("[0.02, 0.2, 3]", "[0.2]").replace("[7 um, 8 um]", "[8 um]")
+    (study / "study.yaml").write_text(single)
+    run(study)
+    short = summary(study)[0]
+    (study / "study.yaml").write_text(single.replace("endStrain=1", "endStrain=1.4"))
+    assert "-update goes on" in run(study, code=2)
+    run(study, "-update")
+    log = (study / "cases/Ca0.2-d8um/log.caseSweep").read_text()
+    assert log.count("\nmembraneMesh ") + log.startswith("membraneMesh ") == 1 and summary(study)[0]["D12"] != short["D12"]
+    harder = single.replace("endStrain=1", "endStrain=1.4").replace("set:\n", "set:\n  - constant/membranes.yaml:/rbc/bending/Eb=1\n")
+    (study / "study.yaml").write_text(harder)
+    (new / "study.yaml").write_text(harder)
+    assert "Eb is 0.01 and would be 1" in run(study, "-update", code=2)
+    assert "only reads" in run(study, "-collect", "-fresh", code=1)
+    old = summary(study)[0]
+    run(study, "-fresh")
+    run(new)
+    assert summary(study)[0]["D12"] == summary(new)[0]["D12"] != old["D12"], (summary(study), summary(new), old)
+    subprocess.run([str(BIN / "cleanCase"), "-quiet", "-case", str(study / "cases/Ca0.2-d8um")], check=True)
+    run(study)
+    assert summary(study)[0]["D12"] == summary(new)[0]["D12"]
+    (study / "other.yaml").write_text(harder)
+    assert "is of the study study.yaml" in run(study, "other.yaml", code=2)
+    (study / "study.yaml").write_text(harder.replace("results:", "programs: [membraneMesh, partikelFill]\nresults:"))
+    assert "Did you mean 'particleFill'?" in run(study, code=2)
+
+    ranks = folder / "ranks"
+    ranks.mkdir()
+    (ranks / "study.yaml").write_text(single.replace("endStrain=1", "endStrain=60"))
+    process = subprocess.Popen([str(BIN / "caseSweep"), "-ranks", "2"], cwd=ranks, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    while not list(ranks.glob("cases/*/checkpoints/*.h5")):
+        assert process.poll() is None, process.communicate()[0]
+        time.sleep(0.05)
+    start = time.time()
+    process.send_signal(signal.SIGTERM)
+    said = process.communicate(timeout=60)[0]
+    assert process.returncode == 5 and time.time() - start < 20, (process.returncode, time.time() - start, said)
+    record = json.loads((ranks / "cases/Ca0.2-d8um/run.json").read_text())
+    assert record["status"] == "stopped" and "signal SIGTERM" in record["reason"], record["reason"]
 
 
 def scripts(folder):
@@ -138,6 +183,7 @@ def scripts(folder):
     study.mkdir()
     (study / "study.yaml").write_text(STUDY)
     run(study, "-slurm", "-snakemake")
+    assert "'Ca0.2-d8um'" in (study / "study.slurm").read_text()  # by name: the list may grow
     environment = dict(os.environ, PATH=f"{BIN}:{os.environ['PATH']}", SLURM_ARRAY_TASK_ID="4", SLURM_SUBMIT_DIR=str(study))
     subprocess.run(["bash", "study.slurm"], cwd=study, env=environment, check=True, capture_output=True)
     assert [path.name for path in sorted(study.glob("cases/Ca*"))] == ["Ca0.2-d8um"]
@@ -146,7 +192,7 @@ def scripts(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for check in (goesOn, refuses, scripts):
+        for check in (goesOn, refuses, changes, scripts):
             check(pathlib.Path(folder))
             print(check.__name__, "passed")
 

@@ -53,6 +53,7 @@ TEST(DictionaryEdit, ReplacesValuesInPlace) {
     EXPECT_EQ(set(sample, "/fill/jitter", "0"), change("0.1 #", "0 #"));
     EXPECT_EQ(set(sample, "/fill", "{jitter: 0.2}"), change("fill:\n  jitter: 0.1", "fill: {jitter: 0.2}"));
     EXPECT_EQ(set(sample, "/last", "2"), change("last: 1", "last: 2"));
+    EXPECT_EQ(set("a:\n  b: 1\n  # of c\n  c: 2\nd: 3\n", "/a", "{b: 5}"), "a: {b: 5}\n  # of c\nd: 3\n");
 }
 
 TEST(DictionaryEdit, AddsEntriesInTheWayOfTheTable) {
@@ -84,6 +85,9 @@ TEST(DictionaryEdit, TakesEntriesOut) {
     EXPECT_EQ(removed("a:\n  - x: 1\n    y: 2\n  - {x: 3}\n", "/a/0"), "a:\n  - {x: 3}\n");
     EXPECT_EQ(removed("a:\n  - x: 1\n    y: 2\n", "/a/0/x"), "a:\n  - y: 2\n");
     EXPECT_EQ(removed("a: 1\n# of b\nb: 2\n", "/b"), "a: 1\n# of b\n");
+    EXPECT_EQ(removed("a:\n  - x: 1  # one\n    # of y\n    y: 2\n", "/a/0/x"), "a:\n  - # of y\n    y: 2\n");
+    EXPECT_EQ(removed("stop:\n  # agreed\n  file: stop  # name\nb: 1\n", "/stop/file"),
+              "stop: {}  # name\n  # agreed\nb: 1\n");
     EXPECT_EQ(removed("a: 1\n", "/a"), "");
 }
 

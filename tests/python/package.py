@@ -4,11 +4,15 @@
     package.py BIN SOURCE
 """
 import csv
+import json
 import math
 import os
 import pathlib
+import signal
+import subprocess
 import sys
 import tempfile
+import time
 
 BIN, SOURCE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 os.environ["CORPUSCLE_BIN"] = str(BIN)
@@ -32,7 +36,7 @@ def raises(kind, message, call):
     raise AssertionError(f"no {kind.__name__}: {message}")
 
 
-def analysis(_):
+def analysis(folder):
     x = numpy.arange(0, 40, 0.05)
     wave = pandas.DataFrame({"strain": x, "time_s": 0.01 * x, "y": 0.4 + 0.1 * numpy.sin(2 * math.pi * x / 7.3), "turn": -0.5 * x})
     value, error = corpuscle.period(wave, "y")
@@ -42,10 +46,21 @@ def analysis(_):
     assert abs(corpuscle.crossing(wave, "y", 0.45) - 7.3 / 12) < 1e-3 and math.isnan(corpuscle.crossing(wave, "y", 0.6))
     assert abs(corpuscle.tankTreadingFrequency(wave, column="turn") - 50 / (2 * math.pi)) < 1e-9
     noise = numpy.random.default_rng(3).normal(size=4000)
-    mean, error = corpuscle.mean(pandas.DataFrame({"time_s": numpy.arange(4000.0), "y": noise}), "y", since=0)
-    assert abs(mean) < 4 * error and abs(error * math.sqrt(4000) - 1) < 0.15, (mean, error)
-    slow = numpy.convolve(noise, numpy.exp(-numpy.arange(200) / 10), "valid")  # values that depend on each other
-    assert 3 < corpuscle.mean(pandas.DataFrame({"time_s": numpy.arange(len(slow), dtype=float), "y": slow}), "y", since=0)[1] / (slow.std() / len(slow) ** 0.5) < 6
+    mean = corpuscle.mean(pandas.DataFrame({"time_s": numpy.arange(4000.0), "y": noise}), "y", since=0)
+    assert abs(mean.value) < 4 * mean.error and abs(mean.error * math.sqrt(4000) - 1) < 0.15 and mean.isReliable, mean
+    # The same numbers as averageTable, where values depend on each other, in a long and in a short series.
+    slow = numpy.convolve(noise, numpy.exp(-numpy.arange(200) / 10), "valid")
+    for count, isReliable in ((3001, True), (60, False)):
+        table = folder / "postProcessing/slow/y.csv"
+        table.parent.mkdir(parents=True, exist_ok=True)
+        table.write_text("time_s,y\n" + "".join(f"{k},{slow[k]:.17g}\n" for k in range(count)))
+        done = subprocess.run([BIN / "averageTable", "slow/y", "-case", folder, "-json"], capture_output=True, text=True, check=True)
+        theirs, ours = json.loads(done.stdout)["averages"][0], corpuscle.mean(corpuscle.readTable(table), "y")
+        assert abs(ours.value - theirs["mean"]) < 1e-12 and abs(ours.error - theirs["standardError"]) < 1e-12, (ours, theirs)
+        assert ours.isReliable == theirs["isReliable"] == isReliable, (ours, theirs)
+    uneven = pandas.DataFrame({"time_s": [0.0, 1, 2, 2.5, 3, 4], "y": 1.0})
+    raises(ValueError, "not evenly spaced", lambda: corpuscle.mean(uneven, "y", since=0))
+    raises(KeyError, "there is no column 'z'", lambda: corpuscle.period(wave, "z"))
     assert numpy.allclose(numpy.diff(corpuscle.unwrapped([1.5, -1.5, -1.2])), [math.pi - 3, 0.3])
     cells = pandas.concat([wave.assign(cell=1), wave.assign(cell=2)])
     raises(ValueError, "several cells", lambda: corpuscle.period(cells, "y"))
@@ -60,6 +75,13 @@ def case(folder):
     assert "edge: 1.2 um" in (one.folder / "system/mesh.yaml").read_text()
     raises(corpuscle.CorpuscleError, "Did you mean 'Ca'?", lambda: one.set({"constant/flow.yaml:/Cb": 1}))
     raises(FileNotFoundError, "is not a case", lambda: corpuscle.Case(folder))
+    raises(corpuscle.CorpuscleError, "Did you mean 'Ca'?", lambda: one.clone(folder / "wrong", {"constant/flow.yaml:/Cb": 1}))
+    assert not (folder / "wrong").exists()
+    raises(ValueError, "del case[key]", lambda: one.set({"constant/flow.yaml:/Ca": None}))
+    one["system/mesh.yaml:/cells/0/centre"] = ["0 um", "0 um", "0 um"]
+    one.set({"system/mesh.yaml:/cells/0/axis": numpy.array([0, 0, 1])})
+    assert "constant/flow.yaml:/Ca" in one and "constant/flow.yaml:/shearRate" not in one and one.get("constant/flow.yaml:/shearRate", 3) == 3
+    assert len(one.times) == 0
     assert one.programs == ["membraneMesh", "particleFill", "dmpFlow"]
     assert one.run() is True and one.run() is True  # the second time it is finished
     assert one.record["status"] == "done" and one.record["parameters"]["particles"] > 1000, one.record["parameters"]
@@ -85,6 +107,10 @@ def case(folder):
     gradient = numpy.polyfit(fluid.points[:, 2], fluid.pointData["velocity"][:, 0], 1)[0]
     assert abs(gradient / one.record["parameters"]["shearRate_1_s"] - 1) < 0.1, gradient
     assert one.surface("rbc", time=0).time == 0
+    raises(ValueError, "reach from strain 0 to 0.4", lambda: one.surface("rbc", strain=50))
+    raises(ValueError, "these results reach", lambda: one.particles(time=1.0))
+    assert one.used["system/control.yaml"]["endStrain"] == 0.4, one.used.keys()
+    assert one.run(only="dmpFlow")
     raises(FileNotFoundError, "there are no results of 'red'", lambda: one.surface("red"))
     try:
         import meshio
@@ -101,7 +127,20 @@ def case(folder):
     assert one.table("deformation/rbc").iloc[:len(shape)].equals(shape)
     one.clean(mesh=True)
     assert one.tables == [] and one.record == {}
-    assert one.used if (one.folder / "used.yaml").exists() else True
+
+    # An interrupt lets the solver write a checkpoint, with ranks too.
+    one["system/control.yaml:/endStrain"] = 50
+    for ranks in (1, 2):
+        script = f"import sys; sys.path.insert(0, {str(SOURCE / 'python')!r}); import corpuscle; corpuscle.Case({str(one.folder)!r}).run(ranks={ranks})"
+        process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True)
+        while len(list((one.folder / "postProcessing").glob("deformation/rbc.csv"))) == 0 or one.record.get("status") != "running":
+            assert process.poll() is None, process.communicate()
+            time.sleep(0.05)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        assert "KeyboardInterrupt" in process.communicate(timeout=60)[1]
+        assert one.record["status"] == "stopped" and list((one.folder / "checkpoints").glob("*.h5")), one.record
+        one.clean(mesh=True)
 
 
 def study(folder):
@@ -116,6 +155,10 @@ results:
     one = corpuscle.Study(folder)
     assert [row["case"] for row in one.list()] == ["Ca0.02", "Ca3"]
     assert one.run()
+    assert one.cases == ["Ca0.02", "Ca3"] == list(one)
+    raises(KeyError, "there are Ca0.02, Ca3", lambda: one["Ca4"])
+    raises(corpuscle.CorpuscleError, "differ", lambda: [(folder / "study.yaml").write_text((folder / "study.yaml").read_text().replace("1.2 um", "1 um")), one.run()])
+    assert one.run(differing="fresh")
     summary = one.summary
     assert list(summary.Ca) == [0.02, 3] and (summary.status == "done").all()
     assert summary.D12.iloc[1] == one["Ca3"].table("deformation/rbc").D12_extent.iloc[-1].round(15) or \

@@ -65,6 +65,8 @@ TEST(Study, ValuesOfAnyKindAndRanges) {
         casesFrom("template: .\nparameters: {rate: {key: a:/b, logRange: [10 1/s, 1000 1/s], count: 3}}\n");
     EXPECT_EQ(rates[1].values[0].second, "100 1/s");
     EXPECT_EQ(rates[1].name, "rate100_1_s");
+    const auto ends = casesFrom("template: .\nparameters: {x: {key: a:/b, range: [1234567.5, 2e7], count: 3}}\n");
+    EXPECT_EQ(ends[0].values[0].second + " " + ends[2].values[0].second, "1234567.5 2e7");
     const auto linear = casesFrom("template: .\nparameters: {x: {key: a:/b, range: [-1, 1], count: 5}}\n");
     EXPECT_EQ(linear[1].values[0].second, "-0.5");
     EXPECT_EQ(linear[4].values[0].second, "1");
@@ -114,6 +116,14 @@ TEST(Study, SaysWhatIsWrong) {
               std::string::npos);
     EXPECT_NE(only(start + "{key: a:/b, values: [1]}\nset: [Ca=3]\n").find("expected FILE:/path/to/key=value"),
               std::string::npos);
+    EXPECT_NE(only(start + "{key: a:/b, values: [1]}\n  y: {key: a:/b, values: [2]}\n").find("'a:/b' is set by"),
+              std::string::npos);
+    EXPECT_NE(only(start + "{key: a:/b, values: [1]}\n  y: {key: a:/b/c, values: [2]}\n").find("would have no effect"),
+              std::string::npos);
+    EXPECT_NE(only(start + "{key: a:/b, values: [1]}\nset: [a:/b=3]\n").find("is set by 'set' too"), std::string::npos);
+    EXPECT_NE(
+        only(start + "{key: a:/b, values: [1]}\nresults: {x: {table: a/b, column: c}}\n").find("has this name already"),
+        std::string::npos);
     EXPECT_NE(only(start + "{key: a:/b, values: [1]}\nsampling: gird\n").find("Did you mean 'grid'?"),
               std::string::npos);
     EXPECT_NE(only("template: .\nparameters: {}\n").find("found none; a study varies at least one"), std::string::npos);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/crossingStatistic.hpp"
+#include "study/extremeStatistic.hpp"
 #include "study/lastStatistic.hpp"
 #include "study/maximumStatistic.hpp"
 #include "study/meanStatistic.hpp"
@@ -71,6 +72,7 @@ TEST(Statistics, LastAndExtremes) {
     EXPECT_EQ(MinimumStatistic{}.of(along, values).value, -1);
     EXPECT_EQ(MaximumStatistic{}.of(along, values).value, 2);
     EXPECT_TRUE(std::isnan(LastStatistic{}.of(along, values).error));
+    EXPECT_EQ(ExtremeStatistic{}.of(along, std::vector<double>{1, -3, 2}).value, -3);
 }
 
 TEST(Statistics, MeanHasAnErrorThatCoversTheTruth) {

@@ -1,7 +1,10 @@
 // Sweeps over cases whose programs are shell scripts: what runs once, what runs again, what is refused.
 #include "study/sweep.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -30,13 +33,13 @@ class SweepTest : public testing::Test {
                     .studyFile = "study.yaml",
                     .templateCase = base_ / "template",
                     .cases = base_ / "cases",
-                    .programs = {"one", "two"},
                     .programFolder = base_ / "bin",
                     .jobs = 2};
         for (const char* Ca : {"0.1", "0.2", "0.3"})
             cases_.push_back({.name = std::string("Ca") + Ca,
                               .values = {{"Ca", Ca}},
-                              .settings = {{"constant/flow.yaml", "/Ca", Ca}}});
+                              .settings = {{"constant/flow.yaml", "/Ca", Ca}},
+                              .programs = {"one", "two"}});
     }
     void TearDown() override { fs::remove_all(base_); }
 
@@ -84,7 +87,10 @@ TEST_F(SweepTest, RunsEachProgramOnceInEachCase) {
     EXPECT_EQ(sorted(calls()), once);
     EXPECT_EQ(readFile(base_ / "cases/Ca0.3/constant/flow.yaml"), "Ca: 0.3\n");
     EXPECT_EQ(readFile(base_ / "cases/Ca0.3/system/control.yaml"), "application: one  # kept\nendStrain: 1\n");
-    cases_.push_back({.name = "Ca0.4", .values = {{"Ca", "0.4"}}, .settings = {{"constant/flow.yaml", "/Ca", "0.4"}}});
+    cases_.push_back({.name = "Ca0.4",
+                      .values = {{"Ca", "0.4"}},
+                      .settings = {{"constant/flow.yaml", "/Ca", "0.4"}},
+                      .programs = {"one", "two"}});
     EXPECT_EQ(run().back(), CaseState::done);  // a value more
     EXPECT_EQ(calls().size(), 8u);
 }
@@ -107,11 +113,11 @@ TEST_F(SweepTest, AFailureKeepsItsLogAndDoesNotStopTheOthers) {
 }
 
 TEST_F(SweepTest, AProgramThatIsMissingOrKilledIsAFailure) {
-    options_.programs = {"one", "notThere"};
+    for (StudyCase& one : cases_) one.programs = {"one", "notThere"};
     EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::failed));
     EXPECT_NE(CaseRecord::read(base_ / "cases/Ca0.1")->failed->logEnd.find("notThere cannot be started"),
               std::string::npos);
-    options_.programs = {"one", "two"};
+    for (StudyCase& one : cases_) one.programs = {"one", "two"};
     program("two", "kill -9 $$");
     options_.retry = true;
     EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::failed));
@@ -137,7 +143,7 @@ TEST_F(SweepTest, StopsOnRequestAndGoesOn) {
 }
 
 TEST_F(SweepTest, ASolverThatReachesItsWallClockLimitGoesOnAtOnce) {
-    const std::string record = R"({"status": "stopped", "reason": "the wall-clock limit of 2 h 00 min"})";
+    const std::string record = R"({"reason": "the wall-clock limit of 2 h 00 min", "performance": {"steps": 9}})";
     program("two", "echo \"two $2\" >>" + (base_ / "calls").string() +
                        "\n[ -e $2/again ] && exit 0\ntouch $2/again\n"
                        "echo '" +
@@ -170,20 +176,92 @@ TEST_F(SweepTest, CasesThatDifferAreNamed) {
     options_.differing = Differing::keep;
     EXPECT_EQ(run(), allDone_);
     EXPECT_EQ(calls().size(), 6u);
+    options_.differing = Differing::update;  // not after such changes: old results would pass for new ones
+    EXPECT_NE(refusal().find("places.csv has changed"), std::string::npos);
+    write("template/constant/places.csv", "x\n1\n");
     write("cases/Ca0.2/results/kept", "x");
-    options_.differing = Differing::update;
     EXPECT_EQ(run(), allDone_);
-    EXPECT_EQ(calls().size(), 12u);
+    EXPECT_EQ(calls().size(), 9u);  // the solver alone goes on
     EXPECT_EQ(readFile(base_ / "cases/Ca0.2/system/control.yaml"), "application: one\nendStrain: 2\n");
-    EXPECT_EQ(readFile(base_ / "cases/Ca0.2/constant/places.csv"), "x\n2\n");
     EXPECT_TRUE(fs::exists(base_ / "cases/Ca0.2/results/kept"));
     options_.differing = Differing::refuse;
     EXPECT_EQ(refusal(), "");
-    write("template/system/control.yaml", "application: one\nendStrain: 3\n");
+    write("template/system/control.yaml~", "an editor's\n");
+    write("template/README.md", "a page\n");
+    EXPECT_EQ(refusal(), "");
+    write("template/cell.stl", "1");  // beside system/: it is copied too
+    EXPECT_NE(refusal().find("the template's cell.stl has changed"), std::string::npos);
+    fs::remove(base_ / "template/cell.stl");
+    write("template/constant/contact.yaml", "a: 1\n");
+    EXPECT_NE(refusal().find("constant/contact.yaml is missing"), std::string::npos);
     options_.differing = Differing::fresh;
     EXPECT_EQ(run(), allDone_);
-    EXPECT_EQ(calls().size(), 18u);
+    EXPECT_EQ(calls().size(), 15u);
     EXPECT_FALSE(fs::exists(base_ / "cases/Ca0.2/results/kept"));
+    fs::remove(base_ / "template/constant/contact.yaml");
+    options_.differing = Differing::refuse;
+    EXPECT_NE(refusal().find("constant/contact.yaml is not in the template"), std::string::npos);
+    options_.readOnly = true;
+    options_.differing = Differing::fresh;
+    EXPECT_EQ(run(), allDone_);  // nothing is removed, nothing runs
+    EXPECT_EQ(calls().size(), 15u);
+}
+
+TEST_F(SweepTest, WhatIsNotThereAnyMoreRunsAgain) {
+    for (StudyCase& one : cases_) one.programs = {"one", "dmpFlow"};
+    program("dmpFlow", "echo \"two $2\" >>" + (base_ / "calls").string() + "\necho '{}' >$2/run.json");
+    EXPECT_EQ(run(), allDone_);
+    fs::remove(base_ / "cases/Ca0.2/run.json");  // as cleanCase does
+    EXPECT_EQ(run(), allDone_);
+    EXPECT_EQ(calls().size(), 7u);
+    for (StudyCase& one : cases_) one.programs = {"two", "dmpFlow"};  // another list: from the first that differs
+    EXPECT_EQ(run(), allDone_);
+    EXPECT_EQ(calls().size(), 13u);
+}
+
+TEST_F(SweepTest, FailedCasesAreMadeAnewByFresh) {
+    program("two", "[ -e $2/constant/good ]");
+    EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::failed));
+    write("template/constant/good", "");
+    options_.differing = Differing::fresh;
+    EXPECT_EQ(run(), allDone_);
+}
+
+TEST_F(SweepTest, KeptCasesKeepTheirValues) {
+    run();
+    options_.differing = Differing::keep;
+    cases_[0].values = {{"Ca", "0.7"}};  // as another seed of a Latin hypercube
+    cases_[0].settings[0].value = "0.7";
+    const Sweep sweep(options_, cases_, Environment::ofThisProcess());
+    EXPECT_EQ(sweep.cases()[0].what.values[0].second, "0.1");
+}
+
+TEST_F(SweepTest, ACaseInWhichSomebodyWorksIsLeftAlone) {
+    run();
+    write("cases/Ca0.2/case.lock", "");
+    write("template/constant/flow.yaml", "Ca: 0.1\nx: 1\n");
+    options_.differing = Differing::fresh;
+    const int held = open((base_ / "cases/Ca0.2/case.lock").c_str(), O_RDWR);
+    ASSERT_EQ(flock(held, LOCK_EX), 0);
+    const auto states = run([&](Sweep& sweep) { return sweep.cases()[2].state == CaseState::done; });
+    EXPECT_EQ(states, (std::vector<CaseState>{CaseState::done, CaseState::elsewhere, CaseState::done}));
+    EXPECT_EQ(readFile(base_ / "cases/Ca0.2/constant/flow.yaml"), "Ca: 0.2\n");
+    close(held);
+    EXPECT_EQ(run(), allDone_);
+    EXPECT_EQ(readFile(base_ / "cases/Ca0.2/constant/flow.yaml"), "Ca: 0.2\nx: 1\n");
+}
+
+TEST_F(SweepTest, ASignalFromOutsideIsAStop) {
+    program("two", "kill -TERM $$");
+    EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::stopped));
+    program("two", "exit 0");
+    EXPECT_EQ(run(), allDone_);
+}
+
+TEST_F(SweepTest, ASolverThatDoesNotAdvanceIsNotStartedForEver) {
+    const std::string record = R"({"reason": "the wall-clock limit of 1 ms", "performance": {"steps": 0}})";
+    program("two", "echo '" + record + "' >$2/run.json\nexit 5");
+    EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::stopped));
 }
 
 TEST_F(SweepTest, FoldersOfOthersAreLeftAlone) {
@@ -234,9 +312,12 @@ TEST(Batch, QuotesNames) {
                       .casesFolder = "cases",
                       .names = {"a\"b", "c"},
                       .ranks = 4};
-    EXPECT_NE(slurmScript(batch).find("exec 'caseSweep' 'it'\\''s.yaml' -only \"$SLURM_ARRAY_TASK_ID\" -ranks 4"),
+    const std::string script = slurmScript(batch);
+    EXPECT_NE(script.find("exec 'caseSweep' 'it'\\''s.yaml' -only \"${CASES[SLURM_ARRAY_TASK_ID - 1]}\" -ranks 4"),
               std::string::npos);
-    EXPECT_NE(slurmScript(batch).find("#SBATCH --array=1-2\n"), std::string::npos);
+    EXPECT_NE(script.find("CASES=(\n'a\"b'\n'c'\n)"), std::string::npos);
+    EXPECT_NE(script.find("#SBATCH --array=1-2\n"), std::string::npos);
+    EXPECT_NE(script.find("#SBATCH --job-name=it_s\n"), std::string::npos);
     EXPECT_NE(snakefile(batch).find("\"a\\\"b\","), std::string::npos);
 }
 

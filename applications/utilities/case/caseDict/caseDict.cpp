@@ -51,6 +51,12 @@ Entry entryOf(const std::string& text) {
 
 // The text of a dictionary of the case.
 std::string textOf(const fs::path& caseDir, const std::string& file) {
+    const fs::path normal = fs::path(file).lexically_normal();
+    if (normal.is_absolute() || *normal.begin() == ".." || normal.extension() != ".yaml")
+        throw Failure(ExitCode::usage,
+                      fmt::format("{}: a dictionary of the case is expected, such as system/mesh.yaml; -case "
+                                  "names another case",
+                                  file));
     if (fs::is_regular_file(caseDir / file)) return readFile(caseDir / file);
     const std::vector<std::string> known = dictionariesOf(caseDir);
     throw Failure(ExitCode::invalidCase,
@@ -92,6 +98,7 @@ std::vector<std::string> split(const std::string& text) {
 
 void change(Application& app) {
     const fs::path caseDir = app.caseDirectory();
+    app.lockCase();  // what is read is what is changed
     std::map<std::string, std::string> before, after;
     const auto text = [&](const std::string& file) -> std::string& {
         const std::string name = fs::path(file).lexically_normal().string();
@@ -110,7 +117,6 @@ void change(Application& app) {
     Problems problems;
     for (const auto& [file, now] : after) simulation::addNewProblems(file, before[file], now, problems);
     problems.throwIfAny();
-    app.lockCase();
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const auto& [file, now] : after) {
         if (now == before[file]) continue;

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "core/application.hpp"
@@ -42,8 +44,8 @@ Usage usage() {
                         {"only", "CASE", "One case alone, by its name or its number in -list."},
                         {"retry", "", "Run again what has failed."},
                         {"keep", "", "Leave cases as they are that differ from the template by now."},
-                        {"update", "", "Change the dictionaries of such cases, and run them again."},
-                        {"fresh", "", "Remove such cases and make them anew."},
+                        {"update", "", "Write changed control.yaml and observers.yaml into such cases and go on."},
+                        {"fresh", "", "Remove such cases, and those that failed, and make them anew."},
                         {"collect", "", "Write summary.csv and report.html from what is there; run nothing."},
                         {"slurm", "", "Write a job array for SLURM; run nothing."},
                         {"snakemake", "", "Write rules for Snakemake; run nothing."}},
@@ -83,6 +85,27 @@ void checkCases(const Study& study) {
     for (const std::string& fault : order)
         text += fmt::format("{}case {}: {}", text.empty() ? "" : "\n", found[fault], fault);
     throw Failure(ExitCode::invalidCase, text);
+}
+
+// Every program that a case needs can be started.
+void checkPrograms(const Study& study) {
+    std::vector<std::string> known;
+    for (const auto& entry : fs::directory_iterator(study.options.programFolder))
+        known.push_back(entry.path().filename().string());
+    const auto isFound = [&](const std::string& program) {
+        if (fs::is_regular_file(study.options.programFolder / program)) return true;
+        const char* path = std::getenv("PATH");
+        std::istringstream folders(path ? path : "");
+        for (std::string folder; std::getline(folders, folder, ':');)
+            if (fs::is_regular_file(fs::path(folder) / program)) return true;
+        return false;
+    };
+    for (const study::StudyCase& one : study.cases)
+        for (const std::string& program : one.programs)
+            if (!isFound(program))
+                throw Failure(ExitCode::invalidCase,
+                              fmt::format("{}: programs: '{}' is neither beside caseSweep nor in PATH.{}",
+                                          study.file.string(), program, didYouMean(program, known)));
 }
 
 study::Differing differingOf(const Application& app) {
@@ -151,8 +174,7 @@ Study readStudy(const Application& app) {
     if (o.cases == o.templateCase)
         throw Failure(ExitCode::invalidCase,
                       fmt::format("{}: 'cases' is the template itself; name another folder.", study.file.string()));
-    o.programs = study.settings.programs.value_or(study::programsOf(o.templateCase));
-    if (o.programs.empty())
+    if (study.settings.programs && study.settings.programs->empty())
         throw Failure(ExitCode::invalidCase,
                       fmt::format("{}: programs: found none; leave the key out for those that the "
                                   "template needs.",
@@ -163,12 +185,19 @@ Study readStudy(const Application& app) {
     o.jobs = app.integer("jobs", 1).value_or(study.settings.jobs.value_or(std::max(1L, cores / o.ranks)));
     o.differing = differingOf(app);
     o.retry = app.has("retry");
+    o.readOnly = app.has("collect");
+    if (o.readOnly && (o.retry || o.differing != study::Differing::refuse))
+        throw Failure(ExitCode::usage, "-collect only reads: give it without -retry, -keep, -update and -fresh");
 
     std::vector<std::string> order;
     for (const auto& [name, value] : node.find("parameters")->entries) order.push_back(name);
     loadPlugins(o.templateCase);
     study.cases = study::casesOf(study.settings, order);
     checkCases(study);
+    for (study::StudyCase& one : study.cases)
+        one.programs = study.settings.programs.value_or(
+            study::programsOf(o.templateCase, study::dictionariesWith(o.templateCase, one.settings)));
+    checkPrograms(study);
     if (const auto only = app.value("only")) chooseOnly(study, *only);
     return study;
 }
@@ -190,7 +219,7 @@ void list(Application& app, const Study& study) {
         std::cout << json.dump(2) << '\n';
     else
         app.log().table(header, rows);
-    app.log().info("{} cases; in each {}", study.cases.size(), joinWords(study.options.programs));
+    app.log().info("{} cases; in each {}", study.cases.size(), joinWords(study.cases.front().programs));
 }
 
 void writeBatch(Application& app, const Study& study) {
@@ -209,6 +238,17 @@ void writeBatch(Application& app, const Study& study) {
     fs::create_directories(study.options.cases);
     write("slurm", ".slurm", study::slurmScript(batch));
     write("snakemake", ".smk", study::snakefile(batch));
+}
+
+// Two studies in one folder would take each other's cases and tables for their own.
+void requireOwnFolder(const Study& study) {
+    const fs::path summary = study.options.cases / "summary.csv";
+    std::error_code ignored;
+    if (!fs::is_regular_file(summary, ignored)) return;
+    const std::string text = readFile(summary), start = "# " + study.options.studyFile + ": ";
+    if (text.starts_with("# ") && !text.starts_with(start))
+        throw Failure(ExitCode::invalidCase, fmt::format("{} is of the study {}: name another folder in 'cases'.",
+                                                         summary.string(), text.substr(2, text.find(':') - 2)));
 }
 
 class Collector {
@@ -249,11 +289,13 @@ void showResults(Application& app, const study::Summary& summary) {
     header.emplace_back("run time");
     std::vector<std::vector<std::string>> rows;
     std::map<std::string, std::string> problems;  // with the first case
+    bool isDoubtful = false;
     for (const study::SummaryRow& row : summary.rows) {
         rows.push_back({row.status->what.name, nameOf(row.status->state)});
         for (const study::CaseResult& result : row.results) {
             if (!result.problem.empty()) problems.emplace(result.problem, row.status->what.name);
             const study::Estimate& e = result.estimate;
+            isDoubtful = isDoubtful || (std::isfinite(e.error) && !e.isReliable);
             rows.back().push_back(!std::isfinite(e.value) ? "-"
                                   : std::isfinite(e.error)
                                       ? fmt::format("{:.5g} +- {:.2g}{}", e.value, e.error, e.isReliable ? "" : "*")
@@ -263,6 +305,7 @@ void showResults(Application& app, const study::Summary& summary) {
     }
     app.log().info("");
     app.log().table(header, rows);
+    if (isDoubtful) app.log().info("* this standard error is a lower bound: the series is too short for it, or drifts");
     for (const auto& [problem, name] : problems) app.log().warning("case {}: {}", name, problem);
     for (const study::SummaryRow& row : summary.rows)
         if (const auto& failed = row.status->record.failed; failed && row.status->state == study::CaseState::failed)
@@ -302,6 +345,7 @@ ExitCode outcomeOf(Application& app, const std::vector<study::CaseStatus>& cases
 }
 
 ExitCode sweep(Application& app, const Study& study, const study::Environment& environment) {
+    requireOwnFolder(study);
     study::Sweep sweep(study.options, study.cases, environment);
     Collector collector(study, environment);
     if (app.has("collect")) {
@@ -311,7 +355,8 @@ ExitCode sweep(Application& app, const Study& study, const study::Environment& e
         app.log().info("{}\n{}", collector.summaryFile().string(), collector.reportFile().string());
         return ExitCode::done;
     }
-    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP}) std::signal(signal, noteSignal);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
+        if (std::signal(signal, noteSignal) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
     LiveTable table(app.log(), app.has("quiet") || app.json());
     const bool isPart = app.has("only");  // the whole study is for -collect
     bool changed = true;
@@ -319,12 +364,12 @@ ExitCode sweep(Application& app, const Study& study, const study::Environment& e
     while (true) {
         table.show(sweep.cases(), changed);
         if (sweep.isEnded()) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
         if (stopSignals > handled) {  // a second one ends solvers at once
             if (handled == 0) app.log().info("stopping: solvers write a checkpoint first");
             handled = stopSignals;
             sweep.stop();
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
         changed = sweep.advance();
         if (changed && !isPart) collector.collect(sweep.cases(), false);
     }

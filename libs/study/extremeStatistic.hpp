@@ -1,0 +1,13 @@
+// The value that is greatest in size, with its sign: of changes that may be of either.
+#pragma once
+#include "study/statistic.hpp"
+
+namespace corpuscle::study {
+
+struct ExtremeStatistic : Statistic {
+    Estimate of(std::span<const double> along, std::span<const double> values) const override;
+    std::string text() const override { return "extreme"; }
+    static const Schema<ExtremeStatistic>& schema();
+};
+
+}  // namespace corpuscle::study
