@@ -36,7 +36,7 @@ install(CODE "
     foreach(file \${files})
         if(EXISTS \"${CMAKE_SOURCE_DIR}/\${file}\")
             get_filename_component(folder \"\${file}\" DIRECTORY)
-            file(INSTALL \"${CMAKE_SOURCE_DIR}/\${file}\" DESTINATION \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${data}/\${folder}\" USE_SOURCE_PERMISSIONS)
+            file(INSTALL \"${CMAKE_SOURCE_DIR}/\${file}\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${data}/\${folder}\" USE_SOURCE_PERMISSIONS)
         endif()
     endforeach()
 " COMPONENT corpuscle)

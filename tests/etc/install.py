@@ -80,6 +80,10 @@ def main():
         folder = pathlib.Path(temporary)
         environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
         run(["cmake", "--install", BUILD, "--prefix", folder / "first"], folder, environment)
+        # As packages are made: the same files below another root.
+        run(["cmake", "--install", BUILD, "--prefix", "/usr"], folder, dict(environment, DESTDIR=str(folder / "package")))
+        files = [sorted(str(path.relative_to(top)) for path in top.rglob("*") if path.is_file()) for top in (folder / "first", folder / "package/usr")]
+        assert files[0] == files[1] and len(files[0]) > 500, set(files[0]) ^ set(files[1])
         root = (folder / "first").rename(folder / "moved")
         environment["PATH"] = f"{root / 'bin'}:{os.environ['PATH']}"
         libraries = run(["ldd", root / "bin/dmpFlow"], folder, environment)
