@@ -3,9 +3,10 @@
 set -euo pipefail
 bin=$1 tutorial=$2
 shift 2
+repository=$(cd "$(dirname "$0")/../.." && pwd)
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-cp -r "$(dirname "$0")/../../tutorials" "$copy/tutorials"
+cp -r "$repository/tutorials" "$copy/tutorials"
 cd "$copy/tutorials/$tutorial"
-CORPUSCLE_BIN=$bin CORPUSCLE_TUTORIALS=$copy/tutorials ./Allrun "$@"
+PYTHONPATH=$repository/python CORPUSCLE_BIN=$bin CORPUSCLE_TUTORIALS=$copy/tutorials ./Allrun "$@"
 [ -s run.json ] || ls runs/*/run.json >/dev/null
