@@ -75,7 +75,8 @@ namespace {
 
 bool isEditorsCopy(const std::string& name) {
     const auto ends = [&](const char* ending) { return name.ends_with(ending); };
-    return name.starts_with('.') || name.starts_with('#') || ends("~") || ends(".bak") || ends(".orig") || ends(".swp");
+    return name.starts_with('.') || name.starts_with('#') || ends("~") || ends(".tmp") || ends(".bak") ||
+           ends(".orig") || ends(".swp");
 }
 
 }  // namespace

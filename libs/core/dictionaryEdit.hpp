@@ -3,6 +3,8 @@
 // A new value takes the place of the old one. An entry that is not there is added at the end of the table that it
 // belongs to, in the way that this table is written (in braces, or a line for each key). Of an entry that is taken out,
 // the comment on its last line goes with it, and of a table what stands between its lines; other lines of comment stay.
+// A list or table in brackets that is replaced takes the comments between its brackets along: change its items one by
+// one to keep them.
 //
 // Each result is read again and compared with the change made on what was read (applyOverride, removeEntry on a Node),
 // so that a layout that is not understood is refused and never written wrongly.

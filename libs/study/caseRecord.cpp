@@ -62,8 +62,8 @@ std::optional<CaseRecord> CaseRecord::read(const fs::path& caseDir) {
         record.stoppedSeconds = json.at("stoppedSeconds");
         return record;
     } catch (const Json::exception&) {
-        throw Failure(ExitCode::io, fmt::format("{} is damaged: remove {}, and the case is made anew.", path.string(),
-                                                caseDir.string()));
+        throw Failure(ExitCode::invalidCase, fmt::format("{} is damaged: remove {}, and the case is made anew.",
+                                                         path.string(), caseDir.string()));
     }
 }
 

@@ -30,7 +30,7 @@ struct CaseRecord {
 
     double seconds() const;
     void write(const std::filesystem::path& caseDir) const;
-    // Throws Failure(io) where it is damaged.
+    // Throws Failure: invalidCase where it is damaged, io where it cannot be read.
     static std::optional<CaseRecord> read(const std::filesystem::path& caseDir);
 };
 

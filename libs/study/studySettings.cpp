@@ -171,8 +171,18 @@ std::string ParameterSettings::value(double u) const {
     if (levels() > 0 && part == 1) return endsOf(*this)[1];
     const double number =
         logRange ? low.value * std::pow(high.value / low.value, part) : low.value + part * (high.value - low.value);
-    // Of a logarithmic range four digits, which make shorter names.
-    return fmt::format("{:.{}g}{}{}", number, logRange ? 4 : 6, low.unit.empty() ? "" : " ", low.unit);
+    // As short as is exact to 1 % of the distance to the next value: it becomes a part of the case's name.
+    const std::size_t n = levels();
+    const double ratio = logRange ? high.value / low.value : 0;
+    const double step = n < 2      ? 1e-4 * std::abs(number)
+                        : logRange ? number * std::expm1(std::log(ratio) / static_cast<double>(n - 1))
+                                   : (high.value - low.value) / static_cast<double>(n - 1);
+    std::string shown;
+    for (int digits = logRange ? 4 : 6; digits <= 17; ++digits) {
+        shown = fmt::format("{:.{}g}", number, digits);
+        if (std::abs(std::stod(shown) - number) <= 0.01 * step) break;
+    }
+    return shown + (low.unit.empty() ? "" : " " + low.unit);
 }
 
 const Schema<ParameterSettings>& ParameterSettings::schema() {

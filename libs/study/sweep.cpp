@@ -189,7 +189,7 @@ void Sweep::takeState(CaseStatus& one) const {
         ++count;
     if (count < record.done.size() && record.done[count].program == "particleFill") count = 0;  // so is the mesh
     record.done.resize(count);
-    if (options_.retry && one.state == CaseState::waiting) record.failed.reset();
+    if (one.retries) record.failed.reset();
     one.seconds = record.seconds();
     one.state = CaseState::waiting;
     one.program = programs[std::min(count, programs.size() - 1)];
@@ -206,12 +206,16 @@ void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
     std::optional<CaseRecord> record;
     try {
         record = CaseRecord::read(path);
-    } catch (const Failure&) {
-        if (options_.differing != Differing::fresh || options_.readOnly) {
-            different.push_back(one.what.name + ": its sweep.json is damaged; -fresh makes it anew");
-            return;
-        }
-        one.plan = Differing::fresh;
+    } catch (const Failure& failure) {
+        if (failure.code() != ExitCode::invalidCase) throw;  // it cannot be read just now
+        if (options_.readOnly || options_.differing == Differing::keep)
+            one.state = CaseState::failed,
+            one.record.failed = CaseRecord::Ended{.program = one.program, .code = 4, .logEnd = failure.what()};
+        else if (options_.differing == Differing::fresh)
+            one.plan = Differing::fresh;
+        else
+            different.push_back(fmt::format("{}: its sweep.json is damaged; -only {} -fresh makes it anew",
+                                            one.what.name, one.what.name));
         return;
     }
     if (!record)
@@ -220,8 +224,9 @@ void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
                                   "folder for 'cases'.",
                                   path.string()));
     one.record = *record;
+    const bool isFailed = record->failed.has_value();
+    one.retries = options_.retry && !options_.readOnly && isFailed;
     takeState(one);
-    const bool isFailed = one.state == CaseState::failed;
     const Changes changes = changesOf(one.what, *record);
     const Differing chosen = options_.readOnly ? Differing::keep : options_.differing;
     if (chosen == Differing::fresh && (isFailed || !changes.texts.empty())) {
@@ -242,7 +247,7 @@ void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
             }
             one.plan = Differing::update;
             one.state = CaseState::waiting;
-            one.program = one.what.programs.back();
+            one.program = *std::find_if(one.what.programs.begin(), one.what.programs.end() - 1, isSolver);
             break;
         case Differing::keep:  // its row has the values that it was run with
             if (record->values.size() == one.what.values.size()) one.what.values = record->values;
@@ -262,9 +267,9 @@ std::string Sweep::wantedText(const StudyCase& one, const std::string& file) con
 Sweep::Changes Sweep::changesOf(const StudyCase& one, const CaseRecord& record) const {
     const fs::path path = folder(one);
     Changes changes;
-    const auto note = [&](const std::string& file, const std::string& text) {
+    const auto note = [&](const std::string& text, bool isOfRun = false) {
         changes.texts.push_back(text);
-        changes.areOfTheRun = changes.areOfTheRun && isOfTheRun(file);
+        changes.areOfTheRun = changes.areOfTheRun && isOfRun;
     };
     const auto wanted = dictionariesWith(options_.templateCase, one.settings);
     const std::vector<std::string> files = dictionariesOf(options_.templateCase);
@@ -274,23 +279,24 @@ Sweep::Changes Sweep::changesOf(const StudyCase& one, const CaseRecord& record) 
         const Node now = parseDictionary(found == wanted.end() ? readFile(options_.templateCase / file) : found->second,
                                          file, ignored);
         if (!fs::exists(path / file)) {
-            note(file, file + " is missing");
+            note(file + " is missing");
             continue;
         }
         const Node there = parseDictionary(readFile(path / file), file, ignored);
         for (const EntryDifference& d : differences(there, now))
-            note(file, fmt::format("{}:{} is {} and would be {}", file, d.path,
-                                   d.first.empty() ? "not there" : shortened(d.first, 60),
-                                   d.second.empty() ? "not there" : shortened(d.second, 60)));
+            note(fmt::format("{}:{} is {} and would be {}", file, d.path,
+                             d.first.empty() ? "not there" : shortened(d.first, 60),
+                             d.second.empty() ? "not there" : shortened(d.second, 60)),
+                 isOfTheRun(file) && d.path != "/application" && d.path != "/startFrom");
     }
     for (const std::string& file : dictionariesOf(path))
         if (std::find(files.begin(), files.end(), file) == files.end())
-            note(file, fmt::format("{} is not in the template", file));
+            note(fmt::format("{} is not in the template", file));
     for (const auto& [file, sum] : files_)
         if (const auto before = record.files.find(file); before == record.files.end() || before->second != sum)
-            note(file, fmt::format("the template's {} has changed", file));
+            note(fmt::format("the template's {} has changed", file));
     for (const auto& [file, sum] : record.files)
-        if (!files_.contains(file)) note(file, fmt::format("{} is not in the template any more", file));
+        if (!files_.contains(file)) note(fmt::format("{} is not in the template any more", file));
     if (const std::size_t count = changes.texts.size(); count > shownDifferences) {
         changes.texts.resize(shownDifferences);
         changes.texts.push_back(fmt::format("and {} more", count - shownDifferences));
@@ -314,8 +320,11 @@ void Sweep::make(CaseStatus& one) const {
 // The record first: a kill in between leaves a case whose solver has not ended and which differs still.
 void Sweep::update(CaseStatus& one) const {
     const fs::path path = folder(one.what);
-    const auto isLast = [&](const CaseRecord::Ended& ended) { return ended.program == one.what.programs.back(); };
-    std::erase_if(one.record.done, isLast);
+    std::vector<CaseRecord::Ended>& done = one.record.done;  // from the solver on again; all, where there is none
+    const auto solver = std::find_if(done.begin(), done.end(), [](const auto& ended) {
+        return isSolver(ended.program) || ended.program == "membraneRelax";
+    });
+    done.erase(solver == done.end() ? done.begin() : solver, done.end());
     one.record.failed.reset();
     one.record.write(path);
     for (const std::string& file : dictionariesOf(options_.templateCase))
@@ -334,9 +343,20 @@ void Sweep::fail(CaseStatus& one, const std::string& reason) const {
     one.state = CaseState::failed;
     one.record.failed = CaseRecord::Ended{.program = one.program, .code = 4, .seconds = 0, .logEnd = reason};
     try {
-        if (fs::exists(folder(one.what))) one.record.write(folder(one.what));
+        if (fs::exists(folder(one.what) / CaseRecord::fileName)) one.record.write(folder(one.what));
     } catch (const std::exception&) {  // it is told all the same
         return;
+    }
+}
+
+// Whether the plan to remove a case still holds: another run of the study may have made it anew in between.
+bool Sweep::isToBeFresh(const CaseStatus& one) const {
+    try {
+        const auto record = CaseRecord::read(folder(one.what));
+        return !record || record->failed || !changesOf(one.what, *record).texts.empty();
+    } catch (const Failure& failure) {
+        if (failure.code() != ExitCode::invalidCase) throw;
+        return true;
     }
 }
 
@@ -346,26 +366,29 @@ bool Sweep::begin(std::size_t k) {
     const fs::path path = folder(one.what);
     try {
         auto lock = lockOf(path);
-        const auto inside = lock ? lockInside(path) : std::nullopt;
+        auto inside = lock ? lockInside(path) : std::nullopt;
         if (!lock || !inside) {
             one.state = CaseState::elsewhere;
             return false;
         }
+        const fs::path old = path.parent_path() / ("." + one.what.name + ".old");
+        fs::remove_all(old);  // of a run that was killed while it removed it
         const Differing plan = std::exchange(one.plan, Differing::keep);
-        if (plan == Differing::fresh && fs::exists(path)) {  // under another name first: never half of a case
-            const fs::path hidden = path.parent_path() / ("." + one.what.name + ".old");
-            fs::remove_all(hidden);
-            fs::rename(path, hidden);
-            fs::remove_all(hidden);
+        if (plan == Differing::fresh && fs::exists(path) && isToBeFresh(one)) {  // never half of a case: renamed first
+            fs::rename(path, old);
+            fs::remove_all(old);
         }
         if (!fs::exists(path)) {
             make(one);
         } else if (const auto record = CaseRecord::read(path)) {  // another run may have gone on with it
             one.record = *record;
-            if (plan == Differing::update) update(one);
+            const Changes changes = plan == Differing::update ? changesOf(one.what, *record) : Changes{};
+            if (!changes.texts.empty() && changes.areOfTheRun) update(one);
             takeState(one);
+            one.retries = false;
             if (one.state != CaseState::waiting) return false;
         }
+        inside.reset();  // it is the program's from here
         runs_[k] = std::make_unique<Run>();
         runs_[k]->lock = std::move(*lock);
         one.state = CaseState::running;
@@ -389,8 +412,21 @@ void Sweep::startNext(std::size_t k) {
     runs_[k]->process.emplace(std::move(words), path / logName, environment_, std::vector<int>{runs_[k]->lock.id()});
 }
 
-// A program of the case has ended.
+// A program of the case has ended. What goes wrong is of this case: the others go on.
 void Sweep::settle(std::size_t k, int code) {
+    CaseStatus& one = cases_[k];
+    const fs::path path = folder(one.what);
+    try {
+        if (!fs::exists(path / CaseRecord::fileName))
+            throw Failure(ExitCode::io, fmt::format("{} was removed while {} ran in it", path.string(), one.program));
+        note(k, code);
+    } catch (const std::exception& error) {
+        runs_[k].reset();
+        fail(one, error.what());
+    }
+}
+
+void Sweep::note(std::size_t k, int code) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
     const double seconds = since(runs_[k]->start) + one.record.stoppedSeconds;

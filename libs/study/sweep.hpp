@@ -44,6 +44,7 @@ const char* nameOf(CaseState state);
 struct CaseStatus {
     StudyCase what;
     CaseState state = CaseState::waiting;
+    bool retries = false;              // a failure on record is passed over once
     Differing plan = Differing::keep;  // update or fresh: what is done with it before its programs run
     CaseRecord record = {};
     std::string program = {};   // that runs, ran or comes next
@@ -86,6 +87,8 @@ class Sweep {
     bool begin(std::size_t k);
     void startNext(std::size_t k);
     void settle(std::size_t k, int code);
+    void note(std::size_t k, int code);
+    bool isToBeFresh(const CaseStatus& one) const;
     void fail(CaseStatus& one, const std::string& reason) const;
     std::vector<std::string> wordsFor(const std::string& program) const;
 

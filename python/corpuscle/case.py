@@ -161,7 +161,7 @@ def _changes(changes):
     return [word for key, value in changes.items() for word in ("-set", f"{key}={_yaml(value)}")]
 
 
-def _yaml(value):
+def _yaml(value, inside=False):
     """As it is written in a dictionary."""
     if value is None:
         raise ValueError("None is no value of a dictionary; remove the entry by `del case[key]`")
@@ -170,7 +170,9 @@ def _yaml(value):
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_yaml, value)) + "]"
+        return "[" + ", ".join(_yaml(one, True) for one in value) + "]"
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {_yaml(one)}" for key, one in value.items()) + "}"
+        return "{" + ", ".join(f"{key}: {_yaml(one, True)}" for key, one in value.items()) + "}"
+    if isinstance(value, str) and inside and set(value) & set(",[]{}#:\"'"):
+        return json.dumps(value)
     return repr(float(value)) if isinstance(value, float) else str(value)

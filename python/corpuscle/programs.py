@@ -17,7 +17,8 @@ class CorpuscleError(RuntimeError):
 
 def program(name):
     """Path of a program."""
-    folders = [os.environ.get("CORPUSCLE_BIN"), pathlib.Path(__file__).resolve().parents[2] / "build" / "bin"]
+    here = pathlib.Path(__file__).resolve()  # in the repository, or in share/corpuscle of an installation
+    folders = [os.environ.get("CORPUSCLE_BIN"), here.parents[2] / "build" / "bin", *(parent / "bin" for parent in here.parents[4:5])]
     for folder in filter(None, folders):
         if (pathlib.Path(folder) / name).is_file():
             return str(pathlib.Path(folder) / name)

@@ -80,6 +80,7 @@ def case(folder):
     raises(ValueError, "del case[key]", lambda: one.set({"constant/flow.yaml:/Ca": None}))
     one["system/mesh.yaml:/cells/0/centre"] = ["0 um", "0 um", "0 um"]
     one.set({"system/mesh.yaml:/cells/0/axis": numpy.array([0, 0, 1])})
+    assert corpuscle.case._yaml(["a, b", "8 um", 1.5, True]) == '["a, b", 8 um, 1.5, true]'
     assert "constant/flow.yaml:/Ca" in one and "constant/flow.yaml:/shearRate" not in one and one.get("constant/flow.yaml:/shearRate", 3) == 3
     assert len(one.times) == 0
     assert one.programs == ["membraneMesh", "particleFill", "dmpFlow"]

@@ -67,6 +67,11 @@ TEST(Study, ValuesOfAnyKindAndRanges) {
     EXPECT_EQ(rates[1].name, "rate100_1_s");
     const auto ends = casesFrom("template: .\nparameters: {x: {key: a:/b, range: [1234567.5, 2e7], count: 3}}\n");
     EXPECT_EQ(ends[0].values[0].second + " " + ends[2].values[0].second, "1234567.5 2e7");
+    std::set<std::string> narrow;
+    for (const StudyCase& one :
+         casesFrom("template: .\nparameters: {x: {key: a:/b, logRange: [1, 1.001], count: 5}}\n"))
+        narrow.insert(one.values[0].second);
+    EXPECT_EQ(narrow.size(), 5u);
     const auto linear = casesFrom("template: .\nparameters: {x: {key: a:/b, range: [-1, 1], count: 5}}\n");
     EXPECT_EQ(linear[1].values[0].second, "-0.5");
     EXPECT_EQ(linear[4].values[0].second, "1");

@@ -186,6 +186,8 @@ Study readStudy(const Application& app) {
     o.differing = differingOf(app);
     o.retry = app.has("retry");
     o.readOnly = app.has("collect");
+    if (o.readOnly && app.has("only"))
+        throw Failure(ExitCode::usage, "-collect is of the whole study: give it without -only");
     if (o.readOnly && (o.retry || o.differing != study::Differing::refuse))
         throw Failure(ExitCode::usage, "-collect only reads: give it without -retry, -keep, -update and -fresh");
 
