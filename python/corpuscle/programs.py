@@ -50,7 +50,7 @@ def _childrenOf(parent):
 
 
 def _stop(process, launches):
-    """Asks a solver to write a checkpoint and stop; of mpirun its ranks, since mpirun by itself would end them."""
+    """Asks a solver to write a checkpoint and stop; of mpirun its ranks, since mpirun would end them at once."""
     for one in (_childrenOf(process.pid) if launches else []) or [process.pid]:
         try:
             os.kill(one, signal.SIGTERM)

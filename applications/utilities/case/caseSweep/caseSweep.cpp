@@ -342,7 +342,8 @@ ExitCode outcomeOf(Application& app, const std::vector<study::CaseStatus>& cases
                        std::ssize(cases) - done - failed, cases.size());
         return ExitCode::stopped;
     }
-    app.log().error("{} of {} cases failed. Once the cause is mended, -retry runs them again.", failed, cases.size());
+    app.log().error("{} of {} cases failed. Once the cause is corrected, -retry runs them again.", failed,
+                    cases.size());
     return ExitCode::numerics;
 }
 
