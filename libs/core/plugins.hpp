@@ -13,7 +13,7 @@
 #include "core/application.hpp"
 
 // Exported by a plugin: the version of Corpuscle that it was built with, "0.1.0".
-extern "C" using CorpusclePluginVersion = const char*();
+extern "C" using CorpusclePluginVersion = const char * ();
 
 namespace corpuscle {
 
