@@ -6,7 +6,8 @@ set terminal pngcairo size 1200,500 font ",11"
 set output out
 set datafile separator comma
 set datafile columnheaders
-set xlabel 'strain'
+set xlabel 'strain' offset 0,0.3
+set bmargin at screen 0.3
 # As far as the run has come; a reference may go on.
 set xrange [0:real(system("awk -F, '/^#/ {next} /^time_s/ {for (k = 1; k <= NF; ++k) if ($k == \"strain\") at = k; next} " \
                           . "$at + 0 > last {last = $at} END {print last}' " . files))]

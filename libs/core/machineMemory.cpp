@@ -122,7 +122,7 @@ std::string memoryShortage(const Communicator& communicator, double bytes) {
 }
 
 std::string formatBytes(double bytes) {
-    constexpr const char* units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
+    constexpr const char* units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB", "ZiB", "YiB"};
     std::size_t unit = 0;
     for (; bytes >= 1000 && unit + 1 < std::size(units); ++unit) bytes /= 1024;
     return fmt::format(fmt::runtime(bytes < 10 && unit > 0 ? "{:.1f} {}" : "{:.0f} {}"), bytes, units[unit]);

@@ -111,6 +111,7 @@ void Progress::report(const Time& time) {
 
 std::string formatDuration(double seconds) {
     if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+    if (!(seconds < 3600e9)) return fmt::format("{:.3g} h", seconds / 3600);  // more than an integer may hold
     const long s = std::lround(seconds);
     if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
     return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);

@@ -99,7 +99,9 @@ TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& o
         ExitCode::numerics,
         fmt::format(
             "the mesher reached a smallest angle of {:.1f} degrees and a mean edge of {:.4g} um instead of {:.1f} "
-            "degrees and {:.4g} um: take a smaller edge",
+            "degrees and {:.4g} um: take a smaller edge. If the surface itself has sharp edges or corners, as a cube, "
+            "no "
+            "edge length helps: round them",
             angle, mean * a * 1e6, options.smallestAngle, edge * 1e6));
 }
 

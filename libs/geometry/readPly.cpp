@@ -244,7 +244,8 @@ class Ply {
         if (least == 1 && most == n)
             throw SurfaceFault(fmt::format(
                 "the faces count the {} points from 1 to {}; PLY counts from 0: subtract 1 from each", n, n));
-        throw SurfaceFault(fmt::format("face {} names point {}, and there are {}, counted from 0", first, named, n));
+        throw SurfaceFault(fmt::format("face {} names point {}, and there are {}, counted from 0: write the file again",
+                                       first, named, n));
     }
 
     std::string_view bytes_;

@@ -103,12 +103,15 @@ CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& ca
 }
 
 CheckpointInfo findCheckpoint(const std::filesystem::path& caseDir, double time) {
-    constexpr double slack = 1e-6;
     const auto all = listCheckpoints(caseDir);
-    const CheckpointInfo* nearest = nullptr;
-    for (const CheckpointInfo& info : all)
-        if (info.time <= time * (1 + slack) && (!nearest || info.time >= nearest->time)) nearest = &info;
-    if (nearest) return *nearest;
+    const auto distance = [&](const CheckpointInfo* info) { return std::abs(info->time - time); };
+    const CheckpointInfo *meant = nullptr, *before = nullptr;
+    for (const CheckpointInfo& info : all) {
+        if (info.time <= time && (!before || info.time >= before->time)) before = &info;
+        if (!meant || distance(&info) <= distance(meant)) meant = &info;
+    }
+    if (meant && distance(meant) <= checkpointSlack * time) return *meant;
+    if (before) return *before;
     std::vector<std::string> times;
     times.reserve(all.size());
     for (const auto& info : all) times.push_back(formatQuantity(info.time, unit::second, 9));

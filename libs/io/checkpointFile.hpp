@@ -100,8 +100,12 @@ struct CheckpointSearch {
 };
 CheckpointSearch latestCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir);
 
-// The one nearest before `time`, or at it to 1e-6 of it; of equal times the last one written. Throws with the list of
-// available times where all are later. Not collective.
+// A time that a user copies from a log or a table names the checkpoint from which it was rounded: log lines have five
+// digits.
+constexpr double checkpointSlack = 1e-4;  // of the time
+
+// The one nearest to `time` where it is within checkpointSlack of it, else the nearest before; of equal times the last
+// one written. Throws with the list of available times where all are later. Not collective.
 CheckpointInfo findCheckpoint(const std::filesystem::path& caseDir, double time);
 
 // Removes those later than `last` [s], or, where no time is given, all: those that cannot be read and leftovers of

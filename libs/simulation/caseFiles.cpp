@@ -76,6 +76,10 @@ Finding find(const std::string& file, const std::vector<std::string>& absent) {
     std::string nearest = nearestWord(stem, missing);
     if (nearest.empty() && !isYaml && !ending.empty()) return {};
     const std::string meant = nearest.empty() ? "" : folder + nearest + ".yaml";
+    if (const std::string there = nearestWord(stem, here); nearest.empty() && !there.empty())
+        return {"", fmt::format("no program reads this file; '{}{}.yaml', which its name is near to, is there too. "
+                                "Remove it, or add '.bak' to its name to keep a copy",
+                                folder, there)};
     return {meant,
             fmt::format("no program reads this file.{} Dictionaries of {}: {}. A copy to keep may end with '.bak'",
                         meant.empty() ? "" : fmt::format(" Did you mean '{}'?", meant), folder, joinWords(here))};

@@ -244,8 +244,8 @@ std::filesystem::path chooseCheckpoint(const Case& input, const std::string& sta
     onRoot(comm, [&] {
         const io::CheckpointInfo found = io::findCheckpoint(input.directory, *wanted);
         path = found.path.string();
-        if (std::abs(found.time - *wanted) > 1e-6 * *wanted)
-            log.info("The checkpoint nearest before {} is that at t = {}", formatQuantity(*wanted, unit::second),
+        if (std::abs(found.time - *wanted) > io::checkpointSlack * *wanted)
+            log.info("The checkpoint nearest before {} is that at t = {}", formatQuantity(*wanted, unit::second, 9),
                      formatQuantity(found.time, unit::second, 9));
     });
     return Communicator(comm).broadcast(path);

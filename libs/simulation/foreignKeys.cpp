@@ -1,7 +1,11 @@
 #include "simulation/foreignKeys.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
+
+#include "simulation/dictionaries.hpp"
 
 namespace corpuscle::simulation {
 
@@ -59,6 +63,15 @@ std::string insteadOf(const std::string& file, const std::string& key) {
     return {};
 }
 
+// Of a key at the top of one dictionary, the other dictionary that has it.
+std::string belongsIn(const std::string& file, const std::string& key) {
+    for (const auto& [other, info] : dictionaries())
+        if (other != file && std::any_of(info.fields.begin(), info.fields.end(),
+                                         [&](const FieldInfo& field) { return field.key == key; }))
+            return other;
+    return {};
+}
+
 }  // namespace
 
 void throwWithKeysInstead(const Problems& problems) {
@@ -68,8 +81,13 @@ void throwWithKeysInstead(const Problems& problems) {
         Problems told;
         for (const Problem& p : error.problems()) {
             const std::string key = p.key.substr(p.key.rfind('.') + 1);  // npos + 1 is 0
-            const std::string instead = p.message.starts_with("unknown key") ? insteadOf(p.mark.file, key) : "";
-            told.add(p.mark, p.key, instead.empty() ? p.message : p.message + ". In its place: " + instead);
+            const bool isUnknown = p.message.starts_with("unknown key");
+            const std::string instead = isUnknown ? insteadOf(p.mark.file, key) : "",
+                              other = isUnknown && key == p.key ? belongsIn(p.mark.file, key) : "";
+            told.add(p.mark, p.key,
+                     p.message + (!instead.empty() ? ". In its place: " + instead
+                                  : !other.empty() ? fmt::format(". '{}' belongs in {}", key, other)
+                                                   : ""));
         }
         told.addUncounted(error.more());
         told.throwIfAny();

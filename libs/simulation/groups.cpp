@@ -98,9 +98,12 @@ std::vector<Group> dimensionlessGroups(const Case& c) {
         groups.add("mu_max/mu_min", c.viscosities().largest / c.viscosities().least,
                    fmt::format("of {} layers; Re has the viscosity of the lowest", c.fluid.layers.size() + 1));
     groups.add("H_s/dx", c.support() / c.spacing(),
-               fmt::format("kernel support; {} neighbours on the lattice, viscosity error {:+.2f} %",
+               fmt::format("kernel support; {} neighbours on the lattice{}",
                            c.numerics.kernel->latticeNeighbours(c.support() / c.spacing()),
-                           100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1)));
+                           c.numerics.operators == "corrected"
+                               ? ""
+                               : fmt::format(", viscosity error {:+.2f} %",
+                                             100 * (c.numerics.kernel->secondMoment(c.support() / c.spacing()) - 1))));
     const double c0 = c.soundSpeed();
     groups.add("Ma", c.flow.speed / c0,
                fmt::format("largest speed/c0, c0 = {}{}", formatQuantity(c0, unit::metrePerSecond),

@@ -13,8 +13,8 @@ void requireMemory(const Communicator& communicator, const Case& input) {
         {"system/numerics.yaml", 0, 0}, "spacing",
         shortage + fmt::format(". {} particles are too many for it: take a larger spacing, a smaller domain.size in "
                                "system/mesh.yaml, more machines, or raise the limit",
-                               estimateParticles(input).all()));
-    problems.throwIfAny();
+                               countText(estimateParticles(input).all())));
+    input.throwIfAny(problems);
 }
 
 }  // namespace corpuscle::simulation

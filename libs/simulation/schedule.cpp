@@ -107,6 +107,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
                         isContinued_ ? "after the start of this one" : "before", cleared.text());
     describe();
     begun_ = true;
+    binding_ = integrator_.limits().binding().name;
     app_.keepRecord(kept_);
     writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
     record_.set("parameters", "density_kg_m3", input_.flow.density);
@@ -130,6 +131,8 @@ void Schedule::begin(const Scene& scene, const Time& time) {
 void Schedule::afterStep(const Scene& scene, const Time& time) {
     smallestDt_ = std::min(smallestDt_, time.dt);
     largestDt_ = std::max(largestDt_, time.dt);
+    ++stepsLimitedBy_[binding_];
+    binding_ = integrator_.limits().binding().name;
     observers_.run(scene, time);
     if (results_.due(time)) {
         StateCheck::requireFinite(scene, time, "results were");
@@ -225,15 +228,26 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
     integrator_.stepper().report(record_, app_.log(), steps);
+    std::string limits;
+    for (const auto& [name, number] : stepsLimitedBy_) {
+        record_.set("stepsLimitedBy", name, number);
+        limits += fmt::format("{}{} {}", limits.empty() ? "" : ", ", name, number);
+    }
+    if (stepsLimitedBy_.size() > 1) app_.log().info("limits that bound, and in how many steps: {}", limits);
     record_.set("extremes", "largestDensityBalance", integrator_.largestDensityBalance());
     if (scene.cells.exist()) {
         record_.set("extremes", "mostNodesWithoutLinearWeights", integrator_.mostFallbacks());
-        if (const long nodes = integrator_.mostFallbacks(); nodes > 0)
+        long all = 0;
+        for (const coupling::CellType& type : scene.cells.types())
+            all += static_cast<long>(type.nodes.size() * type.places.size());
+        // A few nodes for a few steps do no harm.
+        if (const long nodes = integrator_.mostFallbacks();
+            static_cast<double>(nodes) > 0.005 * static_cast<double>(all))
             app_.log().warning(
-                "{} nodes of membranes at once moved with a plain mean of the fluid around them: there, weights exact "
-                "on linear fields were too large, or particles too few. A few nodes for a few steps do no harm; if "
-                "there are many, take a finer spacing",
-                nodes);
+                "up to {} of the {} nodes of membranes moved in a step with a plain mean of the fluid around them: "
+                "weights exact on linear fields were too large there, or particles too few. Take a finer spacing, or "
+                "a smaller step",
+                nodes, all);
         record_.set("result", "guardMoves", guardMoves_);
         record_.set("result", "brokenBonds", brokenBonds_);
     }
@@ -241,8 +255,8 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     const std::string reason = ended ? time.endReason() : stopReason_;
     const ExitCode code = ended ? ExitCode::done : ExitCode::stopped;
     record_.finish(code, reason);
-    app_.log().info("{} after {} steps, t = {}{}: {} wall clock, {:.3g} million particle-steps per second",
-                    ended ? "End" : "Stopped", steps, formatQuantity(time.t, unit::second),
+    app_.log().info("{} after {} step{}, t = {}{}: {} wall clock, {:.3g} million particle-steps per second",
+                    ended ? "End" : "Stopped", steps, steps == 1 ? "" : "s", formatQuantity(time.t, unit::second),
                     time.shearRate > 0 ? fmt::format(", strain {:.4f}", time.strain()) : "", formatDuration(wall),
                     1e-6 * particleSteps(time) / wall);
     if (!ended) app_.log().info("reason: {}; a checkpoint is written, the same command goes on from here", reason);

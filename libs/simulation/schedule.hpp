@@ -1,6 +1,7 @@
 // What happens after each step: observers, results, checkpoints, progress, requests to stop. Nothing here changes the
 // state.
 #pragma once
+#include <map>
 #include <memory>
 
 #include "core/application.hpp"
@@ -68,6 +69,8 @@ class Schedule {
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
     double smallestDt_ = 0, largestDt_ = 0;
     bool begun_ = false;
+    std::string binding_;                         // the limit that sets the length of the next step
+    std::map<std::string, long> stepsLimitedBy_;  // number of steps by the limit that set their length
     std::string stopReason_;
 };
 

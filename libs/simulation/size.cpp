@@ -1,5 +1,7 @@
 #include "simulation/size.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -60,7 +62,7 @@ double holdersOf(const Case& c, int ranks, double radius) {
 }
 
 double memoryOf(const Case& c, int ranks) {
-    const double n = static_cast<double>(estimateParticles(c).all()), reach = c.support() + c.skin();
+    const double n = estimateParticles(c).all(), reach = c.support() + c.skin();
     const bool corrected = c.scheme().traits().isAdjoint, loaded = !c.mesh.cells.empty() || !c.mesh.bodies.empty();
     const double each = corrected ? (loaded ? MemoryCosts::correctedLoaded : MemoryCosts::corrected)
                                   : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain);
@@ -69,7 +71,7 @@ double memoryOf(const Case& c, int ranks) {
     const double nodeMemory = c.scheme().traits().nodeMemory;
     double nodes = 0;
     for (const CellTypeSettings& cell : c.mesh.cells) {
-        const auto each = static_cast<double>(estimateNodes(cell)), count = static_cast<double>(cell.placed.size());
+        const double each = estimateNodes(cell), count = static_cast<double>(cell.placed.size());
         nodes += each * (MemoryCosts::network * ranks +
                          nodeMemory * count * holdersOf(c, ranks, cell.largestScale() * cell.shape->radius()));
     }
@@ -77,30 +79,31 @@ double memoryOf(const Case& c, int ranks) {
            n * (list + each * (1 + ghostShare(c, ranks, reach))) + nodes;
 }
 
-long writesOf(const Case& c) {
+double writesOf(const Case& c) {
     const WriteSettings& w = c.control.write;
     const double time = c.duration(), strain = c.flow.shearRate * time;
-    if (w.strain) return static_cast<long>(strain / *w.strain) + 1;
-    if (w.time) return static_cast<long>(time / *w.time) + 1;
+    if (w.strain) return std::floor(strain / *w.strain) + 1;
+    if (w.time) return std::floor(time / *w.time) + 1;
     if (w.steps)
         for (const schemes::IntegratorCost& cost : schemes::predictCosts(c.written, c.facts()))
-            if (cost.name == c.numerics.integrator)
-                return static_cast<long>(cost.steps / static_cast<double>(*w.steps)) + 1;
+            if (cost.name == c.numerics.integrator) return std::floor(cost.steps / static_cast<double>(*w.steps)) + 1;
     return 0;
 }
 
 }  // namespace
 
+std::string countText(double count) { return fmt::format(fmt::runtime(count < 1e15 ? "{:.0f}" : "{:.3g}"), count); }
+
 // A node has the area of its hexagon, sqrt(3)/2 edge^2.
-long estimateNodes(const CellSettings& cell) {
-    return std::lround(cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
+double estimateNodes(const CellSettings& cell) {
+    return std::round(cell.shape->area() / (std::numbers::sqrt3 / 2 * cell.edge * cell.edge));
 }
 
 ParticleEstimate estimateLattice(const Case& c) {
     ParticleEstimate n;
-    n.fluid = std::lround(c.fluidVolume() / c.particleVolume());
+    n.fluid = std::round(c.fluidVolume() / c.particleVolume());
     if (const boundary::WallShape* const walls = c.flowModel->walls())
-        n.walls = std::lround(walls->volumeBehind(c.fluidBox(), c.wallDepth()) / c.particleVolume());
+        n.walls = std::round(walls->volumeBehind(c.fluidBox(), c.wallDepth()) / c.particleVolume());
     return n;
 }
 
@@ -111,11 +114,11 @@ ParticleEstimate estimateParticles(const Case& c) {
             // As particles the nodes replace fluid of area x dx.
             double squares = 0;
             for (const geometry::Place& place : cell.placed) squares += place.scale * place.scale;
-            n.nodes += estimateNodes(cell) * static_cast<long>(cell.placed.size());
-            n.fluid -= std::lround(squares * cell.shape->area() * c.spacing() / c.particleVolume());
+            n.nodes += estimateNodes(cell) * static_cast<double>(cell.placed.size());
+            n.fluid -= std::round(squares * cell.shape->area() * c.spacing() / c.particleVolume());
         }
     for (const BodyPlaceSettings& body : c.mesh.bodies) {
-        const long inside = std::lround(body.shape->volume() / c.particleVolume());
+        const double inside = std::round(body.shape->volume() / c.particleVolume());
         n.bodies += inside;
         n.fluid -= inside;
     }
@@ -126,13 +129,12 @@ SizeEstimate estimateSize(const Case& c, int ranks) {
     constexpr double place = 38, component = 7.5, perNode = 170;  // compressed; a node with its two triangles
     constexpr double state = 137, nodeState = 100;                // of a checkpoint
     const ParticleEstimate particles = estimateParticles(c);
-    const auto n = static_cast<double>(particles.all()),
-               written = static_cast<double>(particles.all() - particles.walls);
+    const double n = particles.all(), written = n - particles.walls;
     double components = 0;
     for (const std::string& field : c.control.write.fields) components += field == "velocity" ? 3 : 1;
     double nodes = 0;
     for (const CellTypeSettings& cell : c.mesh.cells)
-        nodes += static_cast<double>(estimateNodes(cell)) * static_cast<double>(cell.placed.size());
+        nodes += estimateNodes(cell) * static_cast<double>(cell.placed.size());
     SizeEstimate size;
     size.memory = memoryOf(c, ranks);
     size.perWrite = written * (place + component * components) + nodes * perNode;

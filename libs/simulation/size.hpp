@@ -12,21 +12,22 @@
 
 namespace corpuscle::simulation {
 
-// By the lattice and the meshes' edge lengths.
+// By the lattice and the meshes' edge lengths. Whole numbers, which a box or an edge that is wrong by powers of ten
+// makes larger than an integer holds. nodes: of membranes that are particles too (dual identity).
 struct ParticleEstimate {
-    long fluid = 0, walls = 0, nodes = 0, bodies = 0;  // nodes: of membranes that are particles too (dual identity)
-    long all() const { return fluid + walls + nodes + bodies; }
+    double fluid = 0, walls = 0, nodes = 0, bodies = 0;
+    double all() const { return fluid + walls + nodes + bodies; }
 };
+std::string countText(double count);  // "237600"; from 1e15 on "3.34e+33"
 // Of a case without cells and bodies.
 ParticleEstimate estimateLattice(const Case& input);
 ParticleEstimate estimateParticles(const Case& input);
 
-long estimateNodes(const CellSettings& cell);  // of its mesh, which each of its cells has
+double estimateNodes(const CellSettings& cell);  // of its mesh, which each of its cells has
 
 // Bytes: memory of a run in all ranks together, one written time, one checkpoint.
 struct SizeEstimate {
-    double memory = 0, perWrite = 0, checkpoint = 0;
-    long writes = 0;
+    double memory = 0, perWrite = 0, checkpoint = 0, writes = 0;
 };
 SizeEstimate estimateSize(const Case& input, int ranks);
 

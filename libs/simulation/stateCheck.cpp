@@ -26,7 +26,10 @@ constexpr double largestBondChange = 0.3;  // of ln l between two looks
 constexpr double sharpestFold = -0.5;      // cosine between the normals of neighbours
 constexpr double beyondWall = 2;           // spacings
 constexpr double mostPeriods = 3;          // of a cell's length
-constexpr const char* noContact = "nothing but fluid keeps them apart: give cells contact (constant/contact.yaml)";
+constexpr const char* noContact =
+    "nothing but fluid keeps them apart: give cells contact by constant/contact.yaml, for example 'law: {type: "
+    "barrier, "
+    "reach: 0.1 um, strength: 5e-5 N/m}' (docs/contact.md)";
 constexpr const char* isPassedBy =
     "the contact of constant/contact.yaml, which cells have with cells and walls, has not kept them apart";
 constexpr const char* tooShort = "the box is too short for it";

@@ -224,6 +224,9 @@ TEST(Checkpoint, ListsFindsAndKeepsTheLatest) {
     EXPECT_EQ(findCheckpoint(folder.path(), 0.7).path, list[1].path);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.29).path, list[0].path);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.1 * 3 * (1 - 1e-7)).path, list[1].path);
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.29998).path, list[1].path);  // as a table may print it
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.2999).path, list[0].path);
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.19999).path, list[0].path);
     const std::string message = messageOf<Failure>([&] { findCheckpoint(folder.path(), 0.1); });
     EXPECT_NE(message.find("there are: 200 ms, 300 ms"), std::string::npos) << message;
     MPI_Barrier(MPI_COMM_WORLD);

@@ -288,6 +288,10 @@ TEST_F(RenderCase, CellsAreDrawnInTheBoxAndLabelledByTime) {
     EXPECT_EQ(none.exitCode, 1);
     EXPECT_NE(none.text.find("no strain"), std::string::npos) << none.text;
     EXPECT_NE(none.text.find("give -time between 0 s and 4 ms"), std::string::npos) << none.text;
+    const auto bare = renderCase(channel.path(), "-times 0.002");  // neither a strain nor a stage
+    EXPECT_EQ(bare.exitCode, 1);
+    EXPECT_NE(bare.text.find("give times with units, between 0 s and 4 ms"), std::string::npos) << bare.text;
+    EXPECT_EQ(renderCase(channel.path(), "-times '0,2 ms'").exitCode, 0);
 }
 
 // Two cells of one type share a stream. They have left the box by different numbers of box lengths, so that their

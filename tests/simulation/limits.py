@@ -214,7 +214,12 @@ def test_memory(folder):
     case = prepared(folder / "case", SHORT)
     huge = ("-set", "system/mesh.yaml:/domain/size=[1200 um, 1100 um, 1000 um]")
     for application, ranks in (("checkCase", 1), ("particleFill", 1), ("dmpFlow", 2)):
-        failed(start(application, case, *huge, ranks=ranks), 2, "system/numerics.yaml: spacing:", "of memory is needed on", "more machines")
+        failed(start(application, case, *huge, ranks=ranks), 2, "system/numerics.yaml:1:10: spacing:", "of memory is needed on", "more machines")
+    for edge in ("1.5 m", "1000 m", "1e5 m"):  # more particles than an integer holds
+        beyond = ("-set", f"system/mesh.yaml:/domain/size=[{edge}, {edge}, {edge}]")
+        for application in ("checkCase", "particleFill", "dmpFlow"):
+            failed(start(application, case, *beyond, limits=[(resource.RLIMIT_AS, 4 << 30)]), 2, "of memory is needed")
+    failed(start("membraneMesh", case, "-set", "system/mesh.yaml:/cells/0/edge=1e-16 m"), 2, "edge")
     large = ("-set", "system/mesh.yaml:/domain/size=[120 um, 220 um, 100 um]")
     failed(start("particleFill", case, *large, limits=[(resource.RLIMIT_AS, 1 << 30)]), 2, "is needed by each rank", "ulimit -v")
 

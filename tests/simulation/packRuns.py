@@ -86,6 +86,9 @@ def test_refused(folder):
     refused("both", "number", "haematocrit", **pack("  - {name: red, number: 3, haematocrit: 0.2}\n"))
     refused("none", "system/pack.yaml:1:8: cells: found no types", **{PACK: "cells: []\n"})
     refused("few", "system/pack.yaml:2:", "cells[0].haematocrit: found 0.001, which is 0.044 cells in this box", **pack("  - {name: red, haematocrit: 1e-3}\n"))
+    for key, value in (("number", "2000000000"), ("haematocrit", "0.2")):
+        refused(f"many{key}", f"cells[0].{key}: ", "of memory is needed on", "take fewer cells",
+                options=("-set", "system/mesh.yaml:/domain/size=[1000 m, 1000 m, 1000 m]"), **pack(f"  - {{name: red, {key}: {value}}}\n"))
     refused("zero", "orientation.axis: found the zero vector", **pack("  - {name: red, number: 1, orientation: {type: aligned, axis: [0, 0, 0]}}\n"))
     refused("centre", "'red' has no table in system/mesh.yaml", **{MESH: BOX + "cells: [{name: red, cell: healthyRBC, edge: 0.9 um}]\n"})
     refused("ending", "system/mesh.yaml:2:", "cells[0].table: found 'constant/red.txt'", **{MESH: BOX + f"cells: [{RED.replace('.csv', '.txt')}]\n"})

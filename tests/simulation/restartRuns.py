@@ -276,6 +276,10 @@ def test_refused(folder):
     unchanged(case, "dmpFlow", "-dry-run", code=0, ranks=2)
     unchanged(case, "dmpFlow", "-dry-run", *sets("system/control.yaml:/startFrom=firstTime"), code=0)
     unchanged(case, "checkCase", code=0)
+    other = "system/numerics.yaml:/skin=0.4 dx"
+    for application in ("checkCase", "dmpFlow"):  # both see that the checkpoint is of another setting
+        assert "skin" in unchanged(case, application, *sets(other), code=2).stderr
+    unchanged(case, "checkCase", *sets(other, "system/control.yaml:/startFrom=firstTime"), code=0)
     unchanged(case, "particleFill", *sets("system/mesh.yaml:/cells/0/centre=[1 um, 0 um, 0 um]"), code=2)  # of another mesh
     # A run that fails keeps its reason in the log.
     diverging = sets("constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}", "constant/flow.yaml:/Ca=2",

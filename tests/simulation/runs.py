@@ -654,7 +654,7 @@ def test_automatic(folder):
     assert "passes a step" in log and "taken" in log and "do not follow the flow" in log, log
     run(case, "sphFlow", "-steps", "2", "-set", "system/control.yaml:/startFrom=firstTime")
     assert json.loads((case / "run.json").read_text())["parameters"]["integrator"] == "velocityVerlet"
-    assert "named by the case" in (case / "log.sphFlow").read_text()
+    assert "chosen by the case" in (case / "log.sphFlow").read_text()
     # Sound binds: nothing to gain by stages. Vortices are for corrected operators, unless plain ones are named.
     swift = prepared(folder / "vortices", {**VORTICES, "constant/flow.yaml": "type: taylorGreen\nspeed: 50 mm/s\n"})
     assert predicted(swift, *automatic, "-set", "system/numerics.yaml:/operators=plain")["integrator"] == "velocityVerlet"

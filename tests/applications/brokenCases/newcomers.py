@@ -48,6 +48,9 @@ NEWCOMERS = [
     case("foamYes", replace(CONTROL, "wallClock: 2 h", "wallClock: 2 h, firstBreak: no"), CONTROL, "stop.firstBreak", "no", "true or false"),
     file_fault("foamControlDict", rename(CONTROL, "system/controlDict"), "system/controlDict", "Did you mean 'system/control.yaml'?"),
     file_fault("foamFvSchemes", write("system/fvSchemes", "ddtSchemes {}\n"), "system/fvSchemes", "no program reads this file", "numerics"),
+    case("elsewhere", append(NUMERICS, "fill: {jitter: 0.2}\n"), NUMERICS, "fill", "fill", "unknown key 'fill'", "'fill' belongs in system/mesh.yaml"),
+    case("elsewhereFlow", append(FLUID, "inertia: physical\n"), FLUID, "inertia", "inertia", "unknown key 'inertia'"),
+    file_fault("twoOfOne", write("constant/flw.yaml", "type: shear\n"), "constant/flw.yaml", "'constant/flow.yaml', which its name is near to, is there too"),
     file_fault("foamTransport", write("constant/transportProperties", "nu 1e-6;\n"), "constant/transportProperties", "no program reads this file", "fluid"),
 
     # From LAMMPS

@@ -22,8 +22,10 @@
 #include "membrane/moduli.hpp"
 #include "schemes/cost.hpp"
 #include "simulation/caseRules.hpp"
+#include "simulation/checkpoint.hpp"
 #include "simulation/groups.hpp"
 #include "simulation/memoryLimit.hpp"
+#include "simulation/restart.hpp"
 #include "simulation/rollback.hpp"
 #include "simulation/safeRange.hpp"
 #include "simulation/sceneBuilder.hpp"
@@ -132,28 +134,29 @@ void reportCase(Report& report, const simulation::Case& input) {
                     fmt::format("{}, {}{} operators, {} precision", n.integrator,
                                 input.mesh.cells.empty() ? "" : n.coupling + " coupling, ", n.operators, n.precision)});
     const simulation::ParticleEstimate count = simulation::estimateParticles(input);
-    std::string particles = fmt::format("{} of the fluid", count.fluid);
-    if (count.walls > 0) particles += fmt::format(", {} in walls", count.walls);
-    if (count.bodies > 0) particles += fmt::format(", {} in bodies", count.bodies);
-    if (count.nodes > 0) particles += fmt::format(", {} on membranes", count.nodes);
+    std::string particles = simulation::countText(count.fluid) + " of the fluid";
+    if (count.walls > 0) particles += fmt::format(", {} in walls", simulation::countText(count.walls));
+    if (count.bodies > 0) particles += fmt::format(", {} in bodies", simulation::countText(count.bodies));
+    if (count.nodes > 0) particles += fmt::format(", {} on membranes", simulation::countText(count.nodes));
     rows.push_back({"particles", particles});
-    long nodes = 0;
+    double nodes = 0;
     for (const CellKind& kind : kindsOf(input)) {
         const simulation::CellSettings& cell = *kind.first;
         const std::optional<long> made = nodesInMesh(input, cell);
-        const long each = made.value_or(simulation::estimateNodes(cell));
-        nodes += each * static_cast<long>(kind.count);
-        rows.push_back(
-            {"cells", fmt::format("{} of {}: {}, edge {}, {}{} nodes each", kind.count, cell.type(), cell.shape.name,
-                                  formatQuantity(cell.edge, unit::metre), made ? "" : "about ", each)});
+        const double each = made ? static_cast<double>(*made) : simulation::estimateNodes(cell);
+        nodes += each * static_cast<double>(kind.count);
+        rows.push_back({"cells", fmt::format("{} of {}: {}, edge {}, {}{} nodes each", kind.count, cell.type(),
+                                             cell.shape.name, formatQuantity(cell.edge, unit::metre),
+                                             made ? "" : "about ", simulation::countText(each))});
         rows.push_back({"", withoutLineEnds(membrane::describeConstants(input.membraneOf(cell), cell.edge))});
     }
     report.table({}, rows);
-    report.json["particles"] = {{"fluid", count.fluid},
-                                {"walls", count.walls},
-                                {"nodes", count.nodes},
-                                {"bodies", count.bodies},
-                                {"membraneNodes", nodes}};
+    const auto whole = [](double number) { return static_cast<long>(std::min(number, 9e18)); };
+    report.json["particles"] = {{"fluid", whole(count.fluid)},
+                                {"walls", whole(count.walls)},
+                                {"nodes", whole(count.nodes)},
+                                {"bodies", whole(count.bodies)},
+                                {"membraneNodes", whole(nodes)}};
 }
 
 // Groups of resolution have /dx in them; the others are of the flow.
@@ -229,14 +232,15 @@ void reportSize(Report& report, const simulation::Case& input) {
     const int ranks = report.app.communicator().size();
     const auto size = simulation::estimateSize(input, ranks);
     const auto keep = static_cast<double>(input.control.checkpoint.keep);
-    const double results = size.perWrite * static_cast<double>(size.writes), checkpoints = size.checkpoint * keep;
+    const double results = size.perWrite * size.writes, checkpoints = size.checkpoint * keep;
     report.section("Memory and disk");
     report.table(
         {},
         {{"memory", formatBytes(size.memory),
-          fmt::format("on {}; {} has {} free", counted(ranks, "rank"), machineInfo().host,
+          fmt::format("on {}; the machine {} has {} free", counted(ranks, "rank"), machineInfo().host,
                       formatBytes(availableMemory().shared.bytes))},
-         {"results", formatBytes(results), fmt::format("{} times of {}", size.writes, formatBytes(size.perWrite))},
+         {"results", formatBytes(results),
+          fmt::format("{} times of {}", simulation::countText(size.writes), formatBytes(size.perWrite))},
          {"checkpoints", formatBytes(checkpoints),
           fmt::format("the last {} are kept, of {}", input.control.checkpoint.keep, formatBytes(size.checkpoint))}});
     report.json["memory_B"] = size.memory;
@@ -272,8 +276,8 @@ void reportBodies(Report& report, const simulation::Case& input, const coupling:
     }
 }
 
-// Steps and seconds of the whole run after a burst of steps as long as at the start; those of rkl2 grow, with their
-// stages.
+// Steps and seconds of the whole run with steps as long as in the second half of the burst; those of rkl2 grow, with
+// their stages.
 std::pair<double, double> predictRun(const simulation::Case& input, double dt, int stages, double perStep) {
     if (stages == 0) {
         const double steps = input.duration() / dt;
@@ -319,16 +323,19 @@ void reportRun(Report& report, const simulation::Case& input) {
     report.line("limits of the step: " + limits);
     report.json["binding"] = integrator.limits().binding().name;
 
-    const double dt = time.dt;
     Timing timing(report);
     const auto begin = std::chrono::steady_clock::now();
     simulation::Rollback step(input, scene, time, integrator,
                               app.log());  // as the solver steps, and back where it would go back
     int made = 0;
+    std::pair<int, double> from{0, time.t};  // the first steps of a run are longer or shorter than the later ones
     for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) {
+        if (made == burstSteps / 2 && from.first == 0) from = {made, time.t};
         made += step.advance();
         timing.step(made);
     }
+    const double dt =
+        made > from.first && time.t > from.second ? (time.t - from.second) / (made - from.first) : time.dt;
     const double perStep =
         app.communicator().max(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()) /
         std::max(1, made);
@@ -341,6 +348,17 @@ void reportRun(Report& report, const simulation::Case& input) {
     report.json["steps"] = steps;
     report.json["secondsPerStep"] = seconds / steps;
     report.json["predicted_s"] = seconds;
+}
+
+// Where the solver would go on, and whether it may: refused here as there.
+void findCheckpoint(Report& report, const simulation::Case& input) {
+    const MPI_Comm comm = report.app.communicator().handle();
+    const auto checkpoint = simulation::chooseCheckpoint(input, input.control.startFrom, comm, report.app.log());
+    if (checkpoint.empty()) return;
+    for (const std::string& note : simulation::compareSettings(checkpoint, input, comm))
+        report.line("note at the restart: " + note);
+    report.line("a run goes on from " + checkpoint.string());
+    report.json["checkpoint"] = checkpoint.string();
 }
 
 }  // namespace
@@ -364,7 +382,7 @@ int main(int argc, char* argv[]) {
         else
             report.line(fmt::format("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
                                     input.mesh.cells.empty() && input.mesh.bodies.empty() ? "" : "membraneMesh and "));
-        if (!report.warnings.empty()) report.section("Warnings");
+        findCheckpoint(report, input);
         for (const std::string& words : report.warnings) app.log().warning("{}", words);
         report.json["warnings"] = report.warnings;
         app.log().info("Case OK.");

@@ -121,7 +121,7 @@ int main(int argc, char* argv[]) {
              one != moments.all().end(); ++one) {
             const auto& [time, moment] = *one;
             const double strain = hasStrain ? strainAt(strains, time) : std::nan("");
-            rows.push_back({formatQuantity(time, unit::second, 6),
+            rows.push_back({formatQuantity(time, unit::second, 9),
                             std::isfinite(strain) ? fmt::format("{:.5g}", strain) : "", joinWords(moment.streams),
                             checkpointsText(moment.checkpoints)});
             json.push_back({{"time_s", time}, {"results", moment.streams}, {"checkpoints", moment.checkpoints}});

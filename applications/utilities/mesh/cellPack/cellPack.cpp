@@ -20,12 +20,14 @@
 #include <nlohmann/json.hpp>
 
 #include "../cellMeshes.hpp"
+#include "core/machineMemory.hpp"
 #include "geometry/enclosedVolume.hpp"
 #include "packing/packSettings.hpp"
 #include "packing/packing.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/placement.hpp"
 #include "simulation/placesTable.hpp"
+#include "simulation/size.hpp"
 
 using namespace corpuscle;
 using geometry::TriangleMesh;
@@ -163,13 +165,23 @@ class CellPack {
 
     std::size_t numberOf(const packing::PackedTypeSettings& wanted, const TriangleMesh& mesh, const std::string& key,
                          Problems& problems) const {
-        if (wanted.number) return static_cast<std::size_t>(*wanted.number);
-        const long number = std::lround(*wanted.haematocrit * scene().fluidVolume() / mesh.volume());
+        constexpr double perNode = 400;  // bytes: places, velocities, the triangles around it, its share of contacts
+        const double number = wanted.number ? static_cast<double>(*wanted.number)
+                                            : std::round(*wanted.haematocrit * scene().fluidVolume() / mesh.volume());
+        const double bytes = number * perNode * static_cast<double>(mesh.nodes.size());
+        if (const std::string shortage = memoryShortage(app_.communicator(), bytes); !shortage.empty()) {
+            problems.add(
+                {packFile, 0, 0}, key + (wanted.number ? ".number" : ".haematocrit"),
+                fmt::format("{}. {} cells of {} nodes are too many for it: take fewer cells, a smaller box, or "
+                            "a larger edge",
+                            shortage, simulation::countText(number), mesh.nodes.size()));
+            return 1;
+        }
         if (number < 1)
             problems.add({packFile, 0, 0}, key + ".haematocrit",
                          fmt::format("found {}, which is {:.2g} cells in this box; give a 'number', or a larger box",
                                      *wanted.haematocrit, *wanted.haematocrit * scene().fluidVolume() / mesh.volume()));
-        return static_cast<std::size_t>(std::max(number, 1L));
+        return static_cast<std::size_t>(std::max(number, 1.0));
     }
 
     packing::Packing::Space space() const {

@@ -116,7 +116,7 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
     }
     for (int k = 0; k < 3; ++k) count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
     const simulation::ParticleEstimate whole = simulation::estimateLattice(input);
-    const long lattice = whole.fluid, wantedWalls = whole.walls;
+    const long lattice = std::lround(whole.fluid), wantedWalls = std::lround(whole.walls);
     // Plane walls leave whole layers; of others the lattice may miss or take a part of a layer along the surface.
     long slack = 0;
     if (!input.planesAcross())

@@ -40,6 +40,15 @@ void writeSurface(const simulation::Case& input, const std::string& name, const 
     simulation::writeStart(input, name, std::move(data));
 }
 
+TriangleMesh meshOf(const simulation::SurfaceSettings& surface, const std::string& what) {
+    try {
+        return geometry::meshEnclosing(*surface.shape, surface.edge, surface.enclosesExactly());
+    } catch (const Failure& fault) {
+        throw Failure(fault.code(),
+                      fmt::format("{} '{}', shape and edge in system/mesh.yaml: {}", what, surface.name, fault.what()));
+    }
+}
+
 class Meshes {
   public:
     Meshes(Application& app, const simulation::Case& input) : app_(app), input_(input) {}
@@ -51,8 +60,7 @@ class Meshes {
         const bool isNew = !made_.contains(kindOf(surface));
         if (isNew)
             for (const std::string& remark : surface.shape->remarks()) app_.log().info("{}", remark);
-        if (isNew)
-            made_[kindOf(surface)] = geometry::meshEnclosing(*surface.shape, surface.edge, surface.enclosesExactly());
+        if (isNew) made_[kindOf(surface)] = meshOf(surface, what);
         TriangleMesh mesh = made_.at(kindOf(surface));
         const geometry::MeshQuality quality = geometry::meshQuality(mesh, surface.shape.model.get());
         json[surface.name] = {{"quality", utilities::toJson(quality)}};

@@ -145,9 +145,14 @@ int entryOf(Stream& stream, Wanted wanted) {
     const int last = stream.last();
     if (wanted.kind == Kind::first) return 0;
     if (wanted.kind == Kind::latest) return last;
-    if (wanted.kind == Kind::progress)
-        wanted.kind = stream.hasStrain() ? Kind::strain : stream.stage(last) ? Kind::stage : Kind::time;
+    const bool isProgress = wanted.kind == Kind::progress;
+    if (isProgress) wanted.kind = stream.hasStrain() ? Kind::strain : stream.stage(last) ? Kind::stage : Kind::time;
     const bool ofTime = wanted.kind == Kind::time;
+    if (ofTime && isProgress && wanted.value != 0)
+        throw Failure(ExitCode::usage, fmt::format("{}: has no unit, and these results have neither strain nor stages; "
+                                                   "give times with units, between {} and {}.",
+                                                   wanted.option, formatQuantity(stream.time(0), unit::second),
+                                                   formatQuantity(stream.time(last), unit::second)));
     if (wanted.kind == Kind::strain && !stream.hasStrain()) {
         throw Failure(ExitCode::usage,
                       fmt::format("{}: these results have no strain, since the case has no shear rate; {} instead.",
@@ -164,7 +169,7 @@ int entryOf(Stream& stream, Wanted wanted) {
     const auto value = [&](int i) {
         return ofTime ? stream.time(i) : wanted.kind == Kind::strain ? *stream.strain(i) : *stream.stage(i);
     };
-    const double from = value(0), to = value(last), slack = 1e-6 * std::abs(to - from) + (ofTime ? 0 : 1e-12);
+    const double from = value(0), to = value(last), slack = 1e-4 * std::abs(to - from) + (ofTime ? 0 : 1e-12);
     if (wanted.value < from - slack || wanted.value > to + slack) {
         const auto words = [&](double v) { return ofTime ? formatQuantity(v, unit::second) : fmt::format("{:g}", v); };
         throw Failure(ExitCode::usage,
