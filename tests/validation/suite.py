@@ -169,7 +169,8 @@ def same(note, wanted):
 def execute(run, folder, binaries, ranks):
     """Runs what has not ended yet; a stopped run goes on. Other settings or files start afresh. Returns run.json, with the core-seconds
     of all parts."""
-    wanted = [run.settings, [getattr(program, "__name__", program) for program in run.programs], str(run.source), contents(run)]
+    wanted = [run.settings, [getattr(program, "__name__", program) for program in run.programs],
+              os.path.relpath(run.source, ROOT), contents(run)]  # in any clone
     note, record = folder / "settings.json", folder / "run.json"
     if folder.exists() and not same(note, wanted):
         shutil.rmtree(folder)
