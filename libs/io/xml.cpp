@@ -99,22 +99,22 @@ class XmlReader {
     void attribute(XmlElement& e) {
         std::string key = name(), value;
         skipBlanks();
-        if (!next("=")) fault(fmt::format("the attribute {} has no value", key));
+        if (!next("=")) fault(fmt::format("the attribute '{}' has no value", key));
         ++at_;
         skipBlanks();
-        if (!next("\"") && !next("'")) fault(fmt::format("the value of the attribute {} is not quoted", key));
+        if (!next("\"") && !next("'")) fault(fmt::format("the value of the attribute '{}' is not quoted", key));
         const char quote = bytes_[at_++];
         while (at_ < bytes_.size() && bytes_[at_] != quote) {
-            if (bytes_[at_] == '<') fault(fmt::format("the value of the attribute {} does not end", key));
+            if (bytes_[at_] == '<') fault(fmt::format("the value of the attribute '{}' does not end", key));
             if (bytes_[at_] == '&')
                 entity(value);
             else
                 value.push_back(bytes_[at_++]);
         }
-        if (at_ == bytes_.size()) fault(fmt::format("the value of the attribute {} does not end", key));
+        if (at_ == bytes_.size()) fault(fmt::format("the value of the attribute '{}' does not end", key));
         ++at_;
         if (!e.attributes.emplace(key, std::move(value)).second)
-            fault(fmt::format("the attribute {} stands twice", key));
+            fault(fmt::format("the attribute '{}' stands twice", key));
     }
 
     void takeText(XmlElement& e) {
@@ -150,7 +150,7 @@ class XmlReader {
         }
         while (true) {
             takeText(e);
-            if (at_ >= bytes_.size()) fault(fmt::format("the element {} does not end", e.name));
+            if (at_ >= bytes_.size()) fault(fmt::format("the element '{}' does not end", e.name));
             if (next("<!--")) {
                 skipPast("-->", "a comment");
             } else if (next("<?")) {
@@ -158,9 +158,9 @@ class XmlReader {
             } else if (next("</")) {
                 at_ += 2;
                 if (const std::string end = name(); end != e.name)
-                    fault(fmt::format("the element {} ends with </{}>", e.name, end));
+                    fault(fmt::format("the element '{}' ends with '</{}>'", e.name, end));
                 skipBlanks();
-                if (!next(">")) fault(fmt::format("the end of the element {} is not closed", e.name));
+                if (!next(">")) fault(fmt::format("the end of the element '{}' is not closed", e.name));
                 ++at_;
                 return e;
             } else {

@@ -430,7 +430,7 @@ def classify(kind, driver, case, answer):
         return "nan" if re.search(r"(?<![\w./-])-?(nan|inf)(?![\w.])", text) else "ok"
     if answer["code"] not in (1, 2, 3, 4):
         return "code"
-    if BARE.search(text):
+    if BARE.search(re.sub(r"(?<!\w)'[^'\n]*'", "''", text)):  # words of the file are quoted
         return "bare"
     return "refused" if len(text.strip().splitlines()) >= 1 and re.search(r"[a-z]{3}", text) else "silent"
 

@@ -127,7 +127,7 @@ TEST(VtpFile, WhatAFileSaysOfItselfIsCheckedAgainstItsBytes) {
     expectFault(replaced(raw, "<VTKFile", "<VTKFile compressor=\"vtkLZ4DataCompressor\""), "the file is corrupt");
     expectFault(replaced(raw, "<VTKFile", "<VTKFile compressor=\"vtkFooCompressor\""),
                 "unknown compressor 'vtkFooCompressor'");
-    expectFault(replaced(raw, "</Piece>", "</Peace>"), "the element Piece ends with </Peace>");
+    expectFault(replaced(raw, "</Piece>", "</Peace>"), "the element 'Piece' ends with '</Peace>'");
     std::string wild = raw;
     const std::string corners = bytesOf(std::vector<std::int32_t>{0, 1, 2, 1, 2, 3}, true);
     expectFault(replaced(wild, corners, bytesOf(std::vector<std::int32_t>{0, 1, 2, 1, 2, 1000000000}, true)),
