@@ -36,6 +36,7 @@ def drawn_layers(page):
 
 
 PAGE = (ROOT / "docs/architecture.md").read_text()
+NAMING = {page: (ROOT / page).read_text() for page in ("docs/architecture.md", "docs/changes.md")}  # these name files and classes
 LAYERS = drawn_layers(PAGE)
 LIBRARIES = set().union(*LAYERS)
 SOURCES = {".hpp", ".cpp", ".h"}
@@ -122,14 +123,15 @@ def check_companions(root, fail):
 
 
 def check_page(root, fail):
-    """What the page names is there: files as library/file, classes as library::Class."""
-    for library, name in sorted(set(re.findall(r"\b(%s)/(\w+)" % "|".join(sorted(LIBRARIES)), PAGE))):
-        if not any((root / "libs" / library).glob(f"{name}.*")):
-            fail(f"docs/architecture.md names {library}/{name}, and libs/{library} has no such file")
-    for library, name in sorted(set(re.findall(r"\b(%s)::(\w+)" % "|".join(sorted(LIBRARIES)), PAGE))):
-        sources = "".join(path.read_text() for path in (root / "libs" / library).glob("*.hpp"))
-        if not re.search(r"\b(class|struct|enum class) %s\b" % name, sources):
-            fail(f"docs/architecture.md names {library}::{name}, and no header of libs/{library} declares it")
+    """What the pages name is there: files as library/file, classes as library::Class."""
+    for page, content in NAMING.items():
+        for library, name in sorted(set(re.findall(r"(?<!tests/)\b(%s)/(\w+)" % "|".join(sorted(LIBRARIES)), content))):
+            if not any((root / "libs" / library).glob(f"{name}.*")):
+                fail(f"{page} names {library}/{name}, and libs/{library} has no such file")
+        for library, name in sorted(set(re.findall(r"\b(%s)::(\w+)" % "|".join(sorted(LIBRARIES)), content))):
+            sources = "".join(path.read_text() for path in (root / "libs" / library).glob("*.hpp"))
+            if not re.search(r"\b(class|struct|enum class) %s\b" % name, sources):
+                fail(f"{page} names {library}::{name}, and no header of libs/{library} declares it")
 
 
 def texts(root):

@@ -28,7 +28,7 @@ struct ModelNameObserver : Observer {
         return s;
     }
     std::vector<Table> tables(const SceneParts&) const override {
-        return {{"modelName", {{"largestSpeed", "m/s", "largest speed of a particle of the fluid"}}}};
+        return {{"modelName", {{"largestSpeed", "m_s", "largest speed of a particle of the fluid"}}}};
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
         return std::make_unique<ModelNameObservation>(tables(SceneParts::of(scene)));
