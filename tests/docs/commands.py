@@ -38,6 +38,7 @@ SESSIONS = {
                                    "home/myTweezers/postProcessing/renderCase.png"]),
     "docs/renderCase.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && membraneMesh && particleFill && dmpFlow
+command -v ffmpeg >/dev/null || { mkdir ffmpeg && printf '#!/bin/sh\\nfor last; do :; done; echo >$last' >ffmpeg/ffmpeg && chmod +x ffmpeg/ffmpeg && PATH=$PATH:$PWD/ffmpeg; }
 """, ["myCell/film/frame_0000.png"]),
     "docs/study.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell

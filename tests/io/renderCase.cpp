@@ -95,9 +95,10 @@ struct Outcome {
     int exitCode;
     std::string text;
 };
-Outcome renderCase(const std::filesystem::path& caseDir, const std::string& options) {
+Outcome renderCase(const std::filesystem::path& caseDir, const std::string& options, const std::string& before = "") {
     const auto log = caseDir / "log";
-    const std::string command = "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " RENDER_CASE " -case " +
+    const std::string command = before +
+                                "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " RENDER_CASE " -case " +
                                 caseDir.string() + " " + options + " > " + log.string() + " 2>&1";
     const int status = std::system(command.c_str());
     std::ifstream file(log);
@@ -155,8 +156,9 @@ class RenderCase : public ::testing::Test {
     }
     static void TearDownTestSuite() { folder_.reset(); }
     static const std::filesystem::path& caseDir() { return folder_->path(); }
-    static nlohmann::json drawIn(const std::filesystem::path& folder, const std::string& options) {
-        const Outcome run = renderCase(folder, "-json -quiet " + options);
+    static nlohmann::json drawIn(const std::filesystem::path& folder, const std::string& options,
+                                 const std::string& before = "") {
+        const Outcome run = renderCase(folder, "-json -quiet " + options, before);
         EXPECT_EQ(run.exitCode, 0) << run.text;
         return run.exitCode == 0 ? nlohmann::json::parse(run.text) : nlohmann::json();
     }
@@ -400,6 +402,43 @@ TEST_F(RenderCase, ASeriesHasOneCameraAndOneRange) {
     EXPECT_NEAR(asked["field"]["high"].get<double>(), 5e-5, 1e-12);
 }
 
+// In place of ffmpeg, so that it need not be installed: what it is given is looked at, and what it says is passed on.
+TEST_F(RenderCase, AMovieHasAPictureForEachTime) {
+    const TemporaryFolder folder;
+    const auto program = folder.path() / "ffmpeg", film = folder.path() / "film.mp4";
+    const auto standIn = [&](const std::string& end) {
+        std::ofstream(program) << "#!/bin/sh\necho \"$@\" >" << folder.path().string() << "/words\n"
+                               << "for last; do :; done\ncp $(dirname $last)/000000.png " << folder.path().string()
+                               << "/first.png\nls $(dirname $last) | grep -c png$ >$last\n"
+                               << end;
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    };
+    const std::string path = "PATH=" + folder.path().string() + ":$PATH ";
+    standIn("");
+    const auto report = drawIn(caseDir(), "-movie " + film.string() + " -fps 4 -view xz -size 401x301", path);
+    const std::size_t times = report.size();
+    ASSERT_GE(times, 4u);
+    std::size_t drawn = 0;
+    std::ifstream(film) >> drawn;
+    EXPECT_EQ(drawn, times);
+    std::string words;
+    std::getline(std::ifstream(folder.path() / "words"), words);
+    EXPECT_NE(words.find("-framerate 4 "), std::string::npos) << words;
+    EXPECT_NE(words.find("-pix_fmt yuv420p"), std::string::npos) << words;
+    EXPECT_EQ(Pixels(folder.path() / "first.png").width(), 401);
+    EXPECT_EQ(report[0]["output"], film.string());
+    const auto only = std::filesystem::directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(only), end(only)), 4) << "pictures of the movie are left";
+
+    standIn("echo no space >&2\nexit 7\n");
+    const Outcome failed = renderCase(caseDir(), "-movie " + film.string() + " -size 400", path);
+    EXPECT_EQ(failed.exitCode, 4);
+    EXPECT_NE(failed.text.find("ffmpeg ended with code 7: no space"), std::string::npos) << failed.text;
+    const Outcome none = renderCase(caseDir(), "-movie " + film.string(), "PATH=/nowhere ");
+    EXPECT_EQ(none.exitCode, 4);
+    EXPECT_NE(none.text.find("apt-get install ffmpeg"), std::string::npos) << none.text;
+}
+
 TEST_F(RenderCase, BeforeAnyRunTheStartIsShown) {
     TemporaryFolder fresh;
     std::filesystem::create_directories(fresh.path() / "0");
@@ -429,6 +468,9 @@ TEST_F(RenderCase, WrongWordsAreNamed) {
         {"-field tension1 -range 5,1", "the second must be greater"},
         {"-range 0,1", "Give -field too"},
         {"-output cell.jpg", "its name ends in .png"},
+        {"-movie cell.avi", "its name ends in .mp4"},
+        {"-movie cell.mp4 -series", "-output and -series are for pictures"},
+        {"-fps 5", "Give -movie too"},
         {"-size 900x100 -field areaStrain", "too small"}};
     for (const auto& [options, words] : wrong) {
         const Outcome run = renderCase(caseDir(), options);

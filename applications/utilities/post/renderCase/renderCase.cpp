@@ -10,6 +10,7 @@
 #include "core/application.hpp"
 #include "core/error.hpp"
 #include "frames.hpp"
+#include "movie.hpp"
 #include "picture.hpp"
 
 using namespace corpuscle;
@@ -84,6 +85,9 @@ Wanted parseWanted(const std::string& option, Wanted::Kind kind, const std::stri
     return wanted;
 }
 
+// A file for each time, or a movie of them.
+bool isSeries(const Application& app) { return app.has("series") || app.has("movie"); }
+
 FrameChoice choiceOf(const Application& app) {
     using Kind = Wanted::Kind;
     FrameChoice choice;
@@ -102,7 +106,7 @@ FrameChoice choiceOf(const Application& app) {
     if (app.has("count")) given.emplace_back("-count");
     if (given.size() > 1)
         throw Failure(ExitCode::usage, fmt::format("{} are given; one of them is enough.", joinWords(given, " and ")));
-    choice.count = static_cast<int>(app.integer("count", 1).value_or(app.has("series") ? 0 : 4));
+    choice.count = static_cast<int>(app.integer("count", 1).value_or(isSeries(app) ? 0 : 4));
     return choice;
 }
 
@@ -203,12 +207,15 @@ Usage usage() {
                     {"fluidRange", "LOW,HIGH", "of its colours"},
                     {"arrows", "", "velocity in that plane"},
                     {"series", "", "a file for each time, with the same camera and colours (default: all times)"},
+                    {"movie", "FILE", "the same as a movie: an MP4 file, by ffmpeg"},
+                    {"fps", "N", "pictures of it in a second (default 10)"},
                     {"size", "WxH", "pixels, or the width alone (default: by the number of panels, at most 1600)"},
                     {"output", "FILE", "PNG file (default postProcessing/renderCase.png in the case)"}},
         .samples = {"renderCase -case rbcShear/Ca0.02",
                     "renderCase -strain 0,2,4,6 -field areaStrain -output areaStrain.png",
                     "renderCase -time '2 ms, latest' -fluid -arrows", "renderCase -view xz -frame cells -mesh",
-                    "renderCase -series -fluid -fluidField pressure -output film/frame.png"}};
+                    "renderCase -series -fluid -fluidField pressure -output film/frame.png",
+                    "renderCase -movie cell.mp4 -fluid -view xz"}};
 }
 
 nlohmann::json jsonOf(const Scale& scale) {
@@ -256,6 +263,13 @@ int main(int argc, char* argv[]) {
         choice.keepBroken = options.field == "broken";
         const std::filesystem::path output =
             app.value("output").value_or(app.path("postProcessing/renderCase.png").string());
+        if (app.has("movie") && (app.has("output") || app.has("series")))
+            throw Failure(ExitCode::usage, "-movie names its file; -output and -series are for pictures.");
+        if (app.has("fps") && !app.has("movie"))
+            throw Failure(ExitCode::usage, "-fps: of which movie? Give -movie too.");
+        std::optional<Movie> movie;
+        if (app.has("movie") && app.communicator().isRoot())
+            movie.emplace(*app.value("movie"), app.integer("fps", 1).value_or(10));
         if (output.extension() != ".png")
             throw Failure(ExitCode::usage,
                           fmt::format("-output {}: a PNG file is written; its name ends in .png.", output.string()));
@@ -276,17 +290,26 @@ int main(int argc, char* argv[]) {
 
         // 3. One picture, or one for each time.
         const Plan plan = makePlan(frames, options);
-        const std::size_t each = app.has("series") ? 1 : frames.size();
+        const std::size_t each = isSeries(app) ? 1 : frames.size();
         nlohmann::json reports = nlohmann::json::array();
         for (std::size_t i = 0; i < frames.size(); i += each) {
-            const auto file = app.has("series") ? numbered(output, i) : output;
+            const auto file = movie ? movie->picture(i) : app.has("series") ? numbered(output, i) : output;
             const std::span<const Frame> shown(frames.data() + i, each);
             const Picture picture = drawPicture(plan, shown, file);
-            reports.push_back(report(file, shown, plan, picture));
-            app.log().info("{}: {} panel{}, {} x {} pixels", file.string(), each, each == 1 ? "" : "s", picture.width,
-                           picture.height);
+            reports.push_back(report(movie ? *app.value("movie") : file.string(), shown, plan, picture));
+            if (!movie)
+                app.log().info("{}: {} panel{}, {} x {} pixels", file.string(), each, each == 1 ? "" : "s",
+                               picture.width, picture.height);
+            else if (i == 0)
+                app.log().info("{} pictures of {} x {} pixels", frames.size(), picture.width, picture.height);
         }
-        if (app.json()) fmt::print("{}\n", (app.has("series") ? reports : reports[0]).dump(2));
+        if (movie) {
+            movie->write();
+            app.log().info(
+                "{}: {} pictures, {:.3g} s", *app.value("movie"), frames.size(),
+                static_cast<double>(frames.size()) / static_cast<double>(app.integer("fps", 1).value_or(10)));
+        }
+        if (app.json()) fmt::print("{}\n", (isSeries(app) ? reports : reports[0]).dump(2));
         return ExitCode::done;
     });
 }
