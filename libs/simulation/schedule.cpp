@@ -1,6 +1,7 @@
 #include "simulation/schedule.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <exception>
 
@@ -108,6 +109,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     describe();
     begun_ = true;
     binding_ = integrator_.limits().binding().name;
+    toldStep_ = time.step;
     app_.keepRecord(kept_);
     writeUsed(input_.directory / "used.yaml", input_.effective, app_.communicator());
     record_.set("parameters", "density_kg_m3", input_.flow.density);
@@ -142,6 +144,27 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     }
     if (checkpoints_.due(stop_)) saveCheckpoint(scene, time);
     progress_.report(time);
+    constexpr auto every = std::chrono::seconds(2);
+    if (std::chrono::steady_clock::now() - told_ < every) return;
+    recordProgress(time);
+    record_.write();
+}
+
+// For whoever watches the run (caseMonitor).
+void Schedule::recordProgress(const Time& time) {
+    const auto now = std::chrono::steady_clock::now();
+    const double pause = std::chrono::duration<double>(now - told_).count(),
+                 wall = std::chrono::duration<double>(now - began_).count(), made = time.fraction() - start_.fraction();
+    record_.set("progress", "step", time.step);
+    record_.set("progress", "time_s", time.t);
+    if (time.shearRate > 0) record_.set("progress", "strain", time.strain());
+    record_.set("progress", "dt_s", time.dt);
+    record_.set("progress", "limit", binding_);
+    record_.set("progress", "fraction", time.fraction());
+    record_.set("progress", "stepsPerSecond", static_cast<double>(time.step - toldStep_) / pause);
+    record_.set("progress", "secondsLeft", made > 0 ? wall * (1 - time.fraction()) / made : std::nan(""));
+    told_ = now;
+    toldStep_ = time.step;
 }
 
 std::vector<Event> Schedule::events(const Time& time) const {
@@ -227,6 +250,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("extremes", "largestStep_s", largestDt_);
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
+    recordProgress(time);
     integrator_.stepper().report(record_, app_.log(), steps);
     std::string limits;
     for (const auto& [name, number] : stepsLimitedBy_) {

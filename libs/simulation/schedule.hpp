@@ -47,6 +47,7 @@ class Schedule {
   private:
     void describe();
     void reportGuard(const coupling::Scene& scene, const Time& time);
+    void recordProgress(const Time& time);
     void reportRupture(const coupling::Scene& scene, const Time& time);
     void reportObservers(const coupling::Scene& scene, const Time& time);
     double particleSteps(const Time& time) const;
@@ -72,6 +73,8 @@ class Schedule {
     std::string binding_;                         // the limit that sets the length of the next step
     std::map<std::string, long> stepsLimitedBy_;  // number of steps by the limit that set their length
     std::string stopReason_;
+    std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+    long toldStep_ = 0;
 };
 
 Usage solverUsage(const std::string& name);
