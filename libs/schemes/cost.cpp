@@ -62,7 +62,7 @@ std::vector<std::vector<std::string>> costRows(const std::vector<IntegratorCost>
                                                bool isChosen) {
     std::vector<std::vector<std::string>> rows;
     for (const IntegratorCost& cost : costs) {
-        std::string note = cost.name != integrator ? "" : isChosen ? "chosen" : "chosen by the case";
+        std::string note = cost.name != integrator ? "" : isChosen ? "chosen automatically" : "chosen by the case";
         if (!note.empty() && !cost.whyNot.empty()) note += ": ";
         note += cost.whyNot;
         rows.push_back({cost.name, formatQuantity(cost.step().seconds, unit::second), cost.step().name,
