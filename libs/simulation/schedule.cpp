@@ -147,7 +147,10 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     constexpr auto every = std::chrono::seconds(2);
     if (std::chrono::steady_clock::now() - told_ < every) return;
     recordProgress(time);
-    record_.write();
+    try {
+        record_.write();
+    } catch (const Failure&) {  // a full disk ends the run where something is to be kept, not here
+    }
 }
 
 // For whoever watches the run (caseMonitor).
@@ -251,6 +254,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     record_.set("result", "time_s", time.t);
     record_.set("result", "strain", time.strain());
     recordProgress(time);
+    record_.set("progress", "stepsPerSecond", static_cast<double>(steps) / wall);
     integrator_.stepper().report(record_, app_.log(), steps);
     std::string limits;
     for (const auto& [name, number] : stepsLimitedBy_) {
