@@ -67,7 +67,7 @@ def main():
         run(case, "cleanCase", "-quiet")
         run(case, "membraneMesh", "-quiet")
         run(case, "particleFill", "-quiet")
-        process = solver(case, 10)
+        process = solver(case, 30)  # some seconds on any machine
         progress(case, process, 1)
         output = bytearray()
 
