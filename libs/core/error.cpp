@@ -5,6 +5,14 @@
 
 namespace corpuscle {
 
+std::string printable(std::string text) {
+    for (char& c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if ((byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F) c = '?';
+    }
+    return text;
+}
+
 std::string Mark::text() const {
     if (line <= 0) return file;
     return file + ":" + std::to_string(line) + ":" + std::to_string(column);
@@ -18,7 +26,7 @@ std::string Problem::text() const {
 
 namespace {
 constexpr std::size_t longestKey = 160, longestMessage = 1200;
-constexpr std::size_t mostKept = 10000;  // of which those reported are the first by file and line
+constexpr std::size_t mostKept = 10000;  // problems; those reported are the first of these by file and line
 
 std::string joined(const std::vector<Problem>& problems, std::size_t more) {
     std::string text;
@@ -96,10 +104,10 @@ std::string nearestWord(const std::string& word, const std::vector<std::string>&
     for (const std::string& candidate : allowed) {
         // A word that differs only in capitals is always near.
         const std::size_t distance = lowered(candidate) == lowered(word) ? 0 : editDistance(word, candidate);
-        // Of two as near, the one with the same letters: they are swapped more often than lost.
+        // Of two equally near words, the one with the same letters: letters are swapped more often than lost.
         const bool swapped = std::is_permutation(word.begin(), word.end(), candidate.begin(), candidate.end());
         const bool nearer = distance < bestDistance || (distance == bestDistance && !best.empty() && swapped);
-        // A distance of the whole word would call any two short words alike.
+        // A distance as large as the whole word would make any two short words alike.
         if (nearer && distance < std::max(word.size(), candidate.size())) {
             bestDistance = distance;
             best = candidate;

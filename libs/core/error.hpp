@@ -1,7 +1,7 @@
 // Errors and exit codes.
 //
-// A fault of the case (wrong key, wrong unit, missing file) is a Problem with its place; problems are collected while a
-// case is read and thrown together as one CaseError, so that a user sees all of them at once. Everything else is a
+// An error in the case (wrong key, wrong unit, missing file) is a Problem with its place; problems are collected while
+// a case is read and thrown together as one CaseError, so that a user sees all of them at once. Everything else is a
 // Failure with the exit code that the program ends with.
 #pragma once
 #include <stdexcept>
@@ -19,16 +19,20 @@ enum class ExitCode : int {
     stopped = 5       // stopped early on request, checkpoint written
 };
 
+// The text with '?' in place of control characters other than line ends and tabs. Words of a damaged file, quoted in a
+// message, may contain any byte; at a zero byte what() would end.
+std::string printable(std::string text);
+
 class Failure : public std::runtime_error {
   public:
-    Failure(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
+    Failure(ExitCode code, const std::string& text) : std::runtime_error(printable(text)), code_(code) {}
     ExitCode code() const { return code_; }
 
   private:
     ExitCode code_;
 };
 
-// Where something stands in a case: "system/mesh.yaml:4:7", or "-set" for a value given on the command line.
+// A place in a case: "system/mesh.yaml:4:7", or "-set" for a value given on the command line.
 struct Mark {
     std::string file;
     int line = 0;    // 1-based; 0: no place
@@ -45,7 +49,7 @@ struct Problem {
 
 class CaseError : public Failure {
   public:
-    // `more`: how many there are beyond those listed.
+    // `more`: number of problems beyond those listed.
     explicit CaseError(std::vector<Problem> problems, std::size_t more = 0);
     const std::vector<Problem>& problems() const { return problems_; }
     std::size_t more() const { return more_; }
@@ -56,13 +60,14 @@ class CaseError : public Failure {
     std::size_t more_;
 };
 
-// A file of another kind can hold any number of faults, and any length of them: keys and messages are shortened in the
-// middle, the first mostShown problems are reported, and the others are counted.
+// A file that is not a dictionary can give any number of problems of any length. Keys and messages are therefore
+// shortened in the middle, the first mostShown problems are reported, and the others are only counted.
 class Problems {
   public:
     static constexpr std::size_t mostShown = 50;
     void add(Mark mark, std::string key, std::string message);
-    void addUncounted(std::size_t more) { more_ += more; }  // of another collection, which has left out so many
+    // Adds problems that another collection has counted without keeping them.
+    void addUncounted(std::size_t more) { more_ += more; }
     bool empty() const { return count() == 0; }
     std::size_t count() const { return list_.size() + more_; }
     // Throws CaseError with everything collected so far, sorted by file and line, if there is anything.
@@ -70,7 +75,7 @@ class Problems {
 
   private:
     std::vector<Problem> list_;
-    std::size_t more_ = 0;  // not kept
+    std::size_t more_ = 0;  // counted but not kept
 };
 
 // The text, or its beginning and end with "..." between them, never cutting a character of several bytes.

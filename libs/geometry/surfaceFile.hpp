@@ -1,14 +1,15 @@
-// What the readers of surface files have in common: points and polygons as they stand in a file, and a walk along the
-// lines and words of a file of text.
+// Common parts of the readers of surface files: points and polygons exactly as a file contains them, and iteration over
+// the lines and words of a text file.
 //
-// A reader takes the whole file as bytes and throws SurfaceFault for whatever is wrong with it, with the place: "line
-// 12: ...". Before memory is taken, numbers of things that a file announces are compared with the bytes that it has.
+// A reader takes the whole file as bytes and throws SurfaceFault for any error, with its place: "line 12: ...". Before
+// memory is allocated, the numbers that a file announces are compared with the bytes that it has.
 #pragma once
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/vec.hpp"
 
 namespace corpuscle::geometry {
@@ -19,7 +20,7 @@ struct PolygonSoup {
 };
 
 struct SurfaceFault : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit SurfaceFault(const std::string& text) : std::runtime_error(printable(text)) {}
 };
 
 PolygonSoup readStl(std::string_view bytes);
@@ -38,10 +39,10 @@ class TextLines {
     const std::vector<std::string_view>& words() const { return words_; }
     std::string_view line() const { return line_; }
     int number() const { return number_; }        // of this line, from 1
-    std::size_t position() const { return at_; }  // of the first byte behind this line
+    std::size_t position() const { return at_; }  // of the first byte after this line
 
     [[noreturn]] void fault(const std::string& what) const;  // "line 12: what"
-    double number(std::string_view word) const;              // finite
+    double number(std::string_view word) const;              // the word as a finite number, or a fault
     int integer(std::string_view word) const;
 
   private:

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/error.hpp"
+
 namespace corpuscle::io {
 
 enum class VtpCompressor { none, zlib, lz4, lzma };
@@ -17,11 +19,11 @@ struct VtpEncoding {
 };
 
 struct VtpFault : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit VtpFault(const std::string& text) : std::runtime_error(printable(text)) {}
 };
 
 // `source` begins with the array's header and may hold more behind it. `expected`: the length that the array must have.
-// Throws VtpFault; takes no more memory than the bytes in `source` can make up.
+// Throws VtpFault; allocates no more memory than the bytes in `source` can expand to.
 std::string vtpBytes(std::string_view source, bool base64, const VtpEncoding& encoding,
                      std::optional<std::uint64_t> expected);
 

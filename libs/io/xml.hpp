@@ -1,15 +1,16 @@
 // A small, strict reader of XML: elements, attributes and the first text of each element, as VTK's files need them.
 //
-// Nothing is copied but names and attributes: `text` points into the bytes that were given. The element AppendedData
-// ends the reading, as what follows its underscore may be any bytes; its text is everything behind that underscore.
-// Throws XmlFault with the line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and
-// for a document type.
+// Only names and attributes are copied: `text` points into the given bytes. Reading ends at the element AppendedData,
+// since any bytes may follow its underscore; its text is everything behind that underscore. Throws XmlFault with the
+// line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and for a document type.
 #pragma once
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/error.hpp"
 
 namespace corpuscle::io {
 
@@ -26,7 +27,7 @@ struct XmlElement {
 };
 
 struct XmlFault : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit XmlFault(const std::string& text) : std::runtime_error(printable(text)) {}
 };
 
 XmlElement parseXml(std::string_view bytes);

@@ -12,9 +12,19 @@ TEST(NearestWord, findsTypingErrorsAndNothingElse) {
     EXPECT_EQ(nearestWord("SOUNDSPEED", words), "soundSpeed");
     EXPECT_EQ(nearestWord("pressure", words), "");
     EXPECT_EQ(nearestWord("b", {"a"}), "");
-    EXPECT_EQ(nearestWord("mu", {"m", "mm", "um"}), "um");  // of words as near, the one with the same letters
+    EXPECT_EQ(nearestWord("mu", {"m", "mm", "um"}), "um");  // of equally near words, the one with the same letters
     EXPECT_EQ(didYouMean("densty", words), " Did you mean 'density'?");
     EXPECT_EQ(didYouMean("walls", words), "");
+}
+
+TEST(Failure, showsWordsOfDamagedFilesWithoutControlCharacters) {
+    using std::string_literals::operator""s;
+    const auto shown = [](const std::string& word) {
+        return std::string(Failure(ExitCode::io, "unknown word '" + word + "': \u00b5m\n\tnext line").what());
+    };
+    for (const std::string& word : {"a\0b"s, "a\033b"s, "a\177b"s, "a\rb"s})
+        EXPECT_EQ(shown(word), "unknown word 'a?b': \u00b5m\n\tnext line");
+    EXPECT_EQ(shown("a b"), "unknown word 'a b': \u00b5m\n\tnext line");
 }
 
 TEST(Problems, areThrownTogetherInTheOrderOfTheFiles) {

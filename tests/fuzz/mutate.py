@@ -237,7 +237,7 @@ def write_case(folder, files, shape=""):
 
 
 class Driver:
-    """fuzzPrograms, one run after the other; where it has not been built, the programs themselves, which takes longer."""
+    """Runs fuzzPrograms, one input after the other; where it has not been built, the programs themselves, which takes longer."""
 
     def __init__(self, programs):
         self.programs, self.process = programs, None
@@ -277,7 +277,7 @@ class Driver:
 
 
 class Kind:
-    """make(n, rng) -> (name, bytes); run(driver, folder, name, bytes) -> answer; changed(...) -> whether accepted data are others."""
+    """make(n, rng) -> (name, bytes); run(driver, folder, name, bytes) -> answer; changed(...) -> whether accepted data differ."""
 
     def __init__(self, programs, folder):
         self.programs, self.folder = programs, folder
@@ -336,7 +336,7 @@ class Surfaces(Kind):
         isText = name.startswith(("ascii", "plain", "colour", "strips")) and rng.random() < 0.7
         if isText:
             return name, to_bytes(mutate_text(rng, data.decode()))
-        if rng.random() < 0.3:  # the head alone, where the numbers of things stand
+        if rng.random() < 0.3:  # the head only, which holds the counts
             head = data[:400].decode("latin-1")
             return name, mutate_text(rng, head).encode("latin-1", "replace") + data[400:]
         return name, mutate_bytes(rng, data)
@@ -430,7 +430,7 @@ def classify(kind, driver, case, answer):
         return "nan" if re.search(r"(?<![\w./-])-?(nan|inf)(?![\w.])", text) else "ok"
     if answer["code"] not in (1, 2, 3, 4):
         return "code"
-    if BARE.search(re.sub(r"(?<!\w)'[^'\n]*'", "''", text)):  # words of the file are quoted
+    if BARE.search(re.sub(r"(?<!\w)'[^']*'", "''", text)):  # words quoted from the file do not count
         return "bare"
     return "refused" if len(text.strip().splitlines()) >= 1 and re.search(r"[a-z]{3}", text) else "silent"
 
