@@ -1,5 +1,5 @@
-// operator new and delete with the size kept in front of each block. Blocks of greater alignment go the library's own
-// way and are not counted.
+// operator new and delete that store the size in front of each block. Over-aligned blocks use the library's operators
+// and are not counted.
 #include "storage.hpp"
 
 #include <cstdlib>
@@ -14,14 +14,23 @@ std::size_t stored = 0;
 
 std::size_t corpuscle::membrane::testing::storedBytes() { return stored; }
 
-void* operator new(std::size_t bytes) {
+// With a sanitizer the library's form does not call the one below, and its blocks would have no size in front.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
     void* const block = std::malloc(front + bytes);
     if (block == nullptr) {
-        throw std::bad_alloc();
+        return nullptr;
     }
     *static_cast<std::size_t*>(block) = bytes;
     stored += bytes;
     return static_cast<char*>(block) + front;
+}
+
+void* operator new(std::size_t bytes) {
+    void* const block = operator new(bytes, std::nothrow);
+    if (block == nullptr) {
+        throw std::bad_alloc();
+    }
+    return block;
 }
 
 void operator delete(void* place) noexcept {
