@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How box, resolution and coupling matter: the capsule and the red cell of the tutorials in boxes of several sizes, against boundary elements.
-Of the red cells it shows the range of D12 and the strains of a quarter, half and full turn.
+"""Effect of box, resolution and coupling: the capsule and the red cell of the tutorials in boxes of several sizes, against boundary elements.
+For red cells it shows the range of D12 and the strains at which the cell has made a quarter, half and full turn.
 
     boxes.py BIN DIRECTORY [NAME ...] [-np 2]     BIN: directory of the programs; NAME: rows to run, all without
 
-Runs what DIRECTORY does not hold yet, one folder for each row, and prints the table of all that have ended. A stopped run goes on.
+Makes the runs that DIRECTORY does not hold yet, one folder for each row, and prints the table of all finished runs. A stopped run is continued.
 Boxes are along the flow, the vorticity and across the gap, in radii.
 """
 import json
@@ -12,7 +12,7 @@ import pathlib
 import subprocess
 import sys
 
-from tutorialCase import RADIUS, TUTORIALS, prepare, sized  # and makes the modules of tests/validation known, these those of tutorials
+from tutorialCase import RADIUS, TUTORIALS, prepare, sized  # makes tests/validation importable, whose modules do so for tutorials
 
 from membranes import turn
 from suite import ENVIRONMENT, at, rows, worst

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Iterations of the implicit step over size, stiffness of the membrane and preconditioner, in boxes of 5 radii.
+"""Iterations of the implicit step as a function of size, membrane stiffness and preconditioner, in boxes of 5 radii.
 
     iterations.py BIN DIRECTORY [-steps 12] [WORD ...]     BIN: directory of the programs; WORD: only rows with all of these in their name
 

@@ -11,13 +11,13 @@ RADIUS = 4  # um, of the cells of capsuleShear and rbcShear
 
 
 def sized(box, spacing):
-    """Settings of a box [um], and of a spacing of particles and edge of the mesh [um]."""
+    """Settings for a box [um], and for a spacing [um] of particles that is also the edge length of the mesh."""
     return ["system/mesh.yaml:/domain/size=[" + ", ".join(f"{length:g} um" for length in box) + "]",
             f"system/numerics.yaml:/spacing={spacing:.8g} um", f"system/mesh.yaml:/cells/0/edge={spacing:.8g} um"]
 
 
 def prepare(case, binaries, tutorial, settings):
-    """Meshed and filled, unless it exists. Returns the options that hold for every program of the case."""
+    """Meshes and fills the case unless it exists. Returns the options for every program of the case."""
     options = ["-quiet", *sets(settings)]
     if not case.exists():
         part = case.with_name(case.name + ".part")

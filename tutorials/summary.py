@@ -32,7 +32,7 @@ COLUMNS = {  # name in the CSV file: text in the table
 
 
 def rows(path):
-    """Numbers of a table by column. Comment lines are passed over, and a last line that is being written."""
+    """Numbers of a table by column. Comment lines are skipped, and so is a last line that is still being written."""
     with open(path) as text:
         lines = [line for line in text if not line.startswith("#") and line.endswith("\n")]
     return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
@@ -52,7 +52,7 @@ def series(case, observer, file):
 
 
 def axisTurned(shape):
-    """Angle [degrees] by which the main axis has turned with the flow, row by row. It has no direction: followed from look to look."""
+    """Angle [degrees] by which the main axis has turned with the flow, row by row. The axis has no direction, so it is followed from row to row."""
     angles = [0.0]
     for row in shape[1:]:
         angle = -math.degrees(row["inclination_rad"])
@@ -61,7 +61,7 @@ def axisTurned(shape):
 
 
 def strainOfTurn(shape, degrees=360):
-    """Strain at which the main axis has turned so far; nan before."""
+    """Strain at which the main axis has turned by `degrees`; nan if it has not."""
     angles = axisTurned(shape)
     for (a, before), (b, after) in zip(zip(angles, shape), zip(angles[1:], shape[1:])):
         if a < degrees <= b:
@@ -70,7 +70,7 @@ def strainOfTurn(shape, degrees=360):
 
 
 def extreme(pick, values):
-    """pick(values), nan if one of them is: min and max would drop it or not by where it stands."""
+    """pick(values), nan if one of them is nan: min and max would ignore it or not, depending on its position."""
     values = list(values)
     return math.nan if any(map(math.isnan, values)) else pick(values)
 

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""A hundred faults put into running cases, and what becomes of them.
+"""A hundred faults injected into running cases, and their outcome.
 
     faults.py [-bin DIR] [-work DIR] [-only N]
 
-A fault is one of five kinds (tests/simulation/faultInjection.cpp) at a random place before a random step; one in eleven comes again each time that
+A fault is one of five kinds (tests/simulation/faultInjection.cpp) at a random place before a random step; one in eleven is repeated each time that
 the run gets to this step. Each run ends as one of
 
-    rolled back   noticed, taken back; the end within the tolerance of the run without fault
-    tolerated   not noticed, and the end within the tolerance all the same
+    rolled back   detected and rolled back; the final state is within the tolerance of the run without fault
+    tolerated   not detected, but the final state is within the tolerance
     reported    exit code 3, with a report and a checkpoint of the last good state
-    wrong       exit code 0 and another end: there must be none
-    crashed     any other end: there must be none
+    wrong       exit code 0 and another final state: must not occur
+    crashed     any other end of the run: must not occur
 
-Rows go to faults.csv beside this file as runs end, and those that are there are not run again; the table in README.md is written anew.
+A row is added to faults.csv beside this file when a run ends; runs that have a row are not made again. The table in README.md is written anew.
 """
 import argparse
 import csv
@@ -37,19 +37,19 @@ STRAIN = 0.5
 CAPSULE = ["system/mesh.yaml:/domain/size=[20 um, 16 um, 16 um]", "system/numerics.yaml:/spacing=1 um", "system/mesh.yaml:/cells/0/edge=0.8 um",
            f"system/control.yaml:/endStrain={STRAIN + 0.02}", "system/control.yaml:/write={}", "constant/flow.yaml:/Ca=0.3",
            "system/observers.yaml:/deformation/every=0.01 strain", "system/observers.yaml:/balance/every=0.01 strain"]
-SCENES = {  # of a capsule of radius 4 um: settings, share of the faults
+SCENES = {  # with a capsule of radius 4 um: settings, share of the faults
     "implicit": (CAPSULE + ["system/numerics.yaml:/implicit/step=0.02"], 3),
     "velocityVerlet": (CAPSULE + ["system/numerics.yaml:/integrator=velocityVerlet", "constant/flow.yaml:/inertia/Re=0.5"], 1),
     "dualIdentity": (CAPSULE + ["system/numerics.yaml:/integrator=velocityVerlet", "system/numerics.yaml:/coupling=dualIdentity",
                                 "system/numerics.yaml:/operators=plain", "system/numerics.yaml:/kernel/support=3 dx",
                                 "constant/flow.yaml:/inertia/Re=0.5"], 1),
 }
-TOLERANCE = {"D12_inertia": 0.005, "volume": 0.001}  # of the value without fault
+TOLERANCE = {"D12_inertia": 0.005, "volume": 0.001}  # relative to the value without fault
 COLUMNS = ("number", "scene", "kind", "step", "seed", "again", "ranks", "end", "rollbacks", "D12", "volume", "exitCode", "message")
 
 
 def prepare(scene, words):
-    """The case of a scene with its start, made once, and its run without fault."""
+    """The case of a scene with its initial state, made once, and its run without fault."""
     folder, calm = words.work / scene / "start", words.work / scene / "calm"
     settings = suite.sets(SCENES[scene][0])
     if not folder.exists():
@@ -65,14 +65,14 @@ def prepare(scene, words):
 
 
 def end(folder):
-    """Shape and volume at that strain: the runs end up to a step later."""
+    """Shape and volume at the strain of comparison; runs end up to a step later."""
     (shape,) = folder.glob("postProcessing/deformation/*.csv")
     balance = suite.rows(folder / "postProcessing/balance/conservation.csv")
     return {"D12_inertia": suite.at(suite.rows(shape), STRAIN, "D12_inertia"), "volume": 1 + suite.at(balance, STRAIN, "volumeChange")}
 
 
 def faults():
-    """The same hundred at every call."""
+    """The hundred faults, the same at every call."""
     choice = random.Random(2026)
     order = [scene for scene, (_, share) in SCENES.items() for _ in range(share)]
     for number in range(COUNT):
@@ -81,7 +81,7 @@ def faults():
 
 
 def left(folder):
-    """run.json of a run; empty where the program has not come to write it."""
+    """run.json of a run; empty if the program ended before writing it."""
     try:
         return json.loads((folder / "run.json").read_text())
     except (OSError, ValueError):

@@ -47,14 +47,14 @@ OF_CELLS = ("no balance of density",)
 
 
 def pressure(case, done, n):
-    """L2 of the pressure less its mean at the first result after the start, over mu k U then: what the flow's stresses are."""
+    """L2 error of the pressure minus its mean at the first result after the start, over mu k U at that time, the scale of the viscous stresses."""
     folder = done["flow"] / "results"
     time = float(re.findall(r'timestep="([^"]+)"', (folder / "fluid.pvd").read_text())[1])
     found = vtp.File(sorted((folder / "fluid").glob("*/*.vtp"))[1])
     rho, mu, speed, k = 1000.0, 1e-3, 0.01, 2 * math.pi / 1e-3  # of tutorials/taylorGreen, SI
     decay = math.exp(-2 * mu / rho * k * k * time)  # of the velocity
     half = rho * (speed * decay) ** 2 / 4
-    exact = [half * (math.cos(2 * k * x) + math.cos(2 * k * z)) for x, _, z in found.points]  # moved by half a wave along both it is the same
+    exact = [half * (math.cos(2 * k * x) + math.cos(2 * k * z)) for x, _, z in found.points]  # invariant under a shift by half a wave along both
     errors = [p - q for p, q in zip(found.arrays["pressure"], exact)]
     mean = sum(errors) / len(errors)
     return 100 * math.sqrt(sum((e - mean) ** 2 for e in errors) / len(errors)) / (mu * k * speed * decay)
@@ -62,7 +62,7 @@ def pressure(case, done, n):
 
 @dataclass
 class Column:
-    """case: of validation; run: that of its runs which is taken; errors: by heading, function of (case, its runs' folders, n)."""
+    """case: of validation; run: which of its runs is used; errors: by heading, function of (case, folders of its runs, n)."""
     case: str
     n: int
     run: str

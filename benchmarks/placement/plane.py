@@ -31,12 +31,12 @@ F = lambda q: np.where(q < 1, (1 - q) ** 3, 0.0)
 
 
 def sums(f):
-    """Over the particles of a layer at each distance, of a function of r over the support."""
+    """Sums over the particles of a layer at each distance, of a function of r over the support."""
     return np.array([f(np.sqrt(plane2 + k * k) / SUPPORT).sum() for k in range(REACH + 1)])
 
 
 def operators():
-    """Viscosity by pairs, and gradient, of unit viscosity and exact for straight lines."""
+    """Matrices of the pairwise viscosity and of the gradient, for unit viscosity and exact for straight lines."""
     a = sums(F)
     a[0] = 0
     a /= (a * np.arange(REACH + 1) ** 2).sum()
@@ -56,7 +56,7 @@ PAIRS, GRADIENT = operators()
 
 
 def kink():
-    """The function phi of z/R, by a table."""
+    """The function phi of z/R, tabulated."""
     q = np.linspace(0, 1, 4001)
     moment = lambda k: np.trapz(q ** (2 + k) * W(q), q) * 4 * np.pi
     c0, c2 = np.linalg.solve([[moment(0), moment(2)], [moment(2), moment(4)]], [1, 0.1])
@@ -85,7 +85,7 @@ def weights(place, R, conditions, count):
 
 
 def pinned(matrix, force, u):
-    """Velocities in equilibrium, those of both ends as in u."""
+    """Velocities in equilibrium, with those at both ends prescribed by u."""
     free, u = slice(ENDS, -ENDS), u.copy()
     ends = np.r_[0:ENDS, z.size - ENDS : z.size]
     u[free] = np.linalg.solve(matrix[free, free], force[free] - matrix[free][:, ends] @ u[ends])
@@ -120,7 +120,7 @@ class Plane:
             node = w[0] + second * w[4] + t * self.step * w[3]
             inside, outside = (z - place) / self.ratio * (z < place), (z - place) * (z >= place)
             shear, shifted = (pinned(matrix, 0 * z, inside + outside + k * (z >= place)) for k in (0, 1))
-            stress = lambda u: (matrix @ u)[-ENDS:].sum()  # of the outer end; a straight line has 1
+            stress = lambda u: (matrix @ u)[-ENDS:].sum()  # at the outer end; it is 1 for a straight line
             film = ((PAIRS @ z)[-ENDS:].sum() - stress(shear)) / (stress(shifted) - stress(shear))
             rows.append((film, node @ shear, node @ pinned(matrix, node, 0.5 * (inside - outside))))
         return np.array(rows)
@@ -128,7 +128,7 @@ class Plane:
     def calibrated(self):
         """(s or v, t, kappa) and the errors, by Newton's method on their means."""
         x = np.array([{"moments": -0.04, "kink": 0.16}[self.kind], 0.0, 0.3])
-        # Moments have nothing for the cross error, and a side nothing for the film.
+        # With `moments` no parameter acts on the cross error, with `side` none on the film error.
         solved = {"moments": [2], "kink": [2, 1] if self.ratio != 1 else [2]}[self.kind] + ([0] if self.mean == "laminate" and self.ratio != 1 else [])
         unknown = [{2: 0, 1: 1, 0: 2}[row] for row in solved]
         for _ in range(12):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a step of 16 red cells takes on several ranks: processor time, memory, and what each rank sends, as the greatest of all ranks.
+"""Cost of a step of 16 red cells on several ranks: processor time, memory, and what each rank sends; each as the maximum over the ranks.
 
     population.py BIN DIRECTORY [-np 1,2,4] [-steps 6]     BIN: directory of the programs and of libmessageCounts.so (target messageCounts)
 
@@ -25,7 +25,7 @@ MESH = ["system/mesh.yaml:/domain/size=[20 um, 20 um, 20 um]", "system/numerics.
 
 
 def counts(case, binaries, options, ranks, steps):
-    """Of a run of so many steps, by name; processor time of all ranks [s] among them."""
+    """Figures of a run of this number of steps, by name, including the processor time of all ranks [s]."""
     file = case / "messageCounts"
     subprocess.run(["mpirun", "-np", str(ranks), "env", f"LD_PRELOAD={binaries / 'libmessageCounts.so'}", f"MESSAGE_COUNTS={file}",
                     binaries / "dmpFlow", "-case", case, *options, "-steps", str(steps)], check=True, env=ENVIRONMENT)

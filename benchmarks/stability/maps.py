@@ -119,7 +119,7 @@ def drawRatio(table, safe):
 
 
 def label(run):
-    """Of a scene of the explicit map."""
+    """Label of a scene of the explicit map."""
     words = [NAMES[run["scene"]], run["scheme"].replace("velocityVerlet", "Verlet")]
     words += [f"Ca {run['Ca']}"] if run["Ca"] else []
     words += [f"Re {run['Re']}"] + ([f"lambda {run['lambda']}"] if run["lambda"] not in ("", "1") else [])
@@ -128,7 +128,7 @@ def label(run):
 
 
 def explicitScenes(table):
-    """Label: the runs, and the limit that binds."""
+    """The runs of each label, and the limit of the step that is decisive."""
     found = {}
     for run in table:
         if run["times"] and run["map"] == "limits":
@@ -141,7 +141,7 @@ def explicitScenes(table):
 
 
 def drawExplicit(table, safe):
-    """Times the limit, a line for each scene."""
+    """Verdicts over multiples of the step's limit, a line for each scene."""
     scenes = explicitScenes(table)
     if not scenes:
         return
@@ -187,7 +187,7 @@ def drawChanges(table, safe):
 
 
 def tables(table):
-    """Into the page, between its marks: counts, edges of the explicit limits, every run that is not stable."""
+    """Writes into the page, between its marks: counts, bounds of the explicit limits, and every run that is not stable."""
     def counted(name, runs):
         numbers = [sum(r["verdict"] == verdict for r in runs) for verdict in VERDICTS]
         return f"| {name} | {len(runs)} | " + " | ".join(map(str, numbers)) + " |"

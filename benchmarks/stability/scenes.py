@@ -1,7 +1,7 @@
-"""Scenes of the stability map, and the runs on them in the order in which they are made.
+"""Scenes of the stability map, and the runs of them in the order in which they are made.
 
 A scene is a tutorial's case made small: cells of radius 4 um, 4 particles along it, in a box of 6 x 3 x 4 radii; a run changes it by settings
-FILE:/path=value. Every run has a twin, the same with a finer step, that it is compared with.
+FILE:/path=value. Every run is compared with its twin, the same run with a finer step.
 """
 from dataclasses import dataclass, field
 
@@ -12,7 +12,7 @@ BOX = (6, 3, 4)  # radii: along the flow, the vorticity, across the gap
 STEPS = (0.0125, 0.02, 0.05, 0.1, 0.2, 0.5)  # strains of one implicit step; the first is the twin
 FINEST = 0.005  # on the coarse grid besides
 ADJOINT_BULK = 500  # bulk modulus over mu gammadot of 'soundSpeed: auto' with adjoint operators
-TWIN_STEP, BASE_STEP = STEPS[0], 0.05  # of runs that change one thing
+TWIN_STEP, BASE_STEP = STEPS[0], 0.05  # for runs that change one parameter
 TIMES = (0.5, 0.7, 0.9, 1.0, 1.1, 1.25, 1.5)  # of a limit of the explicit step, without `safety`; the first is the twin
 
 # tutorial, its cell, Ca, Eb; files that replace those of the tutorial
@@ -38,11 +38,11 @@ EXPLICIT = {
 @dataclass
 class Run:
     name: str
-    group: str  # map that it belongs to
+    group: str  # map to which it belongs
     scene: str
     scheme: str
     settings: list
-    axis: str = ""  # what it changes, and the value; empty: the scene as it stands
+    axis: str = ""  # the parameter that it changes, and the value; empty: the unchanged scene
     value: str = ""
     Ca: float | None = None
     Re: float | None = None
@@ -65,7 +65,7 @@ def plain(text):
 
 
 def observers(run):
-    """Text of system/observers.yaml: eight looks at least."""
+    """Text of system/observers.yaml, with at least eight observations."""
     (strain,) = (float(text.split("=")[1]) for text in run.settings if text.startswith(CONTROL + "endStrain="))
     kinds = {"balance": "conservation", "wall": "wallStress", **({"deformation": "shape"} if SCENES[run.scene][1] else {})}
     return "".join(f"{name}: {{type: {kind}, every: {min(0.05, strain / 8):g} strain}}\n" for name, kind in kinds.items())
@@ -117,7 +117,7 @@ def explicit(scene, scheme, limit, times, Ca=None, Re=0.1, ratio=1.0, strain=0.5
 
 
 def soundSpeed(scene, Ca, Re, times, box, adjoint=True):
-    """Of `times` the bulk modulus that `soundSpeed: auto` stands for [m/s] (libs/simulation/case.cpp)."""
+    """Sound speed [m/s] for `times` the bulk modulus that `soundSpeed: auto` means (libs/simulation/case.cpp)."""
     gs = {"capsule": 1e-5, "redCell": 3**0.5 / 4 * 5e-4, "box": 0}[scene]
     rate = Ca * gs / (VISCOSITY * RADIUS) if gs else RATE
     nu, gap = rate * RADIUS**2 / Re, box[2] * RADIUS
@@ -126,14 +126,14 @@ def soundSpeed(scene, Ca, Re, times, box, adjoint=True):
 
 
 def stiffer(scene, Ca, Eb, bonds, bending):
-    """Settings of bonds (the capsule's sheet) and bending so many times as stiff, at the same shear rate."""
+    """Settings that multiply the stiffness of bonds (of the capsule's sheet) and of bending by these factors, at the same shear rate."""
     cell = SCENES[scene][1]
     law = {"capsule": f"triangles/Gs={1e-5 * bonds:g} N/m", "redCell": f"bonds/k={5e-4 * bonds:g} N/m"}[scene]
     return [MEMBRANES + f"{cell}/{law}", MEMBRANES + f"{cell}/bending/Eb={Eb * bending / bonds:g}", FLOW + f"Ca={Ca / bonds:g}"]
 
 
 def changes(scene, explicitScheme):
-    """Axis, value and settings of the runs that change one thing; with `perRadius` or `ranks` where the change is that."""
+    """Axis, value and settings of the runs that change one parameter; `perRadius` or `ranks` are set where that is the parameter."""
     _, cell, Ca, Eb = SCENES[scene]
     Re, box = (0.1, (4, 3, 3)) if explicitScheme else (0.01, BOX)
     for times in (0.1, 10, 100):
@@ -177,7 +177,7 @@ def implicitFactorial():
                 for Re in (1e-4, 0.01, 1):
                     for step in (TWIN_STEP, BASE_STEP, 0.2):
                         yield implicit(scene, step, Ca, Re, ratio, group="ratio", stage=3 if Re == 0.01 else 5)
-        for step in (TWIN_STEP, BASE_STEP, 0.2):  # beyond what is promised
+        for step in (TWIN_STEP, BASE_STEP, 0.2):  # 0.2 is beyond the declared safe range
             for Ca, Re, ratio in ((1e-5, 0.01, 1), (1e-4, 0.01, 1), (100, 0.01, 1), (0.1, 1e-6, 1), (0.1, 1e-5, 1), (0.1, 10, 1), (0.1, 100, 1), (0.1, 0.01, 0.02), (0.1, 0.01, 200)):
                 yield implicit(scene, step, Ca, Re, ratio, group="edge", stage=5)
     for Re in (1e-6, 1e-4, 1e-2, 1, 10, 100):
@@ -198,7 +198,7 @@ def implicitChanges():
                 yield implicit(scene, step, axis="method", value=method, stage=2, keys=f"error: 1, tolerance: 3e-3, method: {method}")
             for tolerance in ("0.1", "0.01", "1e-5"):
                 yield implicit(scene, step, axis="tolerance", value=tolerance, stage=2, keys=f"error: 1, tolerance: {tolerance}")
-    for scene in ("capsule", "redCell"):  # as a case has it by itself: the error of the places sets the step
+    for scene in ("capsule", "redCell"):  # as in a case by default: the error of the positions sets the step
         for Ca in (1e-3, 0.1, 10):
             for step in (0.2, 0.5):
                 yield implicit(scene, step, Ca, axis="error", value="1e-3", stage=2, keys="tolerance: 3e-3")
@@ -206,7 +206,7 @@ def implicitChanges():
 
 
 def explicitScenes():
-    """Scheme, limit that the step is counted in, and what the scene has."""
+    """Scheme, the limit in units of which the step is given, and the properties of the scene."""
     for scheme in ("velocityVerlet plain", "velocityVerlet corrected"):
         speed = soundSpeed("box", None, 1, 16, (4, 3, 3), "corrected" in scheme)
         yield "box", scheme, "viscous", {}

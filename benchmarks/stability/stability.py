@@ -35,9 +35,9 @@ import vtp
 from summary import series
 
 LARGEST = 150  # core-seconds of a run
-SHAPE, SHAPE_FLOOR = 0.02, 0.002  # of D12 and inclination: |D exp(2i theta) - that of the twin| over the twin's largest D; what is always allowed
+SHAPE, SHAPE_FLOOR = 0.02, 0.002  # of D12 and inclination: |D exp(2i theta) - that of the twin| over the twin's largest D; a difference that is always allowed
 VOLUME, AREA, STRESS, ENERGY = 0.005, 0.01, 0.02, 0.05  # drift; difference to the twin; of the mean wall stress; of kinetic energy
-DENSITY = 0.05  # particle's density off its rest density, or twice the twin's where that is more
+DENSITY = 0.05  # deviation of a particle's density from its rest density; or twice that of the twin, if larger
 SETTLED = 0.5  # strain from which shape, area and energy of the implicit step count: on the jump at the start, an undeformed membrane in a flow, it rings
 NOISE = 0.005  # of velocities about the linear profile, in the box: rms over the walls' speed, above the twin's
 KINDS = (  # of messages with exit code 3
@@ -52,7 +52,7 @@ COLUMNS = ("run", "map", "scene", "scheme", "axis", "value", "Ca", "Re", "lambda
 # Running
 
 def filling(run):
-    """What meshes and particles depend on; runs with the same share them."""
+    """The settings on which meshes and particles depend; runs with the same settings share them."""
     kept = [text for text in run.settings if text.startswith((scenes.MESH, scenes.NUMERICS + "spacing", scenes.NUMERICS + "kernel", scenes.NUMERICS + "coupling"))]
     return json.dumps([run.scene, sorted(kept)])
 
@@ -64,11 +64,11 @@ class Batch:
         directory.mkdir(parents=True, exist_ok=True)
         self.scratch = pathlib.Path(tempfile.mkdtemp(prefix="work.", dir=directory))
         known = subprocess.run([binaries / "listModels", "numerics"], capture_output=True, text=True).stdout if (binaries / "listModels").exists() else ""
-        self.always = ["-set", "system/numerics.yaml:/rollbacks=0"] if "rollbacks" in known else []  # what fails is to be seen
+        self.always = ["-set", "system/numerics.yaml:/rollbacks=0"] if "rollbacks" in known else []  # failures must show
         self.environment = suite.ENVIRONMENT
 
     def call(self, run, case, program, ranks=1, more=()):
-        """Exit code and what it said on standard error."""
+        """Exit code and standard error of a program."""
         command = [str(self.binaries / program), "-case", str(case), "-quiet", *(word for text in run.settings for word in ("-set", text)), *self.always, *more]
         if ranks > 1:
             command = ["mpirun", "-np", str(ranks), *command]
@@ -128,7 +128,7 @@ class Batch:
 
 
 def gathered(case, run, code):
-    """What a run has left: its record, its curves, in the box the scatter of velocities at the end."""
+    """The results of a run: its record, its curves, and for the box the scatter of velocities at the end."""
     record = json.loads((case / "run.json").read_text()) if (case / "run.json").exists() else {}
     performance = record.get("performance", {})
     log = next(case.glob("log.*Flow")).read_text()
@@ -154,7 +154,7 @@ def gathered(case, run, code):
 
 
 def smallest(record):
-    """Shortest step, as a strain."""
+    """The shortest step, as a strain."""
     step, rate = record.get("extremes", {}).get("smallestStep_s"), record.get("parameters", {}).get("shearRate_1_s")
     return step * rate if step and rate else None
 
@@ -184,7 +184,7 @@ def late(curve, end):
 
 
 def judge(run, left, twin):
-    """Verdict, sign, strain of the sign and the figures of a run; twin: what its twin left, if it is any use."""
+    """Verdict, sign, strain of the sign and the figures of a run; twin: results of its twin, if they can be used."""
     curves, found, figures = left["curves"], [], {}
     shape, balance, wall = curves["deformation"], curves["balance"], curves["wall"]
     theirs = twin["curves"] if twin else None
@@ -193,7 +193,7 @@ def judge(run, left, twin):
     balance, shape = [r for r in balance if run.axis == "rupture" or finite(r)], [r for r in shape if finite(r)]
 
     def look(name, values, allowed, word):
-        """values: (strain, value); the largest goes to the figures, the first outside to the signs."""
+        """values: (strain, value); the largest value is added to the figures, the first value outside the tolerance to the signs."""
         values = [(t, v) for t, v in values if math.isfinite(v)]
         if values:
             figures[name] = max(abs(v) for _, v in values)
@@ -238,7 +238,7 @@ def judge(run, left, twin):
 
 
 def ended(left, balance):
-    """Strain at which a run failed: of its message, else of the last row."""
+    """Strain at which a run failed: from its message, otherwise from the last row."""
     time = re.search(r"t = ([-+.e\d]+) s", left["message"])
     if time and left["shearRate"]:
         return float(time[1]) * left["shearRate"]
@@ -261,7 +261,7 @@ def row(run, left, twin):
 
 
 def tabulate(directory, runs):
-    """results.csv from all that DIRECTORY holds, but for runs that ended and whose twin did not, or has not been run."""
+    """Writes results.csv from all that DIRECTORY holds, except runs that ended while their twin did not end or has not been run."""
     kept = {run.name: json.loads(path.read_text()) for run in runs if (path := directory / (run.name + ".json")).exists()}
     def twinOf(run):
         twin = kept.get(run.twin)

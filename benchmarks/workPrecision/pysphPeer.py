@@ -30,7 +30,7 @@ from pysph.solver.application import Application
 from pysph.sph.scheme import TVFScheme
 
 NU, L, RHO = 1.0, 1.0, 1.0  # mm^2/s, mm, any: constant/fluid.yaml of the tutorials
-ACROSS = 8  # particles of a periodic direction without a length of its own
+ACROSS = 8  # particles along a periodic direction whose length is arbitrary
 LAYERS = 5  # of wall particles
 TO_METRES = 1e-3
 
@@ -38,9 +38,9 @@ TO_METRES = 1e-3
 @dataclass
 class Flow:
     end: float  # s
-    every: float  # s, between looks
+    every: float  # s, between outputs
     fastest: float  # mm/s
-    walls: float = 0.0  # mm/s, of the upper one; the lower one moves the other way
+    walls: float = 0.0  # mm/s, speed of the upper wall; the lower one moves the opposite way
     force: float = 0.0  # mm/s^2
     plates: bool = True
 
@@ -75,7 +75,7 @@ class Peer(Application):
         return DomainManager(**sides)
 
     def lattice(self, layers):
-        """Places over the box, at these layers of y."""
+        """Positions in the box, at these layers of y."""
         along = range(ACROSS if self.flow.plates else self.n)
         across = range(ACROSS if self.dim == 3 else 1)
         x, y, z = (self.dx * (numpy.array(one) + 0.5) for one in zip(*((i, j, k) for i in along for j in layers for k in across)))
@@ -109,7 +109,7 @@ class Peer(Application):
         return scheme
 
     def look(self, t):
-        """At the first step at or after each time of a look, as the observers do."""
+        """Output at the first step at or after each output time, as the observers do."""
         if t < self.next * (1 - 1e-9):
             return
         self.next += self.flow.every * (math.floor((t - self.next) / self.flow.every + 1e-9) + 1)

@@ -4,11 +4,11 @@
     workPrecision.py BIN DIRECTORY [CASE ...] [-scheme NAME] [-resolution N] [-np 1] [-begin]     BIN: where the programs are; all without CASE
     workPrecision.py -draw                                                               diagrams and tables of what has been run, without running
 
-What DIRECTORY holds already is not run again. Points go to results.csv, diagrams beside it (SVG and PNG), tables to README.md. The error of a point
-is that of its case of validation (tests/validation/CASE; DIAGRAMS says which figures), relative, in per cent; core-seconds are those of the processor
-(run.json). Runs that are too long are begun only (all with -begin): their core-seconds are those of a part of the way over that part, and they have
-no error.
-Lines of PySPH are run by pysphPeer.py where Debian's python3-pysph is installed, and left as they are elsewhere.
+What DIRECTORY holds already is not run again. Points are written to results.csv, diagrams beside it (SVG and PNG), tables to README.md. The error of
+a point is that of its case of validation (tests/validation/CASE; DIAGRAMS selects the figures), relative, in per cent; core-seconds are processor
+time (run.json). Runs that would take too long are only begun (all with -begin): their core-seconds are extrapolated from the part that was run, and
+they have no error.
+Lines of PySPH are run by pysphPeer.py where Debian's python3-pysph is installed; elsewhere they are kept as they are.
 """
 import csv
 import datetime
@@ -42,15 +42,15 @@ def implicit(step, tolerance="1e-3"):
 
 
 def scaled(run, path, factor):
-    """The run's own setting of path, times factor."""
+    """The setting of path as in the run, times factor."""
     (found,) = (match for setting in run.settings if (match := re.fullmatch(f"({re.escape(path)}=)([0-9.e+-]+)(.*)", setting)))
     return f"{found[1]}{factor * float(found[2]):.8g}{found[3]}"
 
 
 @dataclass
 class Line:
-    """A scheme: settings, or a function of the run that gives them; the resolutions it is run at and those at which it is only begun. further: how
-    many times as far as the others it goes, to meet what its error is read from."""
+    """A scheme: settings, or a function of the run that returns them; the resolutions at which it is run, and those at which it is only begun.
+    further: ratio of its length to that of the other runs, so that it reaches the event from which its error is taken."""
     settings: object
     resolutions: tuple
     begun: tuple = ()
@@ -67,7 +67,7 @@ class Peer:
 
 @dataclass
 class Diagram:
-    """run: the one of the case's runs that is taken. lines: by scheme. error(case, done, n): per cent. prepare(case): narrows its runs. what: for
+    """run: which of the case's runs is used. lines: by scheme. error(case, done, n): per cent. prepare(case): restricts its runs. what: for
     the title."""
     run: str
     lines: dict
@@ -95,7 +95,7 @@ def drag(case, done, n):
 
 
 def quarter(case):
-    """Ca 0.02 at every resolution, until the cell has turned a quarter."""
+    """Restricts the case to Ca 0.02 at every resolution, until the cell has made a quarter turn."""
     case.cells.coarse = None
     case.cells.scenes = {"0.02": (QUARTER, case.cells.scenes["0.02"][1])}
 
@@ -115,12 +115,12 @@ FLUID = (16, 32, 64)
 
 
 def peers(whole):
-    """whole: how many resolutions of the slice are run to the end."""
+    """whole: number of resolutions of the slice that are run to the end."""
     return {"PySPH, TVF, plane": Peer(2, FLUID), "PySPH, TVF, slice": Peer(3, FLUID[:whole], FLUID[whole:])}
 
 
 def plates(step, whole):
-    """step: strain of a hundredth of the run, a little less: the last step then ends at the end and not just before."""
+    """step: strain of slightly less than a hundredth of the run, so that the last step ends at the end and not just before it."""
     return {"paper": Line(PAPER, FLUID), "explicit, plain": Line(PLAIN, FLUID), "explicit, corrected": Line(VERLET, FLUID), "RKL2": Line(RKL2, FLUID),
             "implicit, 100 steps": Line(implicit(step), FLUID), "implicit, 400 steps": Line(implicit(step / 4), FLUID), **peers(whole)}
 
@@ -133,7 +133,7 @@ CELLS = (4, 6, 8)
 
 
 def sheared(*coarser, further=1):
-    """Lines of a cell; coarser: resolutions before those of CELLS. further: of the paper's line."""
+    """Lines of a cell. coarser: resolutions below those of CELLS. further: of the paper's line."""
     all_ = (*coarser, *CELLS)
     return {"paper": Line(PAPER, all_[:-1], CELLS[-1:], further), "explicit, corrected": Line(VERLET, all_[:-1], CELLS[-1:]),
             "implicit, step 0.1": Line(implicit(0.1, "3e-3"), all_), "implicit, step 0.05": Line(implicit(0.05, "3e-3"), all_)}
@@ -169,7 +169,7 @@ def recorded(path=HERE / "results.csv"):
 
 
 def keep(name, scheme, n, record, part, error, machine, day):
-    """part: of the way that the run has gone, over 1 where it went further; its core-seconds are for the way."""
+    """part: fraction of the run that was made, above 1 where it was longer; core-seconds are scaled to the full run."""
     point = {"case": name, "scheme": scheme, "resolution": n, "particles": round(record["parameters"]["particles"]),
              "error_percent": "" if error is None else f"{error:.4g}", "coreSeconds": f"{record['performance']['processorSeconds'] / part:.3g}",
              "part": f"{part:.3g}", "machine": machine, "date": day}
@@ -208,7 +208,7 @@ def measure(name, scheme, n, binaries, ranks, folder, begin):
 
 
 def measurePeer(name, scheme, n, folder, begin):
-    """One point by PySPH; of a run that is only begun, the number of steps it would have is known."""
+    """One point by PySPH; for a run that is only begun, its full number of steps is known."""
     if subprocess.run([PYTHON, "-c", "import pysph"], capture_output=True).returncode:
         print("workPrecision.py: no python3-pysph; its lines are left as they are")
         return
@@ -221,7 +221,7 @@ def measurePeer(name, scheme, n, folder, begin):
         subprocess.run([PYTHON, HERE / "pysphPeer.py", name, str(n), folder, "-dimensions", str(line.dimensions), *more], check=True)
         where = {"machine": suite.machine(), "day": datetime.date.today().isoformat()}
         note.write_text(json.dumps({**json.loads(note.read_text()), **where}, indent=1) + "\n")
-    old = {"machine": suite.machine(), "day": datetime.date.fromtimestamp(note.stat().st_mtime).isoformat()}  # of runs that do not say it
+    old = {"machine": suite.machine(), "day": datetime.date.fromtimestamp(note.stat().st_mtime).isoformat()}  # for runs that have not recorded it
     record = {**old, **json.loads(note.read_text())}
     part = record["performance"]["steps"] / record["performance"]["stepsToEnd"] if begun else 1
     keep(name, scheme, n, record, part, None if begun else DIAGRAMS[name].error(loaded(name), {"flow": folder}, n),
@@ -280,7 +280,7 @@ def tables():
 
 
 def option(words, name):
-    """The word after this one, both taken out; None without it."""
+    """The word after `name`; both are removed from words. None where `name` is absent."""
     if name not in words:
         return None
     k = words.index(name)

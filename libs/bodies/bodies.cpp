@@ -13,11 +13,12 @@ using particles::ParticleSystem;
 
 namespace {
 
-// About what a body's particles within reach of a fluid particle weigh in sum_j l_ij depth_j, by their surface's
-// distance.
+// Approximate weight of a body's particles within reach of a fluid particle i in the viscous sum_j l_ij depth_j, by the
+// distance of the fluid particle from the surface of the body.
 double share(double distance, double reach) { return std::pow(1 - distance / reach, 6); }
 
-// f(arm) from the centre to each periodic image of a particle within `reach` of the sphere around the body.
+// f(arm) for each periodic image of a particle within `reach` of the sphere around the body; arm: from the centre of
+// the body to the image.
 template <class F>
 void forArms(const ParticleSystem& system, const Body& body, int particle, double reach, F&& f) {
     const double radius = body.solid.radius() + reach;
@@ -57,7 +58,7 @@ void Bodies::drifted(ParticleSystem& system, double dt) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         Body& body = bodies_[b];
         body.behaviour->advance(body.state, body.solid, body.wrench, dt);
-        // Eq 14 for a body: extrapolated by the force at the beginning of the step.
+        // Eq 14 (sph/velocityVerlet.hpp) for a body: extrapolated by the force at the beginning of the step.
         const RigidMotion rate = body.behaviour->response(body.state, body.solid, body.wrench);
         groups_.motion[b] = {body.state.motion.linear + 0.5 * dt * rate.linear,
                              body.state.motion.angular + 0.5 * dt * rate.angular};
@@ -126,7 +127,7 @@ void Bodies::updateNear(const ParticleSystem& system) {
     struct Surface {
         double distance, weight;
     };
-    std::vector<Surface> surfaces;  // of the entries of this particle
+    std::vector<Surface> surfaces;  // of the present candidate, in the order of its entries in `near`
     for (const Candidate& candidate : candidates_) {
         surfaces.clear();
         double whole = 0;

@@ -1,15 +1,16 @@
 // The rigid bodies of a scene and their particles: a Load of velocity Verlet.
 //
-// A body's particles are particles of the fluid that move with it: they push back as walls do (density by the
-// continuity equation) and stand for the velocity that continues the fluid's beyond the surface (sph/fluidPair.hpp).
-// What acts on them is gathered on the body (sph/rigidGroups.hpp), whose motion follows (rigidState.hpp).
+// The particles of a body are particles of the fluid that move with the body: they exert pressure as walls do (density
+// by the continuity equation), and in the viscous term they have the velocity of the fluid continued beyond the surface
+// (sph/fluidPair.hpp). The forces on them are summed to force and torque on the body (sph/rigidGroups.hpp), which give
+// its motion (rigidState.hpp).
 //
-//     drifted            half a kick and the drift of each body; its particles to their new places
-//     moved              after a rebuild, who is here; at each step, arms and distances
-//     addAccelerations   force and torque taken up
-//     kicked             second half of the kick; velocities of the particles
+//     drifted            first half of the kick and drift of each body; moves its particles to their new positions
+//     moved              after a rebuild, finds the particles on this rank; at each step, computes arms and distances
+//     addAccelerations   stores force and torque on each body
+//     kicked             second half of the kick; sets the velocities of the particles
 //
-// A uniform body force stands for a pressure gradient: it acts on a body's volume as on the fluid's, with rho0 b V.
+// A uniform body force b represents a pressure gradient: it acts on a body of volume V as on the fluid, by rho0 b V.
 #pragma once
 #include "bodies/body.hpp"
 #include "sph/velocityVerlet.hpp"
@@ -22,18 +23,19 @@ class Bodies : public sph::Load {
         double density = 0;             // rho0 of the fluid [kg/m^3]
         Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
         double spacing = 0;             // [m]
-        // A fluid particle that has come closer to a surface than this counts as so far away [spacings]: what it would
-        // feel otherwise bounds an explicit step. What it feels less makes bodies look smaller, by 0.04 dx with 0.25.
+        // A fluid particle closer to a surface than this counts as being at this distance [spacings]: the viscous force
+        // at smaller distances would limit an explicit step. The reduced force makes bodies appear smaller, by 0.04 dx
+        // with 0.25.
         double leastDistance = 0.25;
-        static constexpr double unlimited = 0.05;  // where the step has no such bound
+        static constexpr double unlimited = 0.05;  // for steps without this limit
     };
-    // The bodies are filled.
+    // bodies: filled with their particles.
     Bodies(std::vector<Body> bodies, const Medium& medium);
 
     const std::vector<Body>& all() const { return bodies_; }
     std::vector<Body>& all() { return bodies_; }
     sph::RigidGroups& groups() { return groups_; }
-    // The body of a particle, by its number `member`.
+    // Index of the body of a particle. member: its field `member` in the store.
     std::size_t bodyOf(std::int64_t member) const;
 
     void drifted(particles::ParticleSystem& system, double dt) override;
@@ -42,12 +44,12 @@ class Bodies : public sph::Load {
     void kicked(particles::ParticleSystem& system, double dt) override;
     void addRates(const particles::ParticleSystem& system, const sph::FluidForces& forces,
                   sph::Budget::Values& rates) const override;
-    // The same of one body of this motion, acted on by its wrench; on the root only.
+    // The same for one body that moves with `motion` under its wrench; to be called on rank 0 only.
     void addRates(const particles::ParticleSystem& system, const Body& body, const RigidMotion& motion,
                   sph::Budget::Values& rates) const;
 
-    // For whoever steps bodies and particles in another way: who of the bodies' particles is here, after particles have
-    // changed their order; and these to their places, the images nearest to where they are.
+    // For other schemes. findMembers finds the bodies' particles on this rank, after particles have changed their
+    // order; place moves them to their positions in the bodies, at the images nearest to their present positions.
     void findMembers(const particles::ParticleSystem& system);
     void place(particles::ParticleSystem& system) const;
 
@@ -58,12 +60,12 @@ class Bodies : public sph::Load {
     std::vector<Body> bodies_;
     Medium medium_;
     sph::RigidGroups groups_;
-    std::vector<const BodyParticle*> parts_;  // of groups_.members
+    std::vector<const BodyParticle*> parts_;  // one for each of groups_.members
     struct Candidate {
         int particle;
         std::vector<int> bodies;
     };
-    std::vector<Candidate> candidates_;  // fluid particles that may come within the kernel's reach of a surface
+    std::vector<Candidate> candidates_;  // fluid particles that may come within the support of a surface
 };
 
 }  // namespace corpuscle::bodies

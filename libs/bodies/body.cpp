@@ -29,7 +29,7 @@ void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sp
     for (const Vec3& x : places) {
         const Vec3 place = solid.startOrientation().conjugate() * (x - solid.startCentre());
         const geometry::SurfacePoint nearest = grid.nearest(place);
-        // Particles below the reach meet no fluid: where their share of a torque would act does not matter.
+        // Particles deeper than the reach interact with no fluid, so any foot and depth will do.
         if (nearest)
             particles.push_back(
                 {place, nearest.point,
@@ -40,8 +40,8 @@ void Body::fill(const std::vector<Vec3>& places, double particleVolume, const sp
     sumRotationalDrag(particleVolume, kernel, reach);
 }
 
-// D Omega = sum_j s_j x (Omega x q_j),  q_j = sum_k 2 mu V^2 F (r_j - r_k) over the body's own particles k: 0 far from
-// the surface.
+// D Omega = sum_j s_j x (Omega x q_j),  q_j = sum_k 2 mu V^2 F (r_j - r_k) over the body's own particles k; q_j is 0
+// far from the surface.
 void Body::sumRotationalDrag(double particleVolume, const sph::Kernel& kernel, double reach) {
     const double factor = 2 * viscosity * particleVolume * particleVolume * kernel.gradientNormalisation(reach);
     const auto column = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach)); };

@@ -1,7 +1,7 @@
 // A rigid body of the scene: a closed mesh filled with particles.
 //
-// Every rank knows every body whole and integrates its motion: the sums of forces are the same bits on all ranks. Its
-// particles belong to whoever owns their place; where they stand follows from the body's state alone.
+// Every rank stores all bodies completely and integrates their motion; the sums of forces are bitwise identical on all
+// ranks. Each particle of a body is owned by the rank of its position, which follows from the state of the body alone.
 #pragma once
 #include <memory>
 #include <string>
@@ -12,43 +12,44 @@
 
 namespace corpuscle::bodies {
 
-// Of a particle, in the body frame.
+// A particle of a body, in the body frame.
 struct BodyParticle {
-    Vec3 place, foot;  // itself, and the point of the surface nearest to it [m]
-    double depth;      // below the surface as it counts in continuing the velocity (extrapolation.hpp), at least 0 [m]
+    Vec3 place, foot;  // its position, and the nearest point of the surface [m]
+    double depth;      // effective depth below the surface, to continue the velocity (extrapolation.hpp), >= 0 [m]
 };
 
 struct Body {
-    std::string name, type;  // type: entry of constant/bodies.yaml
+    std::string name, type;  // type: name of an entry of constant/bodies.yaml
     Solid solid;
     std::shared_ptr<const BodyMotion> behaviour;
-    Vec3 axis = Vec3::UnitZ();  // of its shape, at t = 0
-    int cell = 0;               // number of the cell that it is inside, 0: none
+    Vec3 axis = Vec3::UnitZ();  // axis of its shape at t = 0
+    int cell = 0;               // number of the cell that it is inside; 0: none
     double viscosity = 0;       // of the fluid around it [Pa s]
     RigidState state;
-    RigidMotion acceleration;      // of the last step, where it is implicit (implicit/rigidUnknowns.hpp)
+    RigidMotion acceleration;      // in the last step; implicit step only (implicit/rigidUnknowns.hpp)
     Wrench wrench;                 // of the fluid, about the centre of mass, at the last evaluation
-    std::int64_t firstMember = 0;  // number of its first particle: field `member` of the store
+    std::int64_t firstMember = 0;  // number of its first particle, as in the field `member` of the store
     std::vector<BodyParticle> particles;
-    // Sum over pairs of the torque that fluid turning with the body as one piece would exert: T = D Omega, in the body
-    // frame (sph/rigidGroups.hpp). What the fluid's particles around contribute is the opposite of what the body's own
-    // do, since both together are even.
+    // D of sph/rigidGroups.hpp, in the body frame: T = D Omega is the sum over pairs of the torque that fluid rotating
+    // rigidly with the body would exert. It is computed from the body's own particles: their contribution is the
+    // opposite of that of the fluid's particles, since both together surround each particle evenly.
     Mat3 rotationalDrag = Mat3::Zero();
     geometry::DistanceField distance;  // from the surface, in the body frame
 
-    // mesh: where the body stands at t = 0. reach: of the kernel; spacing of the particles [m].
+    // mesh: the surface at its position at t = 0. reach: support of the kernel [m]. spacing: of the particles [m].
     Body(std::string name, std::string type, const geometry::TriangleMesh& mesh, double density,
          std::shared_ptr<const BodyMotion> behaviour, double reach, double spacing);
 
-    // Takes up its particles where they stand at t = 0, the images inside its surface; volume: of one of them.
+    // Sets its particles. places: positions at t = 0, at the images that are inside the surface [m]; particleVolume: of
+    // one particle [m^3]; reach: support of the kernel [m].
     void fill(const std::vector<Vec3>& places, double particleVolume, const sph::Kernel& kernel, double reach);
 
     Vec3 inBody(const Vec3& fromCentre) const { return state.orientation.conjugate() * fromCentre; }
-    // From t = 0 to now.
+    // Rotation from t = 0 to now.
     Eigen::Quaterniond turned() const { return state.orientation * solid.startOrientation().conjugate(); }
-    std::vector<Vec3> nodes() const;  // of its surface, now
+    std::vector<Vec3> nodes() const;  // present positions of the nodes of its surface
 
-    // What a restart needs beside the particles.
+    // State of the body that a restart needs in addition to the particles.
     static constexpr std::size_t stateLength = 25;
     std::vector<double> saved() const;
     void restore(const std::vector<double>& saved);

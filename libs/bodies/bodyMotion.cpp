@@ -1,8 +1,8 @@
 // Motions of a rigid body.
 //
 // held   | stays where it is
-// driven | U and Omega are constant
-// free   | moves by what the fluid does to it (rigidState.hpp)
+// driven | U and Omega are prescribed and constant
+// free   | moves under the force and torque of the fluid (rigidState.hpp)
 #include "bodies/bodyMotion.hpp"
 
 namespace corpuscle::bodies {

@@ -10,7 +10,7 @@
 namespace corpuscle::bodies {
 
 struct BodySettings {
-    std::optional<double> density;  // [kg/m^3]; empty: that of the fluid
+    std::optional<double> density;  // [kg/m^3]; empty: density of the fluid
     Choice<BodyMotion> motion;
     static const Schema<BodySettings>& schema();
 };

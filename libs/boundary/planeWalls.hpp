@@ -6,7 +6,7 @@
 
 namespace corpuscle::boundary {
 
-// Fluid where side (x_axis - position) > 0.
+// The fluid is where side (x_axis - position) > 0.
 class Plane : public Surface {
   public:
     // side: 1 or -1.
@@ -22,7 +22,7 @@ class Plane : public Surface {
 };
 
 struct PlaneWalls : WallShape {
-    std::string axis = "z";  // that they are normal to
+    std::string axis = "z";  // axis that the planes are normal to
     static const Schema<PlaneWalls>& schema();
 
     int normal() const { return axis[0] - 'x'; }

@@ -1,7 +1,7 @@
-// A surface with fluid on one side of it: plane, tube, the triangles of a file.
+// A surface with fluid on one side of it: plane, tube, triangles from a file.
 //
-// Distances have a sign: above 0 in the fluid, below 0 behind the surface. In a periodic box a surface has the period
-// of the box: every image of a point is at the same distance.
+// Distances have a sign: above 0 in the fluid, below 0 behind the surface. In a periodic box the surface is periodic
+// too: all images of a point are at the same distance.
 #pragma once
 #include <cstddef>
 
@@ -23,12 +23,12 @@ class Surface {
   public:
     virtual ~Surface() = default;
     virtual double distance(const Vec3& x) const = 0;  // [m]
-    // Of unit length, into the fluid, at the point of the surface that is nearest to x.
+    // Unit vector into the fluid, at the point of the surface that is nearest to x.
     virtual Vec3 normal(const Vec3& x) const = 0;
     virtual double area() const = 0;  // in one period of the box [m^2]
 
-    // least[i] = min(least[i], distance of point i). Every particle comes by at each step: a surface with a closed form
-    // has its own loop.
+    // least[i] = min(least[i], distance of point i). It is called for all particles at each step: surfaces with a
+    // closed form of the distance override it with a loop of their own.
     virtual void takeLeast(const Points& points, double* least) const;
 };
 

@@ -1,4 +1,4 @@
-// A wall: a surface, how it moves, and its number. Forces, budget and tables go by the number.
+// A wall: a surface, its velocity, and its number, by which forces, budget and tables refer to it.
 #pragma once
 #include <memory>
 #include <string>
@@ -9,9 +9,9 @@ namespace corpuscle::boundary {
 
 struct Wall {
     int number = 0;    // from 0
-    std::string name;  // in tables and messages: "lower"
+    std::string name;  // in tables and messages, such as "lower"
     std::shared_ptr<const Surface> surface;
-    Vec3 velocity = Vec3::Zero();  // [m/s]; along the surface, which stays where it is
+    Vec3 velocity = Vec3::Zero();  // [m/s]; tangential: the surface stays where it is
 
     double distance(const Vec3& x) const { return surface->distance(x); }
     Vec3 normal(const Vec3& x) const { return surface->normal(x); }

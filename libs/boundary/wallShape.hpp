@@ -1,5 +1,5 @@
-// Family of walls: which surfaces bound the fluid, from `walls` in constant/flow.yaml. What they do to the flow, moving
-// or at rest, is up to the flow (sph/flow.hpp).
+// Family of walls: the surfaces that bound the fluid, from `walls` in constant/flow.yaml. Their velocities are set by
+// the flow (sph/flow.hpp).
 #pragma once
 #include <array>
 #include <optional>
@@ -13,17 +13,17 @@ namespace corpuscle::boundary {
 class WallShape {
   public:
     static constexpr const char* familyName = "walls";
-    static constexpr const char* usualModel = "planes";  // of a table that does not say `type`
+    static constexpr const char* usualModel = "planes";  // model of a table without `type`
     virtual ~WallShape() = default;
 
-    // Whether they end the fluid along this axis (0, 1, 2), so that the box is not periodic along it.
+    // Whether the walls end the fluid along this axis (0, 1, 2), so that the box is not periodic along it.
     virtual bool isAcross(int axis) const = 0;
-    // The axis that they are normal to, where they are two parallel planes at the ends of the box.
+    // The normal axis of walls that are two parallel planes at the ends of the box; empty for other walls.
     virtual std::optional<int> planesAcross() const { return {}; }
 
     // The walls of a fluid in this box, at rest.
     virtual Walls place(const particles::Box& fluid) const = 0;
-    // Of the fluid between them, and of the layers behind them, as deep as this along each axis [m^3].
+    // Volume of the fluid between the walls; volume of the layers behind them, of this depth along each axis [m^3].
     virtual double volume(const particles::Box& fluid) const = 0;
     virtual double volumeBehind(const particles::Box& fluid, const Vec3& depth) const = 0;
 };

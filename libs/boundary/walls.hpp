@@ -1,4 +1,4 @@
-// All walls of a scene. Where they stand is said by a WallShape, how they move by the flow.
+// All walls of a scene. A WallShape gives their positions, the flow their velocities.
 #pragma once
 #include <vector>
 
@@ -8,7 +8,7 @@ namespace corpuscle::boundary {
 
 class Walls {
   public:
-    // A wall at rest, with the next number.
+    // Adds a wall at rest, with the next number.
     void add(std::string name, std::shared_ptr<const Surface> surface);
     void setVelocity(int number, const Vec3& velocity) {
         walls_.at(static_cast<std::size_t>(number)).velocity = velocity;
@@ -20,11 +20,11 @@ class Walls {
     auto begin() const { return walls_.begin(); }
     auto end() const { return walls_.end(); }
 
-    // The wall of least distance, the first of several. There must be one.
+    // The wall nearest to x; of several at the same distance, the first. There must be a wall.
     const Wall& nearest(const Vec3& x) const;
-    // From the nearest wall [m]; infinite where there are no walls.
+    // Distance from the nearest wall [m]; infinite without walls.
     double distance(const Vec3& x) const;
-    // The same of many points.
+    // The same for many points.
     void findDistances(const Points& points, std::vector<double>& distance) const;
 
   private:

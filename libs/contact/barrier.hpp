@@ -5,8 +5,8 @@
 // symbol | meaning                             | unit
 // k      | strength: energy per area           | N/m
 // R      | reach: gap at which contact begins  | m
-// C2 at the reach, infinite at g = 0. A pressure p holds the surfaces at the gap where -psi' = p: with s << 1, at about
-// g = k/p; with p = k/R, at 0.53 R.
+// psi is C2 at the reach and infinite at g = 0. Under a pressure p the surfaces rest at the gap where -psi' = p: about
+// g = k/p for s << 1; 0.53 R for p = k/R.
 //
 // Li et al. 2020, Incremental potential contact, ACM Trans. Graph. 39(4), 49.
 #pragma once

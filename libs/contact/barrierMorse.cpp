@@ -7,7 +7,7 @@
 namespace corpuscle::contact {
 namespace {
 
-// C(z): 1 at z <= 0, 0 at z >= 1, with two continuous derivatives.
+// C(z): 1 for z <= 0, 0 for z >= 1, with two continuous derivatives.
 ContactLaw::Value ending(double z) {
     if (z <= 0) return {1, 0, 0};
     if (z >= 1) return {};

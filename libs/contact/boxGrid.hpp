@@ -1,7 +1,7 @@
-// Boxes in a uniform grid of cubes: which of them meet a given box.
+// Boxes in a uniform grid of cubes, to find those that intersect a given box.
 //
-// Each cube lists the boxes that reach into it, in one array with the beginning of each cube's part. The cubes are as
-// large as the boxes are on average, or larger, so that there are at most `perBox` entries for each box.
+// Each cube has a list of the boxes that reach into it; all lists are in one array, with the index where each begins.
+// The cubes are as large as the boxes on average, or larger, so that there are at most `perBox` entries per box.
 #pragma once
 #include <vector>
 
@@ -11,9 +11,9 @@ namespace corpuscle::contact {
 
 class BoxGrid {
   public:
-    explicit BoxGrid(const std::vector<geometry::Bounds>& boxes);  // is kept by reference
+    explicit BoxGrid(const std::vector<geometry::Bounds>& boxes);  // kept by reference
 
-    // f(number) for each box that meets this one, once, in no particular order.
+    // f(number) once for each box that intersects this one, in no particular order.
     template <class F>
     void forMeeting(const geometry::Bounds& box, F&& f) {
         if (boxes_.empty() || !all_.intersects(box)) return;
@@ -48,7 +48,7 @@ class BoxGrid {
     double size_ = 1;  // of a cube, m
     Index3 count_{1, 1, 1};
     std::vector<int> begin_, entries_;
-    std::vector<unsigned> asked_;  // by which question each box was found last
+    std::vector<unsigned> asked_;  // number of the query that found each box last
     unsigned question_ = 0;
 };
 

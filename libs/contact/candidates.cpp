@@ -12,7 +12,7 @@ using geometry::Bounds;
 
 Bounds grown(const Bounds& box, double by) { return {box.min() - Vec3::Constant(by), box.max() + Vec3::Constant(by)}; }
 
-// Empty where a place is not finite: such a surface is near to nothing.
+// Bounds of the points; empty if a position is not finite, so that such a surface is near no other.
 Bounds finiteBounds(std::span<const Vec3> points) {
     Bounds all;
     for (const Vec3& x : points) {
@@ -22,7 +22,7 @@ Bounds finiteBounds(std::span<const Vec3> points) {
     return all;
 }
 
-// A surface with its nodes.
+// A surface with the positions of its nodes.
 struct Placed {
     const Surface& pieces;
     std::span<const Vec3> x;
@@ -38,7 +38,7 @@ struct Placed {
     }
 };
 
-// Pieces of one kind in part of space.
+// Pieces of one kind whose boxes intersect `part`.
 template <class Piece>
 struct Selection {
     std::vector<Bounds> boxes;
@@ -75,7 +75,7 @@ class Finder {
     Candidates take() { return std::move(found_); }
 
   private:
-    // Nodes of `own`, moved by the offset, against triangles of `target`.
+    // Finds nodes of `own`, moved by `offset`, near triangles of `target`.
     void addRows(const Placed& own, const Placed& target, const Vec3& offset, const Vec3& slide) {
         const Bounds part = grown(own.bounds.translated(offset), within_).intersection(target.bounds);
         if (part.isEmpty()) return;
@@ -119,7 +119,7 @@ class Finder {
         found_.rows.push_back(row);
     }
 
-    // Each of the numbers once, ascending, where it is wanted.
+    // Appends each wanted number once, in ascending order; returns begin and end in the list.
     template <class Wanted>
     static std::array<int, 2> append(std::vector<int>& list, std::vector<int>& numbers, Wanted&& wanted) {
         const int begin = static_cast<int>(list.size());
@@ -130,7 +130,7 @@ class Finder {
         return {begin, static_cast<int>(list.size())};
     }
 
-    // Edges of the first surface against those of the second, which stands at `shift` from where it is.
+    // Finds edges of the first surface near those of the second surface, moved by `shift`.
     void addEdgePairs(const Placed& first, const Placed& second, const Vec3& shift) {
         const Bounds part = grown(first.bounds.translated(-shift), within_).intersection(second.bounds);
         if (part.isEmpty()) return;

@@ -1,15 +1,15 @@
-// Which pieces of surfaces may touch: every node and triangle, and every two edges, of surfaces that are near each
-// other, or of one surface, whose distance is at most `within`, a length of each pair.
+// Pieces of surfaces that may touch: every pair of a node and a triangle, and of two edges, whose distance is at most
+// `within`, a length given for each pair of surfaces. A pair consists of two surfaces, or of a surface and itself.
 //
-// 1. Of two surfaces only what lies in the bounds of both, grown by `within`, is looked at.
-// 2. There, triangles (or edges) of one surface are listed in a grid of cubes about as large as they are, and each
-//    node (or edge) of the other asks the cubes around it. The grid is coarsened until its lists are short, so that
-//    memory goes with the number of pieces whatever their sizes.
-// 3. What is found is kept if its distance, as it stands, is at most `within`.
-// The order of the result depends on the input alone: pairs of surfaces as they are given, then the numbers of nodes
-// and edges, ascending.
+// 1. Of two surfaces, only the pieces in the intersection of their bounds, grown by `within`, are considered.
+// 2. The triangles (or edges) of one surface there are listed in a grid of cubes about as large as they are, and each
+//    node (or edge) of the other surface searches the cubes around it. The grid is coarsened until its lists are short,
+//    so that memory is proportional to the number of pieces, whatever their sizes.
+// 3. Pieces found in this way are kept if their present distance is at most `within`.
+// The order of the result depends on the input alone: pairs of surfaces as given, then numbers of nodes and edges,
+// ascending.
 //
-// All surfaces are numbered through: node n of surface s is node start[s] + n of the array of all places x [m].
+// Nodes are numbered surface by surface: node n of surface s is node start[s] + n of the array x of all positions [m].
 #pragma once
 #include <span>
 #include <vector>
@@ -19,33 +19,33 @@
 
 namespace corpuscle::contact {
 
-// A node and the pieces of one surface (triangles, and the edges and nodes of these) that are near it.
+// A node and the pieces of one surface (triangles, and the edges and nodes of these triangles) that are near it.
 struct NodeRow {
-    int node;                                    // among all nodes
-    int own, target;                             // surfaces: of the node, of the pieces
-    Vec3 offset;                                 // takes the node to its image beside the other surface [m]
-    Vec3 slide;                                  // by which this image is faster than the node [m/s]
+    int node;                                    // its number among all nodes
+    int own, target;                             // surface of the node, surface of the pieces
+    Vec3 offset;                                 // shift from the node to its image beside the other surface [m]
+    Vec3 slide;                                  // velocity of this image less that of the node [m/s]
     std::array<int, 2> triangles, edges, nodes;  // begin and end in the lists of Candidates
 };
 
 struct EdgePair {
-    int pair;           // of surfaces, in Candidates::pairs
-    int first, second;  // edges of its first and its second surface
+    int pair;           // index of the pair of surfaces in Candidates::pairs
+    int first, second;  // edge of the first surface, edge of the second
 };
 
 struct Candidates {
     std::vector<double> within;  // of each pair of surfaces [m]
     std::vector<geometry::ImagePair> pairs;
     std::vector<NodeRow> rows;
-    std::vector<int> triangles, edges, nodes;  // numbers in the surface `target` of their row, ascending in each row
+    std::vector<int> triangles, edges, nodes;  // numbers in the surface `target` of the row, ascending in each row
     std::vector<EdgePair> edgePairs;
 };
 
-// The first node of each surface, and behind the last their sum.
+// Number of the first node of each surface, and at the end the number of all nodes.
 std::vector<int> firstNodes(std::span<const Surface* const> surfaces);
 
-// pairs: of geometry::neighbours; (s, s, 0) is a surface and itself, of which pieces that share a node are left out.
-// within: of each pair [m].
+// pairs: from geometry::neighbours; (s, s, 0) pairs a surface with itself, where pieces that share a node are left out.
+// within: for each pair [m].
 Candidates findCandidates(std::span<const Surface* const> surfaces, std::span<const Vec3> x,
                           std::span<const geometry::ImagePair> pairs, std::span<const double> within);
 

@@ -1,14 +1,15 @@
-// Family of the laws of contact: energy psi(g) per area of two surfaces whose gap is g.
+// Family of contact laws: energy psi(g) per area of two surfaces with the gap g.
 //     g = distance - thickness
-// The thickness is an offset: surfaces touch at this distance. It stands for what lies outside the mesh (half the
-// membrane and the glycocalyx of each side), and keeps the meshes apart where the force is large.
+// The thickness is an offset: surfaces touch when their meshes are at this distance. It represents the layers outside
+// the meshes (half the membrane and the glycocalyx, on each side), and keeps the meshes apart where the force is large.
 // symbol    | meaning                                          | unit
 // g         | gap between the surfaces                         | m
 // thickness | distance of the meshes at which the gap is 0     | m
 // psi       | energy per area; infinite at g <= 0, 0 at reach  | J/m^2
 //
-// A law is a struct that derives from ContactLaw and has its coefficients, schema(), reach() and at(g); psi is C2 for
-// all g > 0, so that forces have a continuous derivative where a contact begins. barrier.hpp is the pattern.
+// A law is a struct that derives from ContactLaw, with its coefficients, schema(), reach() and at(g). psi must be C2
+// for all g > 0, so that forces have a continuous derivative where a contact begins. barrier.hpp is the model to
+// follow.
 #pragma once
 #include <optional>
 

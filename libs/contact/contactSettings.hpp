@@ -1,4 +1,4 @@
-// constant/contact.yaml: how membranes act on each other, and on walls, where they come near each other.
+// constant/contact.yaml: contact of membranes with each other, with themselves and with walls.
 //
 //     law: {type: barrier, reach: 0.1 um, strength: 1 uN/m}
 //     self: true

@@ -71,7 +71,7 @@ Contacts::Motion Contacts::motionOf(std::span<const Vec3> x, std::span<const Vec
         const Vec3 r = x[n] - middle;
         spread += r * r.transpose(), moved += (u[n] - motion.mean) * r.transpose();
     }
-    spread += 1e-9 * spread.trace() * Mat3::Identity();  // a flat sheet says nothing of what is across it
+    spread += 1e-9 * spread.trace() * Mat3::Identity();  // for a flat sheet, which leaves one direction undetermined
     const Mat3 gradient = spread.trace() > 0 ? Mat3(moved * spread.inverse()) : Mat3(Mat3::Zero());
     motion.gradient = gradient.norm();
     double most2 = 0, rest2 = 0;
@@ -135,7 +135,7 @@ void Contacts::evaluate(std::span<const Vec3> x) {
 void Contacts::addNode(const NodeRow& row, std::span<const Vec3> x) {
     places_.clear();
     addTriangles(row, x);
-    if (places_.empty()) return;  // edges and nodes are no nearer than their triangles
+    if (places_.empty()) return;  // edges and nodes are not nearer than their triangles
     addRims(row, x);
     const Surface &own = *surfaces_[row.own], &target = *surfaces_[row.target];
     const double share = nodeShare * target.meanNodeArea() / (own.meanNodeArea() + target.meanNodeArea());
@@ -157,7 +157,7 @@ void Contacts::addTriangles(const NodeRow& row, std::span<const Vec3> x) {
         const int corners = counts[0] + counts[1] + counts[2];
         if (corners == 3) {
             addPlace(onTriangle, number, 1, nodes, gap);
-        } else if (corners == 2) {  // the side after the corner behind the one that does not count
+        } else if (corners == 2) {  // on the side opposite to the corner with weight 0
             const std::size_t without = !counts[0] ? 0 : !counts[1] ? 1 : 2;
             addPlace(onEdge, target.sides()[number][(without + 1) % 3], 1, nodes, gap);
         } else {
@@ -167,7 +167,7 @@ void Contacts::addTriangles(const NodeRow& row, std::span<const Vec3> x) {
     }
 }
 
-// Edges and nodes of the triangles, with their coefficients.
+// Adds the edges and nodes of the triangles, with their coefficients.
 void Contacts::addRims(const NodeRow& row, std::span<const Vec3> x) {
     const Surface& target = *surfaces_[row.target];
     const int first = firstNode_[row.target];
@@ -212,7 +212,7 @@ void Contacts::addEdges(const EdgePair& pair, std::span<const Vec3> x) {
     const std::array<int, 4> nodes = nodesOf(pair);
     const FourNodes at{x[nodes[0]] - both.shift, x[nodes[1]] - both.shift, x[nodes[2]], x[nodes[3]]};
     const CrossingFactor m = crossingFactor(at[0], at[1], at[2], at[3]);
-    if (!(m.value > 0)) return;  // the ends are nearer, and are nodes of triangles
+    if (!(m.value > 0)) return;  // such contacts are covered by nodes near triangles
     const Gap gap = edgeToEdge(at[0], at[1], at[2], at[3]);
     leastGap_ = std::min(leastGap_, gap.distance - law_->thickness);
     if (gap.distance >= law_->range()) return;

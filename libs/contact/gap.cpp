@@ -13,12 +13,12 @@ Gap gapOf(const Vec3& vector, const std::array<double, 4>& weights) {
     return {distance, distance > 0 ? Vec3(vector / distance) : Vec3::Zero(), weights};
 }
 
-// The nearest of several, the first of them where they are equally near.
+// Keeps the nearer of the two; at equal distance, `least`.
 void takeNearer(Gap& least, const Gap& other) {
     if (other.distance < least.distance) least = other;
 }
 
-// Of a triangle without area: its sides.
+// Gap of a node and a triangle without area: that of the nearest side.
 Gap nodeToSides(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
     Gap least = nodeToEdge(x, a, b);
     const Gap second = nodeToEdge(x, b, c), third = nodeToEdge(x, c, a);
@@ -27,7 +27,7 @@ Gap nodeToSides(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) {
     return least;
 }
 
-// Least distance of the ends of each edge from the other edge.
+// The least gap between an end of either edge and the other edge.
 Gap endsToEdges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Gap atC = nodeToEdge(c, a, b), atD = nodeToEdge(d, a, b);
     Gap least{atC.distance, atC.normal, {atC.weights[1], atC.weights[2], 1, 0}};
@@ -38,7 +38,7 @@ Gap endsToEdges(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return least;
 }
 
-// The scalar products that the nearest points of two lines depend on, and these points.
+// The nearest points of two lines, and the scalar products from which they are computed.
 //     u = b - a, v = d - c, r = c - a;   s = (p cc - b q)/D,  t = (p b - aa q)/D,  D = aa cc - b^2 = |u x v|^2
 // or, with less rounding where the lines are nearly parallel, s = (r x v).(u x v)/D and t = (r x u).(u x v)/D.
 struct TwoLines {
@@ -59,7 +59,7 @@ struct TwoLines {
           D(cross.squaredNorm()) {}
 
     double sine2() const { return D / (aa * cc); }
-    // Whether the lines are not parallel; then s and t are known.
+    // Computes s and t; false if the lines are parallel.
     bool findNearest(double leastSine2) {
         if (!(D > leastSine2 * aa * cc)) return false;
         s = r.cross(v).dot(cross) / D;
@@ -114,7 +114,7 @@ Gap edgeToEdge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         const Vec3 normal = lines.cross / (height < 0 ? -std::sqrt(lines.D) : std::sqrt(lines.D));
         return {std::abs(height), normal, lines.weights()};
     }
-    // Nearly parallel: s is rounded, t is to fit it, and an end may be as near.
+    // Nearly parallel: s has a rounding error, t is computed to match it, and an end may be as near.
     lines.t = std::clamp((lines.s * lines.b - lines.q) / lines.cc, 0.0, 1.0);
     Gap least = gapOf(lines.r + lines.t * lines.v - lines.s * lines.u, lines.weights());
     takeNearer(least, endsToEdges(a, b, c, d));
@@ -128,7 +128,7 @@ CrossingFactor crossingFactor(const Vec3& a, const Vec3& b, const Vec3& c, const
     const Smooth P = parallelFactor(sine2), S = endFactor(l.s), T = endFactor(l.t);
     const double byS = P.value * S.slope * T.value / l.D, byT = P.value * S.value * T.slope / l.D;
     const double bySine2 = P.slope * S.value * T.value;
-    // By the scalar products: s = Ns/D, t = Nt/D, and D itself.
+    // Derivatives by the scalar products: of s = Ns/D and t = Nt/D, and of D itself.
     const double byD = -byS * l.s - byT * l.t;
     const double byAa = -byT * l.q + byD * l.cc + bySine2 * (1 - sine2) / l.aa;
     const double byB = -byS * l.q + byT * l.p - 2 * byD * l.b - 2 * bySine2 * l.b / (l.aa * l.cc);

@@ -1,8 +1,8 @@
-// A triangulated surface as contact sees it: its pieces (triangles, edges, nodes), the areas that they stand for, and
-// the coefficients by which the distances to pieces that overlap are counted once.
+// A triangulated surface for contact: its pieces (triangles, edges, nodes), the areas that they represent, and the
+// coefficients by which pieces that overlap are counted once.
 //
-// Energies of contact are sums over pieces times areas of the reference state, so that a surface has no less contact
-// where it is compressed:
+// Energies of contact are sums over pieces, weighted by areas of the reference state, so that contact does not become
+// weaker where a surface is compressed:
 //     area of a node = third of its triangles' area              sum: area of the surface
 //     width of an edge = third of its triangles' area/length     sum of length x width: area of the surface
 // Triangles, edges and nodes of a surface overlap: a point above an edge is equally near to the edge, to its two
@@ -11,8 +11,7 @@
 // the sum of c_F over all pieces F within a distance r of a point is the Euler characteristic of the part of the
 // surface that lies in the ball of radius r around it: 1 where this part is a disc, 2 where it is two of them.
 //
-// Open borders are allowed, and edges with any number of triangles. What belongs to no triangle is no surface and has
-// no contact.
+// Open borders are allowed, and edges with any number of triangles. Nodes that belong to no triangle have no contact.
 #pragma once
 #include <array>
 #include <span>
@@ -26,7 +25,7 @@ using Edge = std::array<int, 2>;  // its nodes, the lower number first
 
 class Surface {
   public:
-    // reference: places of the nodes where areas and lengths are taken [m].
+    // reference: positions of the nodes in the reference state, from which areas and lengths are computed [m].
     Surface(std::span<const Vec3> reference, std::span<const Index3> triangles);
 
     std::size_t nodes() const { return nodeArea_.size(); }
@@ -37,7 +36,7 @@ class Surface {
     const std::vector<double>& edgeWidth() const { return edgeWidth_; }  // m
     const std::vector<int>& edgeCoefficient() const { return edgeCoefficient_; }  // c_E
     const std::vector<int>& nodeCoefficient() const { return nodeCoefficient_; }  // c_V
-    double meanNodeArea() const { return meanNodeArea_; }                         // m^2, of nodes with triangles
+    double meanNodeArea() const { return meanNodeArea_; }                         // m^2, over nodes with triangles
 
   private:
     void findEdges();
@@ -51,11 +50,11 @@ class Surface {
     double meanNodeArea_ = 0;
 };
 
-// Largest reach + thickness [m] of a law for contact of this surface with itself: below the distance of pieces of an
-// undeformed mesh that have no node in common,
+// Largest reach + thickness [m] of a law for contact of this surface with itself,
 //     min(0.4 x shortest edge, 0.8 x least height of a triangle)
-// which is about 0.47 of an edge in meshes with angles above 30 degrees. With more, pieces that are merely neighbours
-// in the mesh would count as contacts.
+// It is below the distance of pieces of the undeformed mesh that have no node in common, which is about 0.47 of an edge
+// in meshes with angles above 30 degrees. With a larger range, pieces that are merely neighbours in the mesh would
+// count as contacts.
 double largestReach(std::span<const Vec3> nodes, std::span<const Index3> triangles);
 
 }  // namespace corpuscle::contact

@@ -9,10 +9,10 @@ namespace corpuscle::contact {
 namespace {
 
 constexpr int mostTerms = 200;
-constexpr double rounding = 1e-9;  // of a term, left out
+constexpr double rounding = 1e-9;  // fraction of each term left out, for rounding errors
 
 struct NodeTriangle {
-    static constexpr std::array<std::size_t, 1> front{0};  // where the normal of the gap points to
+    static constexpr std::array<std::size_t, 1> front{0};  // nodes of the piece that the normal of the gap points to
     static constexpr std::array<std::size_t, 3> back{1, 2, 3};
     static Gap gap(const FourNodes& x) { return nodeToTriangle(x[0], x[1], x[2], x[3]); }
 };
@@ -29,7 +29,7 @@ double largest(const FourNodes& u, const std::array<std::size_t, n>& nodes) {
     return most;
 }
 
-// Until a node of one piece and one of the other are nearer than `least` along the normal n.
+// Fraction of u until a node of one piece and a node of the other are nearer than `least` along the normal n.
 template <class Pieces>
 double alongNormal(const FourNodes& x, const FourNodes& u, const Vec3& n, double least) {
     double free = std::numeric_limits<double>::infinity();

@@ -1,15 +1,15 @@
-// How far four nodes may move along given straight lines before two pieces of surface meet: additive continuous
-// collision detection (Li, Kaufman, Jiang 2021).
+// How far four nodes may move along straight lines before two pieces of surface meet: additive continuous collision
+// detection (Li, Kaufman, Jiang 2021).
 //
-// The distance of the pieces after the fraction T of the displacements, d(T), falls no faster than
+// The distance d(T) of the pieces after the fraction T of the displacements decreases no faster than at the rate
 //     l = largest displacement of the first piece + largest of the second,   each less the mean of the four nodes,
-// so that from T the fraction (d(T) - least)/l more is free. So is, with any unit vector n, the fraction up to which
-// n.(x_i - x_j) >= least for all nodes i of the one and j of the other piece; with the normal at T as n it is long for
-// pieces that slide past each other. The greater of the two is added up until little is left; each partial sum is
-// itself safe, and the number of terms is bounded.
+// so that from T a further fraction (d(T) - least)/l is free. With any unit vector n, the further fraction up to which
+// n.(x_i - x_j) >= least holds for all nodes i of one piece and j of the other is also free; with n the normal at T,
+// this fraction is large for pieces that slide past each other. The larger of the two is added repeatedly until little
+// is left; each partial sum is itself safe, and the number of terms is bounded.
 //     least = thickness + share (d(0) - thickness)     the distance that is kept
-// Pieces that begin nearer than the thickness (triangles squeezed flat) are kept from meeting only: their thickness
-// counts as 0.
+// For pieces that start nearer than the thickness (triangles squeezed flat), the thickness is taken as 0: they are only
+// kept from meeting.
 // symbol    | meaning                                              | unit
 // d         | distance of the pieces                               | m
 // thickness | distance at which the surfaces touch                 | m
@@ -30,8 +30,8 @@ struct Keep {
     double share = 0.1;    // above 0, below 1
 };
 
-// Largest fraction of the displacements `u` [m] that is known to be free, at most `most`. Node 0 and the triangle of
-// nodes 1 to 3; the edge of nodes 0 and 1 and that of nodes 2 and 3.
+// Fraction of the displacements `u` [m] from x that is known to be free, at most `most`. nodeTriangleTravel: node 0 and
+// the triangle of nodes 1 to 3. edgeEdgeTravel: the edge of nodes 0 and 1, and that of nodes 2 and 3.
 double nodeTriangleTravel(const FourNodes& x, const FourNodes& u, const Keep& keep, double most = 1);
 double edgeEdgeTravel(const FourNodes& x, const FourNodes& u, const Keep& keep, double most = 1);
 

@@ -21,7 +21,7 @@ void AppendedFile::add(const std::string& text) {
         if (part > 0) written += static_cast<std::size_t>(part);
         if (part > 0 || (part < 0 && errno == EINTR)) continue;
         const int reason = part < 0 ? errno : EIO;
-        // A table must not end in half a row. What stands there already needs no room, so that this works on a full
+        // A table must not end in half a row, so the part written is cut off. This needs no space and works on a full
         // disk.
         if (before >= 0 && written > 0) [[maybe_unused]]
             const int cut = ::ftruncate(descriptor_, before);

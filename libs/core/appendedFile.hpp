@@ -1,4 +1,4 @@
-// A text file that grows line by line: what is added reaches the system at once, whole or not at all.
+// A text file that grows line by line. Each addition reaches the operating system at once, as a whole or not at all.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -8,8 +8,8 @@ namespace corpuscle {
 
 class AppendedFile {
   public:
-    AppendedFile() = default;  // none
-    // Goes on behind what the file has. Failure(io) when it cannot be opened for writing.
+    AppendedFile() = default;  // no file
+    // Appends to the file, or creates it. Failure(io) when it cannot be opened for writing.
     explicit AppendedFile(std::filesystem::path file);
     AppendedFile(AppendedFile&& other) noexcept
         : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -20,7 +20,7 @@ class AppendedFile {
     }
     ~AppendedFile() { close(); }
 
-    // Failure(io); the file then is as it was before.
+    // Failure(io) when the text cannot be written as a whole; the file is then as it was before.
     void add(const std::string& text);
     void close();
     bool isOpen() const { return descriptor_ >= 0; }

@@ -283,8 +283,8 @@ void Application::reportFailure(ExitCode code, const std::exception& error, bool
     if (record_) record_->fail(code, error.what());
 }
 
-// All ranks meet here. A rank that failed alone waits a little for the others, who may be on their way with the same
-// failure, and then ends them, since they wait for it inside the body.
+// All ranks meet here. A rank that failed alone waits a little for the others, which may be about to arrive with the
+// same failure, and then ends them, since they are waiting for it inside the body.
 int Application::endTogether(ExitCode code, const std::exception* error) {
     const int own = static_cast<int>(code);
     if (error && communicator_->isRoot()) reportFailure(code, *error, false);
@@ -313,8 +313,7 @@ int Application::endTogether(ExitCode code, const std::exception* error) {
     return -receive[0];
 }
 
-// JSON on standard output is a result: one that could not be written is a failure, unless the reader has closed its
-// pipe.
+// JSON on standard output is a result: failing to write it is an error, unless the reader has closed its pipe.
 void Application::requireOutput() const {
     if (!has("json") || !communicator_->isRoot()) return;
     errno = 0;

@@ -10,9 +10,9 @@
 //         });
 //     }
 //
-// A wrong command line, -help and -version are dealt with in run(), which then does not enter the body. Whatever the
-// body throws is printed once and becomes the exit code; when one rank fails while others wait for it, all are ended
-// with that code. A closed pipe (dmpFlow | head) does not end a program: its log file has what the terminal misses.
+// run() handles -help, -version and a wrong command line, and then does not call the body. An exception from the body
+// is printed once and determines the exit code; when one rank fails while others wait for it, all ranks are ended with
+// that code. A closed pipe (dmpFlow | head) does not end a program: what the terminal misses is still in the log file.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -40,9 +40,9 @@ struct Option {
 std::vector<Option> solverOptions();
 
 struct Usage {
-    std::vector<Option> options = {};       // beside -case -set -quiet -json -help -version
-    std::vector<Option> arguments = {};     // words without dash, in order; name "FROM"; all are required ...
-    std::size_t optionalArguments = 0;      // ... but the last so many
+    std::vector<Option> options = {};       // in addition to -case -set -quiet -json -help -version
+    std::vector<Option> arguments = {};     // positional, in order; name "FROM"; all are required ...
+    std::size_t optionalArguments = 0;      // ... except this number of them, the last ones
     std::vector<std::string> samples = {};  // sample runs, "dmpFlow -case rbcShear/Ca0.02 -steps 10"
 };
 
@@ -56,36 +56,37 @@ class Application {
     const std::string& name() const { return name_; }
     const Communicator& communicator() const { return *communicator_; }
     Log& log() { return *log_; }
-    bool json() const { return has("json"); }  // stdout is for one JSON value, which the application prints
+    // With -json, standard output carries one JSON value only, which the application prints.
+    bool json() const { return has("json"); }
 
     std::filesystem::path caseDirectory() const;
     std::filesystem::path path(const std::string& inCase) const { return caseDirectory() / inCase; }
 
     bool has(const std::string& option) const { return given_.contains(option); }
     std::optional<std::string> value(const std::string& option) const;
-    // Failure(usage) when the text is no whole number of at least `low`.
+    // Failure(usage) when the value is not a whole number of at least `low`.
     std::optional<long> integer(const std::string& option, long low = 0) const;
     const std::vector<std::string>& arguments() const { return arguments_; }
     std::string commandLine() const { return commandLine_; }
     const std::vector<Override>& overrides() const { return overrides_; }
 
-    // Collective. A file of the case, read by the root, with the -set changes laid over it.
+    // Collective. A dictionary of the case, read by the root, with the -set changes applied.
     Node dictionary(const std::string& inCase, Problems& problems) const;
     // Whether the case has this file. Collective.
     bool hasDictionary(const std::string& inCase) const;
 
-    // Name, version and command on the terminal, and later in the log.
+    // Prints name, version and command line on the terminal; the log file gets them when it is opened.
     void announce();
-    // From here until the end of the program, no other program writes in the case (caseLock.hpp). Before a program
-    // changes any file. Collective.
+    // Locks the case until the program ends: no other program can write in it (caseLock.hpp). To be called before the
+    // program changes any file. Collective.
     void lockCase();
-    // log.<application> in the case directory: a new one, or, of a run that continues an earlier one, the old one after
-    // a line that says so. Not before it is certain that the program does what it was asked for: a refused command
-    // changes no file.
+    // Opens log.<application> in the case directory: a new file or, for a run that continues an earlier one, the old
+    // file, which is continued after a line that says so. To be called only when it is certain that the program will do
+    // what it was asked for, since a rejected command must not change any file.
     enum class LogStart { anew, continued };
     void openLog(LogStart start = LogStart::anew);
 
-    // Where an error that ends the program is to be recorded, as well as on the terminal and in the log.
+    // Sets the record that also receives an error that ends the program, besides the terminal and the log.
     void keepRecord(std::shared_ptr<RunRecord> record) { record_ = std::move(record); }
 
     int run(const std::function<ExitCode()>& body);
@@ -107,7 +108,7 @@ class Application {
     std::vector<Override> overrides_;
     std::optional<Failure> usageFailure_;
     bool ownsMpi_ = false;
-    MPI_Comm meeting_ = MPI_COMM_NULL;  // only for the end, so that nothing else can be mistaken for it
+    MPI_Comm meeting_ = MPI_COMM_NULL;  // used only in endTogether(), so that no other collective call can match it
     std::optional<Communicator> communicator_;
     std::optional<Log> log_;
     std::optional<CaseLock> lock_;

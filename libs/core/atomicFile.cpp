@@ -20,7 +20,7 @@ namespace corpuscle {
 
 void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room) {
     std::error_code none;
-    if (std::filesystem::is_symlink(file, none)) {  // the link stays, and what it names is written
+    if (std::filesystem::is_symlink(file, none)) {  // the link is kept, and its target is written
         const std::filesystem::path target = std::filesystem::weakly_canonical(file, none);
         if (!none && target != file) return writeFileAtomically(target, text, room);
     }
@@ -34,13 +34,13 @@ void writeFileAtomically(const std::filesystem::path& file, const std::string& t
     std::FILE* stream = std::fopen(temporary.c_str(), "wb");
     if (!stream) throw writeFailure(file, errno);
     struct stat before {};
-    if (stat(file.c_str(), &before) == 0 && S_ISREG(before.st_mode))  // its permissions stay; where that cannot be,
-        [[maybe_unused]]                                              // it is written all the same
+    if (stat(file.c_str(), &before) == 0 && S_ISREG(before.st_mode))  // its permissions are kept; where that is
+        [[maybe_unused]]                                              // impossible, it is written all the same
         const int changed = fchmod(fileno(stream), before.st_mode & 07777);
     bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
     written = written && std::fflush(stream) == 0 && fsync(fileno(stream)) == 0;
     int reason = errno;
-    // Where the system cannot reserve room, the file does without.
+    // Where the system cannot reserve space, the file is written without a reserve.
     if (written && room > 0) [[maybe_unused]]
         const int reserved = fallocate(fileno(stream), FALLOC_FL_KEEP_SIZE, 0, room);
     if (std::fclose(stream) != 0 && written) {

@@ -1,18 +1,19 @@
-// A file that is either the old one or the whole new one, whatever happens in between: the text goes to a temporary
-// name beside it, is flushed to disk, and takes the name by a rename. Permissions stay, and a link goes on naming its
-// file.
+// Atomic replacement of a file: whatever happens, either the old or the complete new content is there. The text is
+// written under a temporary name in the same folder, flushed to disk and renamed. Permissions are kept; a symbolic link
+// stays, and the file that it points to is replaced.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace corpuscle {
 
-// Creates missing directories. Failure(io) with the path and the system's reason (core/writeFailure.hpp). `room`: bytes
-// that the disk keeps for the file, whose length stays that of the text, so that overwriteFile() works on a full disk.
+// Creates missing directories. Failure(io) with the path and the system's reason (core/writeFailure.hpp). `room`: disk
+// space [bytes] reserved for the file, whose length stays that of the text, so that overwriteFile() works on a full
+// disk.
 void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room = 0);
 
-// The last resort on a full disk: puts the text in the place of the old one, in the blocks that the file has. Not
-// atomic. False where there are too few.
+// Last resort on a full disk: overwrites the old text within the disk blocks that the file already has. Not atomic.
+// Returns false where these blocks are too few.
 bool overwriteFile(const std::filesystem::path& file, const std::string& text);
 
 // The whole file. Failure(io) when it cannot be read.

@@ -34,7 +34,7 @@ BlockAverage blockAverage(std::span<const double> values) {
     std::vector<std::size_t> counts;  // n_b
     for (std::vector<double> blocks(values.begin(), values.end()); blocks.size() >= fewestToSee;) {
         variance.push_back(varianceOfMean(blocks, found.mean)), counts.push_back(blocks.size());
-        const std::size_t odd = blocks.size() % 2;  // the first is left out then
+        const std::size_t odd = blocks.size() % 2;  // then the first block is left out
         for (std::size_t k = 0; k < blocks.size() / 2; ++k)
             blocks[k] = 0.5 * (blocks[2 * k + odd] + blocks[2 * k + 1 + odd]);
         blocks.resize(blocks.size() / 2);

@@ -13,7 +13,8 @@ namespace corpuscle {
 
 namespace {
 
-// Of "Eigen 3.4.0,VTK 9.1.0", and the beginning of MPI's own words: "Open MPI v4.1.4".
+// Names and versions from a list, "Eigen 3.4.0,VTK 9.1.0", then MPI with the start of its own version text: "Open MPI
+// v4.1.4".
 std::vector<std::pair<std::string, std::string>> libraries(const std::string& list) {
     std::vector<std::pair<std::string, std::string>> all;
     std::istringstream entries(list);

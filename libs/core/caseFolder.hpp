@@ -1,8 +1,8 @@
-// What a case directory consists of: settings that people write, and what programs make of them.
+// Contents of a case directory: settings written by users, and output written by programs.
 //
-// Written by programs: the start (0/), results/, postProcessing/, checkpoints/, log.*, run.json, used.yaml, .schema/;
-// by a study in each of its cases also sweep.json; by tutorials that run several cases runs/. Everything else is the
-// user's and is never removed.
+// Programs write the initial state (0/), results/, postProcessing/, checkpoints/, log.*, run.json, used.yaml and
+// .schema/; a study also writes sweep.json in each of its cases, and tutorials that run several cases write runs/.
+// Everything else belongs to the user and is never removed.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,23 +12,24 @@ namespace corpuscle {
 
 bool isCase(const std::filesystem::path& folder);  // has system/control.yaml or system/relax.yaml
 
-// Throws Failure where it is none, with the cases that lie in it.
+// Throws Failure when the folder is not a case; the message lists the cases in it.
 void requireCase(const std::filesystem::path& folder);
 
-// Whether programs have written this (a path in a case), the cases of a study among it, or it is hidden.
+// Whether a path in a case was written by programs (this includes the folder of a study's cases) or is hidden.
 bool isOutput(const std::filesystem::path& path);
 
 struct CopiedCase {
-    std::vector<std::string> copied, left;  // names in the case; hidden ones are not told
+    std::vector<std::string> copied, left;  // names in the case, without hidden ones
 };
 
-// Copies a case without its output. `to` must not exist, or be an empty directory; it must not lie in `from`, but below
-// `excluded`, a name in `from` that is left out too (empty: none). Throws Failure.
+// Copies a case without its output and without `excluded`, a name in `from` (empty: none). `to` must not exist, or must
+// be an empty directory; it may lie in `from` only below `excluded`. Throws Failure.
 CopiedCase copyCase(const std::filesystem::path& from, const std::filesystem::path& to,
                     const std::string& excluded = {});
 
-// Paths of all other files that a copy takes along and that a run may depend on, sorted: not pages (.md), pictures
-// (.png), a study's dictionary, scripts without ending at the top, and copies that editors leave.
+// Sorted paths of all files, other than dictionaries, that a copy takes along and that a run may depend on. Left out
+// are pages (.md), pictures (.png), a study's dictionary, scripts without extension at the top level, and copies left
+// by editors.
 std::vector<std::string> dataFilesOf(const std::filesystem::path& caseDir, const std::string& excluded = {});
 
 // Paths of all dictionaries: "system/control.yaml", "constant/cells/x.yaml", ..., sorted.

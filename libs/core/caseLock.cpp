@@ -42,7 +42,7 @@ bool isStillAt(const std::filesystem::path& path, int descriptor) {
            there.st_ino == here.st_ino;
 }
 
-// What the file says: "key: value", line by line.
+// Content of the file: "key: value", line by line.
 struct Holder {
     std::string program = "another program", process, host, boot, since, inode;
 
@@ -82,9 +82,9 @@ std::string ownText(const std::string& program, int descriptor) {
         program, getpid(), machineInfo().host, bootId(), timestamp(), inodeOf(descriptor));
 }
 
-// Signals that end the program before it has its own way to stop. The path stays where a handler may read it. While the
-// file is being made or removed such a signal waits, so that it can neither leave the file behind nor remove that of
-// another program.
+// Signals that end the program before it has its own way to stop (StopControl). The path is kept where a signal handler
+// may read it. While the file is being created or removed, such a signal is deferred, so that it can neither leave the
+// file behind nor remove that of another program.
 char pathToRemove[4096] = "";
 constexpr int endings[] = {SIGINT, SIGTERM, SIGHUP};
 volatile std::sig_atomic_t isWaiting = 0, waiting = 0;
@@ -148,7 +148,8 @@ void disarmSignals() {
                     path.string(), holder.text(), machineInfo().host, holder.host, holder.process, path.string()));
 }
 
-// Why the file means nothing, though nobody has removed it; empty: it is not left over, but new.
+// Why the file that was found is stale; empty: it is not left over, but new. Throws where its program may still be at
+// work.
 std::string whyStale(const std::filesystem::path& path, int descriptor, bool systemDecides) {
     const Holder holder = readHolder(descriptor);
     if (holder.process.empty()) return {};

@@ -45,7 +45,7 @@ bool inRange(const Node& node, double value, Dimension dimension, const Range& r
     return false;
 }
 
-// Why a text that people write for a number is not one; "" where there is nothing to say about it in particular.
+// Why a text that people write for a number is not read as one; "" where there is no particular reason.
 std::string whyNoNumber(const std::string& text) {
     static const std::regex notFinite("[+-]?[.]?(?:nan|inf|infinity)(?: .*)?", std::regex::icase),
         hexadecimal("[+-]?0[xX].*"), octal("0o[0-7]+.*"), comma("([+-]?[0-9]+),([0-9]+)(.*)"),
@@ -68,7 +68,7 @@ std::string whyNoNumber(const std::string& text) {
     return "";
 }
 
-// Whether the number at the start of the text is too large or too small for anything that it could stand for.
+// Whether the magnitude of the number at the start of the text is too large or too small for any setting.
 bool isBeyond(const std::string& text) {
     const char* first = text.data() + (!text.empty() && text[0] == '+');
     double number = 0;
@@ -168,7 +168,7 @@ bool isAllowed(const Node& node, const std::vector<std::string>& allowed, Proble
     return false;
 }
 
-// The text without a final "<unit>", if it ends so.
+// The text without a final `unit`, if it is a number followed by that unit.
 std::optional<std::string> without(const std::string& text, const std::string& unit) {
     if (text.size() <= unit.size() || !text.ends_with(unit)) return std::nullopt;
     std::string number = text.substr(0, text.size() - unit.size());
@@ -347,7 +347,7 @@ Codec<Vec3> vector(Dimension dimension, Range range) {
                 Vec3 components;
                 for (int k = 0; k < 3; ++k) {
                     const auto read = readNumber(node.items[static_cast<std::size_t>(k)], dimension, range, problems);
-                    if (!read) return;  // one message for a unit that all three lack
+                    if (!read) return;  // a unit that all three lack gives one message
                     components[k] = *read;
                 }
                 value = components;
@@ -382,7 +382,7 @@ Codec<std::array<bool, 3>> booleans() {
                 if (!isListOf(node, 3, "three of true or false like '[true, true, false]'", problems) ||
                     !hasNoUnit(node, problems))
                     return;
-                const std::size_t before = problems.count();  // one message for what all three have wrong
+                const std::size_t before = problems.count();  // a mistake in all three gives one message
                 for (std::size_t k = 0; k < 3 && problems.count() == before; ++k)
                     one.read(node.items[k], value[k], problems);
             },

@@ -47,7 +47,7 @@ std::vector<T> gatheredAll(T value, MPI_Comm comm, int size) {
     return all;
 }
 
-// Where each of the parts begins, and behind the last the end.
+// Offset of each part, and after the last one the end.
 std::vector<int> startsOf(const std::vector<int>& lengths) {
     std::vector<int> starts(lengths.size() + 1, 0);
     std::size_t total = 0;

@@ -1,4 +1,4 @@
-// The ranks that run together: a thin view of an MPI communicator. A serial run has one rank, and the same code.
+// The ranks that run together: a thin view of an MPI communicator. A serial run is the same code with one rank.
 //
 // Every function but rank(), size(), isRoot() and handle() is collective: all ranks call it in the same order. Sums are
 // taken in an order that depends on the number of ranks only, so the same number of ranks gives the same bits.
@@ -32,13 +32,13 @@ class Communicator {
     std::vector<double> min(std::vector<double> values) const;
     std::vector<double> max(std::vector<double> values) const;
     std::vector<long> sum(std::vector<long> values) const;
-    // The same in place.
+    // Sum and maximum as above, in place.
     void addUp(std::span<double> values) const;
     void takeLargest(std::span<double> values) const;
     bool allTrue(bool value) const;
     bool anyTrue(bool value) const;
 
-    // What the root has, on every rank.
+    // The value of the root, on every rank.
     double broadcast(double value) const;
     long broadcast(long value) const;
     std::string broadcast(std::string text) const;
@@ -49,8 +49,8 @@ class Communicator {
     // One text for each rank; empty on all ranks but the root.
     std::vector<std::string> gather(const std::string& text) const;
 
-    // What each rank has for each other and for itself: forRank[r] goes to rank r, and the result's r is what rank r
-    // had for this one.
+    // All-to-all exchange: forRank[r] is sent to rank r, this rank included; entry r of the result is what rank r sent
+    // to this rank.
     std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& forRank) const;
     std::vector<std::vector<int>> exchange(const std::vector<std::vector<int>>& forRank) const;
 

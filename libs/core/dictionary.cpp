@@ -198,7 +198,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool hasRoot_ = false;
 };
 
-// What is said about a value that YAML cannot read.
+// Message about a value that YAML cannot read.
 std::string hint(const std::string& message) {
     if (message.find("anchor is not defined") != std::string::npos)
         return "an alias (*name); write the value out, anchors and aliases are not part of a dictionary";
@@ -213,8 +213,9 @@ Node parse(const std::string& text, const std::string& shownAs, bool tableOnly, 
     const DictionaryText units = dictionaryText(text, shownAs, problems);
     Node root;
     root.mark = {shownAs, 1, 1};
-    if (problems.count() != before) return root;  // YAML would stumble over the same place once more
-    // What another format would write there says more than YAML's complaint. Lines are from 1, 0 for all.
+    if (problems.count() != before) return root;  // YAML would report the same place once more
+    // A habit from another format, if there is one, explains more than YAML's message. `line` counts from 1; 0: all
+    // lines.
     const auto complain = [&](const Mark& mark, const std::string& message, int line) {
         if (const auto habit = foreignHabit(units.text, shownAs, line))
             problems.add(habit->mark, "", habit->message);

@@ -35,7 +35,7 @@ const Node* childOf(const Node& node, const std::string& word) {
     return i ? &node.items[*i] : nullptr;
 }
 
-// Nodes along a path, the root first, as far as they are there.
+// Nodes along a path, the root first, as far as they exist.
 std::vector<const Node*> chainTo(const Node& root, const std::vector<std::string>& words) {
     std::vector<const Node*> chain{&root};
     for (const std::string& word : words) {
@@ -79,10 +79,10 @@ class Layout {
         return at < text_.size() && (text_[at] == '[' || text_[at] == '{');
     }
 
-    // Where a value begins: for one that has lines of its own, the first of them.
+    // Start of a value; of a value on lines of its own, the first of them.
     std::size_t begin(const Node& node) const { return offset(node.mark); }
 
-    // Behind the last character of a value.
+    // One past the last character of a value.
     std::size_t end(const Node& node) const {
         const std::size_t at = offset(node.mark);
         if (at == nowhere) return nowhere;
@@ -94,7 +94,7 @@ class Layout {
         return node.entries.empty() ? at : end(node.entries.back().value);
     }
 
-    // Behind the colon of the key of a value.
+    // One past the colon after the key of a value.
     std::size_t behindColon(const Node& value) const {
         const std::size_t key = offset(value.keyMark);
         if (key >= text_.size()) return nowhere;
@@ -136,7 +136,7 @@ class Layout {
     }
 
   private:
-    // Behind the quotation mark that ends the text that begins at `at`.
+    // One past the closing quotation mark of the text that begins at `at`.
     std::size_t closingQuote(std::size_t at) const {
         const char quote = text_[at];
         for (std::size_t i = at + 1; i < text_.size(); ++i) {
@@ -188,7 +188,7 @@ std::string commentLines(const std::string& text, std::size_t begin, std::size_t
     return lines;
 }
 
-// The value that stands at `node`, in place of the old one. Empty: the layout is not understood.
+// The text with `value` in place of the value of `node`. Empty: the layout is not understood.
 std::string withValue(const std::string& text, const Layout& layout, const Node& node, const std::string& value) {
     if (node.mark.line == 0) return {};
     const bool ownLines = node.kind != Node::Kind::scalar && !layout.inBrackets(node);
@@ -198,14 +198,14 @@ std::string withValue(const std::string& text, const Layout& layout, const Node&
     if (begin == nowhere || end == nowhere) return {};
     const std::string now = (hasKey ? " " : "") + value;
     if (!ownLines) return replaced(text, begin, std::max(begin, end), now);
-    // Comments between the lines that go stay, behind the line of the new value.
+    // Comments between the removed lines are kept, after the line of the new value.
     const std::string comments = commentLines(text, begin, end);
     const std::size_t lineEnd = layout.nextLine(end);
     return replaced(text, begin, lineEnd,
                     now + text.substr(end, lineEnd - end) + (comments.empty() || lineEnd == end ? "" : comments));
 }
 
-// `entry` ("key: value") at the end of a table.
+// The text with `entry` ("key: value") added at the end of a table.
 std::string withNewEntry(const std::string& text, const Layout& layout, const Node& table, const std::string& entry) {
     const bool isRoot = table.path.empty();
     if (layout.inBrackets(table) && !(isRoot && table.entries.empty())) {
@@ -224,7 +224,7 @@ std::string withNewEntry(const std::string& text, const Layout& layout, const No
                     (at > 0 && text[at - 1] != '\n' ? newline : std::string()) + blanks + entry + newline);
 }
 
-// An entry of a table or list in brackets, with one of the commas beside it.
+// The text without an entry of a table or list in brackets, and without one of the commas beside it.
 std::string withoutInBrackets(const std::string& text, std::size_t begin, std::size_t end) {
     if (begin == nowhere || end == nowhere) return {};
     const std::size_t after = text.find_first_not_of(" \t\r\n", end);
@@ -251,7 +251,7 @@ std::string without(const std::string& text, const Layout& layout, const Node& p
     if (isLast && !parent.path.empty()) return withValue(text, layout, parent, isItem ? "[]" : "{}");
     if (layout.isBlank(layout.lineStart(begin), begin))
         return replaced(text, layout.lineStart(begin), layout.nextLine(end), "");
-    // The first key of an item, behind the dash: the next one takes its place.
+    // The first key of a list item, after the dash: the next key takes its place.
     if (isItem || &parent.entries.front().value != &node) return {};
     const std::size_t next = text.find_first_not_of(" \t", layout.nextLine(end));  // a key, or a line of comment
     return replaced(text, begin, next, "");

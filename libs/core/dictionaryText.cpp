@@ -47,7 +47,7 @@ void endLinesWithNewline(std::string& text) {
     text.resize(out);
 }
 
-// The first byte that no text file has; false when there is one.
+// Reports the first byte that cannot be in a text file; false when there is one.
 bool isText(const std::string& text, const std::string& shownAs, Problems& problems) {
     int line = 1;
     std::size_t lineStart = 0;
@@ -73,7 +73,7 @@ bool isText(const std::string& text, const std::string& shownAs, Problems& probl
     return true;
 }
 
-// "#include" is a comment in YAML: what it should bring in would be missing without a word.
+// "#include" is a comment in YAML: what it should include would be missing without a message.
 void refuseDirectives(const std::string& text, const std::string& shownAs, Problems& problems) {
     int line = 1;
     for (std::size_t begin = 0; begin < text.size(); ++line) {
@@ -109,13 +109,13 @@ std::string tooDeep() {
 
 namespace {
 
-// Goes through a text once, as far as its brackets, quotations and comments say what is what.
+// Scans a text once, following only its brackets, quotations and comments.
 class Scanner {
   public:
     Scanner(std::string& text, const std::string& shownAs, DictionaryText& result, Problems& problems)
         : text_(text), shownAs_(shownAs), result_(result), problems_(problems) {}
 
-    // False where nothing is to be read on.
+    // False when the text must not be parsed any further.
     bool run() {
         for (i_ = 0; i_ < text_.size(); ++i_)
             if (!take(text_[i_])) return false;
@@ -177,7 +177,7 @@ class Scanner {
         previous_ = c;
     }
 
-    // A bracket; what stands behind it as the unit of a vector is kept and blotted out.
+    // Closes a bracket. What follows a list as its unit is stored in unitAt and replaced by blanks.
     void close(char c) {
         const Opened opened = open_.back();
         open_.pop_back();
@@ -202,7 +202,7 @@ class Scanner {
     std::size_t i_ = 0;
     std::vector<Opened> open_;
     Opened quotation_{};
-    std::size_t tabs_ = 0;  // the first is reported
+    std::size_t tabs_ = 0;  // only the first is reported
     int line_ = 0, column_ = 0;
     char quote_ = 0, previous_ = '\n';  // previous: last character of this line that is not blank
 };

@@ -69,7 +69,7 @@ void Log::table(const std::vector<std::string>& header, const std::vector<std::v
 
 namespace {
 
-// Characters, not bytes, of UTF-8.
+// Number of characters, not of bytes, in UTF-8.
 std::size_t width(const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

@@ -1,6 +1,6 @@
 // What a program tells its user: on the terminal and, when opened, in the file log.<application> of the case. Only the
-// root speaks. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr. A
-// log that can no longer be written does not end a run: it is a warning, once.
+// root writes. -quiet silences info on the terminal (the file keeps it); warnings and errors always show, on stderr. A
+// log file that can no longer be written does not end a run; it gives one warning.
 #pragma once
 #include <fmt/core.h>
 
@@ -15,10 +15,10 @@ class Log {
   public:
     Log(bool isRoot, bool quiet) : isRoot_(isRoot), quiet_(quiet) {}
 
-    // Starts the file, or goes on at its end after the line `continuation`; what was said before is in it too. A file
-    // that cannot be written is a warning.
+    // Starts a new file or, if a line `continuation` is given, appends that line to the old file and continues it.
+    // Messages from before the call are written to it too. A file that cannot be written gives a warning.
     void open(const std::filesystem::path& file, const std::string& continuation = {});
-    // In the file only, once it is open: what the terminal has been told in another way.
+    // Writes only to the file, once it is open: text that the terminal has already shown in another way.
     void note(const std::string& text);
 
     template <class... A>

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A file of one number; none where it is missing or says "max".
+// The number that a file holds; none where it is missing or says "max".
 std::optional<double> number(const fs::path& file) {
     std::ifstream stream(file);
     double value = 0;
@@ -25,7 +25,7 @@ std::optional<double> number(const fs::path& file) {
     return std::nullopt;
 }
 
-// The number behind a word at the start of a line.
+// The number after `word` at the start of a line.
 std::optional<double> entry(const fs::path& file, const std::string& word) {
     std::ifstream stream(file);
     for (std::string line; std::getline(stream, line);) {
@@ -41,14 +41,15 @@ void keepSmaller(MemoryLimit& limit, double bytes, const char* name) {
     if (bytes < limit.bytes) limit = {std::max(bytes, 0.0), name};
 }
 
-// What the two versions of control groups call the same things.
+// Names of the same quantities in the two versions of control groups.
 struct Names {
     const char *limit, *usage, *inactiveFile, *activeFile;
 };
 constexpr Names version2{"memory.max", "memory.current", "inactive_file", "active_file"};
 constexpr Names version1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file", "total_active_file"};
 
-// The group and all above it; a container sees only its own part of the tree, so folders that are missing are left out.
+// Limits of the group and of all groups above it. A container sees only its own part of the tree, so missing folders
+// are skipped.
 void keepControlGroup(MemoryLimit& limit, const fs::path& root, fs::path group, const Names& names) {
     for (group = group.relative_path();; group = group.parent_path()) {
         const fs::path folder = group.empty() ? root : root / group;

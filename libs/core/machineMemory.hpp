@@ -1,4 +1,4 @@
-// The memory that this machine has for this process, and whether an estimate fits into it.
+// Memory available to this process on this machine, and whether an estimate fits into it.
 //
 // Several limits hold at once; the smallest counts.
 //
@@ -6,7 +6,7 @@
 // free memory of the machine | MemAvailable in /proc/meminfo; swap is not counted        | ranks on the machine
 // control group              | memory.max - memory.current + file cache (or those of     | ranks on the machine
 //                            | version 1), of the group and of the groups above it       |
-// ulimit -v, ulimit -d       | the soft limit less what the process already has          | nobody
+// ulimit -v, ulimit -d       | the soft limit minus what the process already uses        | not shared
 #pragma once
 #include <filesystem>
 #include <limits>
@@ -26,13 +26,13 @@ struct AvailableMemory {
     MemoryLimit own;     // of this process alone
 };
 
-// Tests give other folders than those of the running system.
+// Tests pass folders other than those of the running system.
 AvailableMemory availableMemory(const std::filesystem::path& proc = "/proc",
                                 const std::filesystem::path& cgroups = "/sys/fs/cgroup");
 
-// Collective. `bytes` is the estimate for all ranks together, taken to be spread evenly. Empty when every machine has
-// as much; otherwise, the same on all ranks, "126 GiB of memory is needed on host (2 ranks), which has 3.1 GiB: free
-// memory of the machine". The memory of the estimate must not have been allocated yet.
+// Collective. `bytes` is the estimate for all ranks together, taken to be spread evenly. Returns an empty text when
+// every machine has enough memory; otherwise a message, the same on all ranks: "126 GiB of memory is needed on host (2
+// ranks), which has 3.1 GiB: free memory of the machine". Must be called before the estimated memory is allocated.
 std::string memoryShortage(const Communicator& communicator, double bytes);
 
 std::string formatBytes(double bytes);  // "412 MiB", "3.1 GiB"

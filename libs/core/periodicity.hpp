@@ -1,12 +1,12 @@
-// The periodic images of a box: what is at x with velocity u is, for all whole n, also at
+// Periodic images of a box: what is at x with velocity u is also, for all integers n_k, at
 //     x + sum_k n_k (L_k e_k + offset_k)   with velocity   u + sum_k n_k slide_k
-// L_k: edge of the box along axis k where it is periodic. offset and slide are 0 but where images slide past each
-// other, across one axis at most (a sheared box, whose planes move against each other).
+// L_k: edge of the box along axis k if it is periodic. offset and slide are 0 unless images slide past each other,
+// across one axis at most (a sheared box, whose planes move relative to each other: Lees-Edwards conditions).
 //
-// A surface that crosses a periodic face is kept whole: its nodes are contiguous and may lie outside the box. Which
-// image of a point belongs to it is for the surface itself to say: every image that falls into its bounds is tested. An
-// image chosen by its distance from one point of the surface, its centroid or middle, is another one wherever the
-// surface reaches further than half a period from there.
+// A surface that crosses a periodic face is not cut: its nodes are contiguous and may lie outside the box. Which image
+// of a point belongs to such a surface is decided by the surface itself: every image within its bounds is tested.
+// Choosing the image by its distance from one point of the surface, its centroid or middle, would give another image
+// wherever the surface extends further than half a period from that point.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,8 +19,8 @@ namespace corpuscle {
 class Periodicity {
   public:
     struct Image {
-        Vec3 shift = Vec3::Zero();  // of places [m]
-        Vec3 slide = Vec3::Zero();  // of velocities [m/s]
+        Vec3 shift = Vec3::Zero();  // added to positions [m]
+        Vec3 slide = Vec3::Zero();  // added to velocities [m/s]
     };
 
     Periodicity() = default;  // along no axis
@@ -33,18 +33,18 @@ class Periodicity {
     bool isAlong(int k) const { return length_[k] > 0; }
     const Vec3& lengths() const { return length_; }  // L [m], 0 along an axis that is not periodic
 
-    // Images across the faces of this axis lie off by `offset` [m] at present, and move by `velocity` [m/s]; both
-    // without a component along the axis.
+    // Images across the faces of this axis are displaced by `offset` [m] at present and move with `velocity` [m/s];
+    // neither vector has a component along the axis.
     void slide(int axis, const Vec3& offset, const Vec3& velocity);
     bool slides() const { return sliding_ >= 0; }
     int slidingAxis() const { return sliding_; }    // -1: nothing slides
     const Vec3& offset() const { return offset_; }  // of the next image along this axis [m]
-    const Vec3& slide() const { return slide_; }    // its velocity less that of the particle [m/s]
-    // Periods along this axis from x to this image of it.
+    const Vec3& slide() const { return slide_; }    // its velocity minus that of the particle [m/s]
+    // Number of periods along the sliding axis from x to `image`, an image of x.
     double periods(const Vec3& x, const Vec3& image) const {
         return slides() ? std::nearbyint((image[sliding_] - x[sliding_]) / length_[sliding_]) : 0;
     }
-    // Velocity of this image of x less that of x [m/s].
+    // Velocity of `image`, an image of x, minus that of x [m/s].
     Vec3 slideOf(const Vec3& x, const Vec3& image) const { return periods(x, image) * slide_; }
 
     Image image(const Index3& n) const {
@@ -56,22 +56,22 @@ class Periodicity {
         return image;
     }
 
-    // The image of x inside the box, along periodic axes only; the bits of x where that is the one.
+    // The image of x inside the box, along periodic axes only; bitwise x itself where x is inside.
     Vec3 wrap(Vec3 x) const {
         wrap(x, [](double) {});
         return x;
     }
-    // With its velocity u.
+    // The same for x together with its velocity u.
     void wrap(Vec3& x, Vec3& u) const {
         wrap(x, [&](double periods) { u += periods * slide_; });
     }
-    // The coordinate of x along one axis, inside the box. Nothing that slides.
+    // The coordinate x along axis k, moved into the box. Sliding is not considered.
     double wrap(double x, int k) const {
         if (!isAlong(k) || isInside(x, k)) return x;
         return std::max(x - length_[k] * periodsTo(x, k), low_[k]);
     }
 
-    // The image of x that is nearest to `to`; the bits of x where it is x itself. Where the box slides, nearest along
+    // The image of x that is nearest to `to`; bitwise x where that is x itself. Where images slide, the nearest along
     // the sliding axis, and then along the others.
     Vec3 nearest(Vec3 x, const Vec3& to) const {
         inOrder([&](int k) {
@@ -82,7 +82,7 @@ class Periodicity {
         });
         return x;
     }
-    // The shortest image of a difference of places.
+    // The shortest image of a difference of positions.
     Vec3 shortest(Vec3 d) const {
         inOrder([&](int k) {
             const double periods = std::nearbyint(d[k] / length_[k]);
@@ -92,7 +92,7 @@ class Periodicity {
         return d;
     }
 
-    // f(image) for each image of x in the cuboid [low, high], x itself included where it lies there.
+    // Calls f(image) for each image of x in the cuboid [low, high], including x itself if it lies there.
     template <class F>
     void forImagesWithin(const Vec3& x, const Vec3& low, const Vec3& high, F&& f) const {
         if (!slides()) return forPlainImages(x, low, high, length_, f);
@@ -109,14 +109,14 @@ class Periodicity {
 
   private:
     bool isInside(double x, int k) const { return x >= low_[k] && x < high_[k]; }
-    // Whole periods from the box to x. 0 for what lies so little below the box that rounding puts its image on the
-    // upper face: it belongs to the lower one, and an image that slides would have taken the offset for nothing.
+    // Whole periods from the box to x. 0 if x lies so little below the box that rounding would put its image on the
+    // upper face: x then belongs to the lower face, and moving it would add the offset of a sliding image without need.
     double periodsTo(double x, int k) const {
         if (isInside(x, k)) return 0;
         const double periods = std::floor((x - low_[k]) / length_[k]);
         return x - length_[k] * periods < high_[k] ? periods : periods + 1;
     }
-    // f(k) for the periodic axes, the sliding one first: what moves along the others is known only after it.
+    // Calls f(k) for the periodic axes, the sliding one first, since its offset moves x along the others.
     template <class F>
     void inOrder(F&& f) const {
         if (slides()) f(sliding_);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* files[] = {"system/control.yaml", "system/relax.yaml"};
 
-// What is wrong with a library; empty: it is loaded.
+// Loads a library. Returns why this failed; empty: it is loaded.
 std::string load(const fs::path& caseDir, const std::string& name) {
     std::error_code ignored;
     const bool isInCase = fs::is_regular_file(caseDir / name, ignored);
@@ -38,7 +38,7 @@ std::string load(const fs::path& caseDir, const std::string& name) {
     return {};
 }
 
-// Faults of form, in the list or elsewhere, are told when the dictionary is read.
+// Errors of form, in the list or elsewhere, are reported when the dictionary is read.
 void loadFrom(const Node& node, const fs::path& caseDir, Problems& problems) {
     const Node* libs = node.find("libs");
     if (!libs || libs->kind != Node::Kind::list) return;

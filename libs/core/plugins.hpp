@@ -1,12 +1,12 @@
-// Models of users, in shared libraries of their own: `libs: [myLaw.so]` in system/control.yaml or system/relax.yaml.
+// Models written by users, in shared libraries: `libs: [myLaw.so]` in system/control.yaml or system/relax.yaml.
 //
-// A library is loaded before anything of the case is read; its models register themselves (core/registry.hpp) and are
-// chosen by name like all others. A path is taken from the case directory; a name without '/' that is not there is
-// looked for as the system looks for libraries (LD_LIBRARY_PATH). The function corpuscle_plugin() of the CMake package
-// builds one; etc/newModel KIND NAME -plugin FOLDER writes one to begin with.
+// A library is loaded before anything else of the case is read; its models register themselves (core/registry.hpp) and
+// are chosen by name like all others. A path is relative to the case directory; a name without '/' that is not found
+// there is searched as the system searches for libraries (LD_LIBRARY_PATH). The function corpuscle_plugin() of the
+// CMake package builds a plugin; etc/newModel KIND NAME -plugin FOLDER writes one to start from.
 //
-// A library is compiled against headers of one version: it says which (the function below, which corpuscle_plugin()
-// adds), and one of another version is refused.
+// A plugin is compiled against the headers of one version of Corpuscle. It reports this version (by the function below,
+// which corpuscle_plugin() adds), and a plugin of another version is rejected.
 #pragma once
 #include <filesystem>
 
@@ -19,11 +19,11 @@ namespace corpuscle {
 
 inline constexpr const char* pluginVersionFunction = "corpusclePluginVersion";
 
-// Collective: of the program's own case, on every rank. Throws CaseError with the place of each library that is missing
-// or cannot be loaded. Libraries that are loaded already stay.
+// Collective. Loads the libraries of the program's own case, on every rank. Throws CaseError with the place of each
+// library that is missing or cannot be loaded. Libraries that are loaded already stay loaded.
 void loadPlugins(const Application& app);
 
-// The same for another case, on this process alone: of a study's template.
+// The same for another case, on this process alone: for the template of a study.
 void loadPlugins(const std::filesystem::path& caseDir);
 
 }  // namespace corpuscle

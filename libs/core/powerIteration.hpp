@@ -7,8 +7,8 @@
 
 namespace corpuscle {
 
-// normalise(): scales x, and gives the square of its norm then; 0 where there is nothing left of it. apply(): x <- A x,
-// and the square of the norm of that.
+// normalise(): scales x and returns the square of its norm after scaling, 0 when x has vanished. apply(): x <- A x,
+// returns the square of the norm of the new x.
 template <class Normalise, class Apply>
 double largestEigenvalue(int iterations, Normalise&& normalise, Apply&& apply) {
     double rate = 0;

@@ -18,9 +18,9 @@ constexpr const char* digits = "(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)";
 constexpr const char* exponent = "(?:[eE][+-]?0*[0-9]{1,2})?";
 constexpr const char* notZero = "(?=[0.]*[1-9])";
 constexpr const char* gap = "(?: +|(?!1))";        // before the unit; "81/s" is not 8 1/s
-constexpr const char* between = "(?: ?[*.] ?| )";  // factors
+constexpr const char* between = "(?: ?[*.] ?| )";  // between factors
 
-// Kinds of units: an alternative of symbols each.
+// Kinds of units: for each a pattern of its symbols, where '#' stands for an optional prefix.
 const std::map<std::string, std::string>& kinds() {
     static const std::map<std::string, std::string> all{{"length", "#m"},
                                                         {"time", "(?:#s|min|h)"},
@@ -114,7 +114,7 @@ void replaceAll(std::string& text, std::string_view from, std::string_view to) {
         text.replace(at, from.size(), to);
 }
 
-// Signs that stand for plain ones, in UTF-8.
+// Signs in UTF-8 and the plain ones that they stand for.
 constexpr std::pair<const char*, const char*> signs[] = {{"\xC2\xB5", "u"},
                                                          {"\xCE\xBC", "u"},  // micro sign, Greek mu
                                                          {"\xC2\xB7", "*"},

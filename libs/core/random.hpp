@@ -1,4 +1,4 @@
-// Random numbers of a seed, the same on every machine.
+// Random numbers from a seed, the same on every machine.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -19,7 +19,8 @@ class Random {
         for (int k = 0; k < 3; ++k) x[k] = between(low[k], high[k]);
         return x;
     }
-    // Uniform on the unit sphere: in a sphere's ball by rejection, so that no library function's rounding matters.
+    // Uniform on the unit sphere: by rejection in the unit ball, so that the result does not depend on the rounding of
+    // a library function.
     Vec3 direction() {
         for (;;) {
             const Vec3 x = between(Vec3(-1, -1, -1), Vec3(1, 1, 1));

@@ -8,7 +8,8 @@
 
 namespace corpuscle {
 
-// One table of keys; nested tables follow as own sections, named by their path. `level` is that of the heading.
+// One table of keys; nested tables follow as sections of their own, named by their path. `level` is the level of the
+// heading.
 std::string referenceSection(const std::string& heading, const SchemaInfo& info, int level);
 
 // All models of all families of this program.

@@ -1,4 +1,4 @@
-// The typed side of the registry; what needs no type stands in registry.cpp.
+// The templates of the registry; code that needs no model type is in registry.cpp.
 #pragma once
 
 namespace corpuscle {
@@ -10,8 +10,8 @@ constexpr const char* usualModel() {
     else
         return "";
 }
-// The model's name in `node`, checked against `known`; nothing (and one problem) when there is none. usual: that of a
-// table that does not say it, "" where it must.
+// The model's name in `node`, checked against `known`; nothing (and one problem) when there is no valid one. usual: the
+// model of a table without `type`; "": `type` is required.
 std::optional<std::string> modelName(const Node& node, const std::string& family, const std::string& usual,
                                      const std::vector<std::string>& known, Problems& problems);
 // The table with the model's settings: the node itself, or an empty table for a bare name.

@@ -24,7 +24,7 @@ struct ModelInfo {
 // Type-erased catalogue of all families, for listModels and the generated reference.
 struct FamilyInfo {
     std::string name;   // "bond law"
-    std::string usual;  // the model of a table that does not say `type`; "": it must
+    std::string usual;  // model of a table without `type`; "": `type` is required
     std::function<std::vector<ModelInfo>()> models;
 };
 std::map<std::string, FamilyInfo>& families();
@@ -48,8 +48,8 @@ class Registry {
     std::map<std::string, Entry> entries_;
 };
 
-// A model chosen in a case. Family must declare `static constexpr const char* familyName` ("bond law"), and may declare
-// likewise its `usualModel`, which a table of settings without `type` belongs to.
+// A model chosen in a case. Family must declare `static constexpr const char* familyName` ("bond law"). In the same way
+// it may declare `usualModel`, the model of a table of settings without `type`.
 template <class Family>
 struct Choice {
     std::string name;                     // "harmonic"; empty: none chosen
@@ -63,7 +63,8 @@ struct Choice {
 template <class Family>
 struct ModelTables {
     std::map<std::string, std::shared_ptr<const Family>> models;
-    // With the settings of the case, or with its defaults; null where no model has this name.
+    // The model with the settings of the case, or with its defaults if the case gives none; null where no model has
+    // this name.
     std::shared_ptr<const Family> of(const std::string& name) const;
 };
 

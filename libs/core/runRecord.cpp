@@ -12,7 +12,7 @@
 namespace corpuscle {
 
 namespace {
-constexpr long roomToEnd = 1 << 15;  // for the end of a run whose disk is full [bytes]
+constexpr long roomToEnd = 1 << 15;  // reserved to record the end of a run on a full disk [bytes]
 }
 
 std::string timestamp() {
@@ -96,7 +96,7 @@ void RunRecord::fail(ExitCode code, const std::string& reason) noexcept {
             overwriteFile(file_, text());
         }
     } catch (const std::exception&) {
-        return;  // the reason stands on the terminal
+        return;  // the reason has been printed on the terminal
     }
 }
 

@@ -1,11 +1,9 @@
-// run.json: what was run, on what, from which settings, and how it ended. Rewritten as a whole at every change that
-// matters, so that a killed run leaves a record with the status "running".
+// run.json: what was run, on what machine, from which settings, and how it ended. The file is rewritten as a whole at
+// every change that matters, so that a killed run leaves a record with the status "running".
 //
 //     {"application", "status": "running|done|failed|stopped|dryRun", "reason", "start", "end", "wallClock_s",
-//         "version", "versions" of the
-//      libraries, "build": {...}, "machine": {...}, "ranks", and the sections that the application adds: "parameters",
-//          "groups",
-//      "performance", ...}
+//      "version", "versions" of the libraries, "build": {...}, "machine": {...}, "ranks", and the sections that the
+//      application adds: "parameters", "groups", "performance", ...}
 #pragma once
 #include <chrono>
 #include <filesystem>
@@ -46,8 +44,8 @@ class RunRecord {
     void print() const;  // on standard output
     // Fills in status, reason and end, and writes.
     void finish(ExitCode code, const std::string& reason);
-    // The same for a run that ends by an error, from any rank that knows of it: the root may be waiting for the others.
-    // Never throws; writes on a full disk too.
+    // The same for a run that ends with an error. Any rank that knows of the error may call it, since the root may be
+    // waiting for the others. Never throws; writes even on a full disk.
     void fail(ExitCode code, const std::string& reason) noexcept;
     bool finished() const { return finished_; }
 
@@ -63,8 +61,8 @@ class RunRecord {
     bool finished_ = false;
 };
 
-// used.yaml: every dictionary of the run as it was understood, defaults and -set included, SI values with units; one
-// table for each file, which can be copied out as that file. Root only does the work.
+// used.yaml: every dictionary of the run with its effective settings, defaults and -set included, in SI values with
+// units; one table for each file, which can be copied out as that file. Only the root writes.
 void writeUsed(const std::filesystem::path& file, const std::vector<Node::Entry>& dictionaries,
                const Communicator& communicator);
 

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The whole text; '$' alone would let a newline follow.
+// Pattern for the whole text; '$' alone would allow a newline to follow.
 std::string whole(const std::string& pattern) { return "^(?:" + withUnicode(pattern) + ")$(?!\\n)"; }
 
 Json text(const std::string& pattern, const std::string& expected = "") {
@@ -64,7 +64,7 @@ class Writer {
         if (!required.empty()) json["required"] = required;
         Json rules = Json::array();
         for (const auto& keys : info.exactlyOne) {
-            // Where none of the others is there, the first is required: a message then names a key.
+            // If none of the other keys is given, the first is required: a message then names a key.
             Json given = Json::array();
             for (std::size_t i = 1; i < keys.size(); ++i) given.push_back({{"required", {keys[i]}}});
             rules.push_back({{"if", {{"not", {{"anyOf", given}}}}}, {"then", {{"required", {keys[0]}}}}});
@@ -78,7 +78,7 @@ class Writer {
     // A table with `type` and the settings of the model of that name beside it.
     Json reference(const std::string& family) {
         if (!definitions_.contains(family)) {
-            definitions_[family] = Json::object();  // stands while the models are written: a family may contain itself
+            definitions_[family] = Json::object();  // placeholder: a family may contain itself
             Json names = Json::array(), branches = Json::array();
             const std::string usual = families()[family].usual;
             for (const ModelInfo& model : families()[family].models()) {
@@ -117,7 +117,8 @@ class Writer {
                 rules.push_back({{"not", {{"required", {keys[i], keys[j]}}}}});
     }
 
-    // A bare number in its range. As a text (in quotes, or 1e-3 for readers of YAML 1.1) only its form is checked.
+    // A bare number, checked against its range. Of one given as text (in quotes, or 1e-3 for readers of YAML 1.1) only
+    // the form is checked.
     static Json number(const char* type, Range range, const std::string& pattern, const FieldInfo& f) {
         Json json{{"type", {type, "string"}}};
         const bool isWhole = std::string_view(type) == "integer";
@@ -140,13 +141,14 @@ class Writer {
     static Json three(Json of) {
         return {{"type", "array"}, {"items", std::move(of)}, {"minItems", 3}, {"maxItems", 3}};
     }
-    // Of a text only these words, else what is given: with a message for the one that was meant.
+    // A text must be one of these words, any other value must match `other`: the message is then about the one that was
+    // meant.
     static Json wordsOr(const std::vector<std::string>& words, Json other) {
         if (words.empty()) return other;
         return {{"if", {{"type", "string"}}}, {"then", {{"enum", words}}}, {"else", std::move(other)}};
     }
 
-    // Simple values carry their alternative word in their pattern.
+    // For simple values the alternative word is part of the pattern.
     Json value(const FieldInfo& f) {
         std::vector<std::string> words;
         if (!f.alternative.empty()) words.push_back(f.alternative);
@@ -186,7 +188,7 @@ class Writer {
         return item(f);
     }
 
-    // Of a list or a map.
+    // Schema of one item of a list or a map.
     Json item(const FieldInfo& f) {
         if (f.family.empty()) return table(f.table());
         FieldInfo model = f;

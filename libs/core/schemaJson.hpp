@@ -1,9 +1,9 @@
 // JSON Schema (draft 7) of declared settings, for editors and for checks outside of Corpuscle. It accepts what the
 // reader accepts, with units and signs (quantityForms.hpp), the range of bare numbers, one branch for each model,
-// exactlyOneOf and atMostOneOf. It does not know the range of a number with a unit beyond its sign, nor of a number in
-// quotes, nor the rules that a check function holds or that lie between files.
+// exactlyOneOf and atMostOneOf. It cannot express the range of a number with a unit (beyond its sign) or of a number in
+// quotes, nor rules in check functions or between files.
 //
-// Beside standard words there is "patternErrorMessage", with which editors explain a pattern in plain words.
+// Besides the standard keywords it has "patternErrorMessage", which editors show as the explanation of a pattern.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,10 +11,10 @@
 
 namespace corpuscle {
 
-// Families that are named stand under "definitions" (from the registry of this program).
+// Families that the settings refer to are listed under "definitions" (from the registry of this program).
 nlohmann::ordered_json jsonSchema(const SchemaInfo& info);
 
-// Of a file that is one model: `type` with its settings beside it.
+// Schema of a file that is one model: `type` with its settings beside it.
 nlohmann::ordered_json jsonSchemaOfModel(const std::string& title, const std::string& description,
                                          const std::string& family);
 

@@ -1,5 +1,5 @@
-// Schema<T>: the fields of T in the order of declaration. The work is done on erased types in settings.cpp; only the
-// access to the members is a template.
+// Schema<T>: the fields of T in the order of declaration. The work is done on type-erased fields in settings.cpp; only
+// the access to the members is a template.
 #pragma once
 #include <algorithm>
 #include <type_traits>
@@ -36,7 +36,7 @@ class SchemaBase {
   public:
     SchemaBase(std::string name, std::string text);
     SchemaInfo info() const;
-    // `ignored` is a key that belongs to somebody else ("type" of a model).
+    // `ignored`: a key that is read elsewhere ("type" of a model).
     void readInto(void* object, const Node& node, Problems& problems, const std::string& ignored = {}) const;
     Node writeFrom(const void* object) const;
 
@@ -53,7 +53,7 @@ class SchemaBase {
                               Dimension dimension = {});
     static std::optional<Node> writeOptional(std::optional<Node> node, const std::string& alternative);
     static bool isWord(const Node& node, const std::string& word);
-    // All values of a table of free names.
+    // Calls entry(key, value) for all entries of a table of free names.
     static void eachEntry(const Node& node, Problems& problems,
                           const std::function<void(const std::string&, const Node&)>& entry);
     static void eachItem(const Node& node, Problems& problems, const std::function<void(const Node&)>& item);
@@ -79,7 +79,7 @@ template <class Family>
 Codec<Choice<Family>> choiceCodec();  // registry.hpp
 template <class Family>
 struct ModelTables;
-// The table of one model among those of its family.
+// The settings table of one model of a family.
 template <class Family>
 struct ModelTable {
     std::string name, text;
@@ -105,7 +105,7 @@ class Schema : public SchemaBase {
     Schema& quantity(const Str& key, Maybe<double> T::*m, Dimension d, const Str& text, const Options& o = {}) {
         return add(describe("quantity", key, text, o, d), m, codec::quantity(d, o.range));
     }
-    // The word leaves the member empty.
+    // The alternative word leaves the member empty.
     Schema& quantityOr(const Str& word, const Str& key, Maybe<double> T::*m, Dimension d, const Str& text,
                        const Options& o = {}) {
         return addOr(word, describe("quantity", key, text, o, d), m, codec::quantity(d, o.range));
@@ -120,7 +120,7 @@ class Schema : public SchemaBase {
     Schema& integer(const Str& key, Maybe<long> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("integer", key, text, o), m, codec::integer(o.range));
     }
-    // The word leaves the member empty.
+    // The alternative word leaves the member empty.
     Schema& integerOr(const Str& word, const Str& key, Maybe<long> T::*m, const Str& text, const Options& o = {}) {
         return addOr(word, describe("integer", key, text, o), m, codec::integer(o.range));
     }
@@ -172,7 +172,8 @@ class Schema : public SchemaBase {
     Schema& text(const Str& key, Maybe<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("text", key, text, o), m, codec::text());
     }
-    // Values of any kind, each kept as YAML in one line (of a text in quotes what stands in it), for others to read.
+    // Values of any kind, each kept as YAML on one line (a text in quotes without the quotes), to be parsed by the code
+    // that uses them.
     Schema& values(const Str& key, std::vector<Str> T::*m, const Str& text, const Options& o = {}) {
         return add(describe("values", key, text, o), m, codec::values());
     }
@@ -205,7 +206,7 @@ class Schema : public SchemaBase {
         return add(describe("booleans", key, text, o), m, codec::booleans());
     }
 
-    // A length in metres or in particle spacings ("3.0 dx"); the range holds for the number in either.
+    // A length in metres or in particle spacings ("3.0 dx"); the range holds for the number in either unit.
     Schema& length(const Str& key, Length T::*m, const Str& text, const Options& o = {}) {
         return add(describe("length", key, text, o, unit::metre), m, codec::length(o.range));
     }
@@ -248,7 +249,7 @@ class Schema : public SchemaBase {
     Schema& model(const Str& key, Choice<Family> T::*m, const Str& text, const Options& o = {}) {
         return add(withFamily<Family>(describe("model", key, text, o)), m, choiceCodec<Family>());
     }
-    // The word leaves the choice empty.
+    // The alternative word leaves the choice empty.
     template <class Family>
     Schema& modelOr(const Str& word, const Str& key, Choice<Family> T::*m, const Str& text, const Options& o = {}) {
         FieldInfo info = withFamily<Family>(describe("model", key, text, o));
@@ -269,7 +270,8 @@ class Schema : public SchemaBase {
         return add(withFamily<Family>(describe("models", key, text, o)), m, mapCodec(choiceCodec<Family>()));
     }
 
-    // A table for each model of a family that has settings, under the model's own name; absent, it has its defaults.
+    // A table for each model of a family that has settings, under the model's own name; a model without a table has its
+    // defaults.
     template <class Family>
     Schema& modelTables(ModelTables<Family> T::*m, AtRestart policy) {
         for (const ModelTable<Family>& model : corpuscle::modelTables<Family>()) {
@@ -314,7 +316,7 @@ class Schema : public SchemaBase {
         atMostOne_.push_back(std::move(keys));
         return *this;
     }
-    // For the fields declared so far.
+    // Sets the policy of these keys, which must have been declared before.
     Schema& atRestart(AtRestart policy, const std::vector<Str>& keys) {
         declareAtRestart(policy, keys);
         return *this;

@@ -12,7 +12,7 @@ namespace corpuscle {
 bool Range::contains(double v) const { return (lowOpen ? v > low : v >= low) && (highOpen ? v < high : v <= high); }
 
 std::string Range::text(Dimension dimension) const {
-    // As few digits as give the same number again.
+    // The fewest digits that give the same number when read again.
     const auto shown = [&](double v) {
         if (v == 0 || dimension.isDimensionless()) return fmt::format("{}", v);
         int digits = 4;
@@ -199,7 +199,7 @@ namespace {
 
 std::string quotedList(const std::vector<std::string>& keys) { return fmt::format("'{}'", joinWords(keys, "', '")); }
 
-// What is wrong with a scalar is said together with the word that may stand in its place.
+// A message about a wrong scalar also names the word that is allowed in its place.
 void readOr(const std::string& word, const Node& value, Problems& problems,
             const std::function<void(Problems&)>& read) {
     if (word.empty() || value.kind != Node::Kind::scalar) return read(problems);
@@ -213,7 +213,8 @@ void readOr(const std::string& word, const Node& value, Problems& problems,
     }
 }
 
-// The keys of one entry in place of the entries' names, "type: shape" for "deformation: {type: shape}": one problem.
+// Whether the keys of one entry stand in place of the entries' names, "type: shape" for "deformation: {type: shape}";
+// this is reported as one problem.
 bool lacksNames(const Node& table, const FieldInfo& entries, Problems& problems) {
     if (table.kind != Node::Kind::table || table.entries.empty()) return false;
     const Node* first = &table.entries.front().value;
@@ -264,7 +265,7 @@ void SchemaBase::readInto(void* object, const Node& node, Problems& problems, co
         for (const Check& check : checks_) check(object, node, problems);
 }
 
-// The field that takes the keys that are not declared otherwise, null: none.
+// The field that takes all keys that are not declared otherwise; null: there is none.
 const SchemaBase::Field* SchemaBase::rest() const {
     const auto found = std::find_if(fields_.begin(), fields_.end(), [](const Field& f) { return f.info.key == "*"; });
     return found == fields_.end() ? nullptr : &*found;
@@ -277,7 +278,8 @@ std::vector<std::string> SchemaBase::keys() const {
     return all;
 }
 
-// A problem for each unknown key. Known keys that one of them is near to: they are not reported as missing as well.
+// Adds a problem for each unknown key. Returns the known keys that the unknown ones resemble: these are not reported as
+// missing as well.
 std::vector<std::string> SchemaBase::nameUnknown(const Node& node, const std::string& ignored,
                                                  Problems& problems) const {
     std::vector<std::string> misspelt;
@@ -344,7 +346,7 @@ void SchemaBase::readFields(void* object, const Node& node, const std::string& i
     }
 }
 
-// Keys of which exactly one, or at most one, is to be given.
+// Checks the rules on keys of which exactly one, or at most one, must be given.
 void SchemaBase::checkRules(const Node& node, const std::vector<std::string>& misspelt, Problems& problems) const {
     const auto misspeltOneOf = [&](const std::vector<std::string>& keys) {
         return std::any_of(keys.begin(), keys.end(), [&](const auto& k) {

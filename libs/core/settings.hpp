@@ -56,13 +56,13 @@ inline constexpr Range nonNegative{0};
 constexpr Range between(double low, double high) { return {low, high, false, false}; }
 constexpr Range atLeast(double low) { return {low}; }
 
-// What a changed value means to a run that continues from a checkpoint (settingsChange.hpp). A setting that declares
-// nothing takes what the table or model around it declares; where nothing does, it is fixed.
+// Effect of a changed value on a run that continues from a checkpoint (settingsChange.hpp). A setting that declares no
+// policy takes that of the table or model around it; where none is declared, it is fixed.
 enum class AtRestart {
     undeclared,
     fixed,     // the state depends on it: the restart is refused
-    free,      // only says when to stop, what to write or to measure
-    noted,     // the continued run is another one from there on: both values are reported
+    free,      // it only says when to stop, what to write or to measure
+    noted,     // the continued run differs from there on: both values are reported
     resolved,  // it acts through a value that the case derives from it and from other settings, and that value is fixed
 };
 const char* nameOf(AtRestart policy);
@@ -79,14 +79,14 @@ struct Length {
     double metres(double spacing) const { return inSpacings ? value * spacing : value; }
 };
 
-// When something is done: every so much strain (gammadot t), time, wall-clock time or steps. "0.02 strain", "1e-5 s",
+// Interval at which something is done, in strain (gammadot t), time, wall-clock time or steps: "0.02 strain", "1e-5 s",
 // "5 min" (a wall-clock interval where the setting says so), "100 steps".
 struct Interval {
     enum class Kind { never, strain, time, steps } kind = Kind::never;
     double value = 0;
 };
 
-// What a field is, for the reference page, the JSON schema and help.
+// Description of a field, for the reference page, the JSON schema and help.
 struct FieldInfo {
     std::string key;
     // "quantity", "quantities", "integer", "boolean", "word", "words", "word or quantity", "name", "text", "values",
@@ -99,7 +99,7 @@ struct FieldInfo {
     Range range;
     std::vector<std::string> words;            // allowed words
     std::function<struct SchemaInfo()> table;  // of a nested table, list item, map item
-    std::string family;                        // of a model: registry name
+    std::string family;                        // of a model: name of its family in the registry
     std::string alternative;                   // word allowed instead of the value ("auto", "none", "physical")
     AtRestart atRestart = AtRestart::undeclared;
 

@@ -122,7 +122,8 @@ class Comparison {
         for (const std::string& key : keysOf(before, now)) {
             if (key == ignored) continue;
             const FieldInfo* found = fieldOf(info, key);
-            FieldInfo one = found ? *found : FieldInfo{};  // of another version: whatever is around it
+            // A key that is not declared is from another version; the policy of the table around it applies.
+            FieldInfo one = found ? *found : FieldInfo{};
             if (one.key == "*" && (one.type == "map" || one.type == "models")) {
                 const AtRestart own = one.atRestart;
                 one = itemOf(one);
@@ -224,7 +225,7 @@ std::string restartPage(const std::vector<std::pair<std::string, FieldInfo>>& di
     return text;
 }
 
-// Free settings are declared as a whole, at the top of a dictionary.
+// Only the top level is searched: free settings are declared as a whole, at the top of a dictionary.
 Node withoutFree(const FieldInfo& dictionary, const Node& settings) {
     Node kept = settings;
     const std::optional<SchemaInfo> info =

@@ -1,7 +1,7 @@
-// What has changed between two effective tables of the same declaration: the case that a checkpoint was written by and
-// the case that is to continue from it. Each setting declares what its change means (AtRestart, settings.hpp); one that
-// declares nothing takes what the table or model around it declares, and where nothing does it is fixed: a new setting
-// cannot be forgotten in silence.
+// Changes between two effective tables of the same declaration: the case that wrote a checkpoint and the case that is
+// to continue from it. Each setting declares the effect of a change (AtRestart, settings.hpp). A setting that declares
+// none takes that of the table or model around it, and where none is declared it is fixed, so that a new setting cannot
+// be forgotten silently.
 //
 // Values are compared, not their spelling: 11 um and 0.011 mm are the same to 1e-9, and so are 3 dx and 1.5 um where dx
 // is 0.5 um.
@@ -29,12 +29,12 @@ struct Spacings {
 FieldInfo dictionaryField(std::function<SchemaInfo()> table);
 FieldInfo dictionaryField(const std::string& family);
 
-// In the order of declaration. Tables and models are descended into where both sides have them; models of different
-// names are one change.
+// Changes in the order of declaration. Tables and models are compared entry by entry where both sides have them; models
+// of different names are one change.
 std::vector<SettingChange> settingChanges(const FieldInfo& dictionary, const Node& before, const Node& now,
                                           Spacings spacings);
 
-// The settings whose change could matter: what a checkpoint keeps.
+// The settings without the free ones, whose change cannot matter: what a checkpoint stores.
 Node withoutFree(const FieldInfo& dictionary, const Node& settings);
 
 // Every single setting of a dictionary, those of all models that it may name included: "kernel.lucy.support",
@@ -48,7 +48,7 @@ std::vector<DeclaredSetting> declaredSettings(const FieldInfo& dictionary);
 // A section of the dictionary reference: every setting that declares a policy, by file.
 std::string restartPage(const std::vector<std::pair<std::string, FieldInfo>>& dictionaries);
 
-// A value as messages show it.
+// Text of a value for messages.
 std::string shownValue(const Node& value);
 
 }  // namespace corpuscle

@@ -27,9 +27,9 @@ bool startMpi(int& argc, char**& argv) {
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
         setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     }
-    // Shared file pointers, which HDF5 does not use: one of these components would keep them in that folder, and both
-    // put the path of the file into 256 characters without looking, which ends the program where a case lies deep (Open
-    // MPI 4.1.4). What the user has set stays.
+    // Disables two components for shared file pointers, which HDF5 does not use: one of them would keep these pointers
+    // in the session folder, and both copy the path of the file into 256 characters without a check, which crashes the
+    // program for a case deep in the directory tree (Open MPI 4.1.4). A value set by the user is kept.
     setenv("OMPI_MCA_sharedfp", "^sm,lockedfile", 0);
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);

@@ -1,16 +1,16 @@
-// MPI_Init, once. A process that no launcher has started runs alone: Open MPI then starts no daemon and makes no
-// session folder, for which processes that begin at the same moment, as those of a parameter study do, would contend
-// and fail. Parts of MPI-IO that fail with long paths are left out.
+// Calls MPI_Init once. A process that was not started by a launcher (mpirun, srun) runs alone: Open MPI then starts no
+// daemon and creates no session folder, over which processes that start at the same moment, such as those of a
+// parameter study, would conflict and fail. Components of MPI-IO that fail with long paths are disabled.
 #pragma once
 
 namespace corpuscle {
 
-// Whether MPI was started here, and is to be finalised by the caller.
+// True when MPI was started here; the caller must then finalise it.
 bool startMpi(int& argc, char**& argv);
 
-// To be said by a library that could not close a file and would crash within MPI_Finalize, where it tries again (HDF5
-// 1.10): Application then ends the program without that call, once all ranks know of the error and everything else is
-// in order.
+// To be called by a library that could not close a file and would crash within MPI_Finalize, where it tries again (HDF5
+// 1.10). Application then ends the program without MPI_Finalize, once all ranks know of the error and everything else
+// is in order.
 void leaveMpiOpen();
 bool mpiStaysOpen();
 

@@ -6,9 +6,10 @@
 namespace corpuscle {
 namespace {
 
-// A sum of steps misses a round time by rounding; a millionth of a step is well above that and of no consequence.
+// A sum of steps misses a round time by rounding errors; a millionth of a step is well above these and has no
+// noticeable effect.
 constexpr double stepFraction = 1e-6;
-constexpr double together = 1e-3;  // of a step: events that one step serves
+constexpr double together = 1e-3;  // of a step: events closer to each other share one step
 
 }  // namespace
 
@@ -32,7 +33,7 @@ double Time::shorten(const std::vector<Event>& events) {
     for (const Event& event : events)
         if (event.wait > stepFraction * dt) first = std::min(first, event.wait);
     if (!(first < 2 * dt)) return dt;
-    // Of events that differ by rounding, the first in the list.
+    // Of events that differ by rounding errors, the first in the list is taken.
     const Event* last = nullptr;
     for (const Event& event : events)
         if (event.wait > stepFraction * dt && event.wait <= first + together * dt &&

@@ -1,4 +1,4 @@
-// Failing together: what goes wrong on one rank must end on all of them, or the others wait for ever.
+// Collective failure: an error on one rank must be thrown on all of them, or the others would wait forever.
 #pragma once
 #include <mpi.h>
 
@@ -11,13 +11,13 @@
 
 namespace corpuscle {
 
-// What std::bad_alloc and errors of std::filesystem mean to a user.
+// What std::bad_alloc and errors of std::filesystem mean, as a Failure with a text for users.
 Failure memoryFailure();
 Failure fileFailure(const std::filesystem::filesystem_error& error);
-// The text of any error, by these where it is one of theirs.
+// Text of any error; that of the Failures above for these two kinds.
 std::string wordsFor(const std::exception& error);
 
-// Collective. The lowest rank that has failed, -1: none; then `text` is that rank's on all.
+// Collective. Returns the lowest rank that has failed, -1: none. `text` then becomes that rank's text on all ranks.
 int firstFailed(MPI_Comm comm, bool failed, std::string& text);
 
 // Collective. If `failed` anywhere, every rank throws Failure(code) with the lowest failing rank's text.

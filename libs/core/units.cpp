@@ -17,7 +17,7 @@
 namespace corpuscle {
 namespace {
 
-// value in SI = number * 10^decimal * factor. The power of ten is kept apart, so that "8 um" is exactly the double
+// value in SI = number * 10^decimal * factor. The power of ten is kept separate, so that "8 um" is exactly the double
 // 8e-6.
 struct UnitValue {
     Dimension dimension;

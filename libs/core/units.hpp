@@ -7,8 +7,8 @@
 //   symbols   := m s kg g N dyn Pa bar P (poise) J erg Hz W L l (litre) mmHg mmH2O cmH2O min h rad deg; prefixes on all
 //                but kg, mmHg, mmH2O, cmH2O, min, h, rad, deg
 //
-// Angles are dimensionless ("rad" = 1, "deg" = pi/180). Which of these a dictionary takes for a dimension is set by
-// quantityForms.hpp.
+// Angles are dimensionless ("rad" = 1, "deg" = pi/180). quantityForms.hpp defines which of these units a dictionary
+// accepts for a dimension.
 #pragma once
 #include <string>
 

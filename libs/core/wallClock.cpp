@@ -14,8 +14,8 @@ volatile std::sig_atomic_t caught = 0;
 
 constexpr int handled[] = {SIGTERM, SIGINT, SIGUSR1};
 using Handler = void (*)(int);
-Handler before[std::size(handled)] =
-    {};  // what a second signal does: the handler that was there (caseLock.cpp), or the end
+// The previous handlers, which a second signal calls: that of caseLock.cpp, or the default, which ends the program.
+Handler before[std::size(handled)] = {};
 
 void giveBack(int number) {
     for (std::size_t k = 0; k < std::size(handled); ++k)

@@ -18,7 +18,7 @@ namespace corpuscle {
 class StopControl {
   public:
     struct Settings {
-        std::filesystem::path file;       // a run stops when it appears, and removes it; empty: none
+        std::filesystem::path file;       // a run stops when this file appears, and removes it; empty: none
         std::optional<double> wallClock;  // s
     };
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Makes the folders that are missing; those made, the deepest first.
+// Creates missing folders. Returns those created, the deepest first.
 std::vector<fs::path> makeFolders(const fs::path& folder) {
     std::vector<fs::path> made;
     std::error_code error;

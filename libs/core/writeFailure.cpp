@@ -86,7 +86,7 @@ int tryWriting(const fs::path& file, std::uintmax_t extent) {
     const bool existed = fs::exists(file, error);
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0) return errno;
-    // More than the rest of a block that the file may have.
+    // More bytes than can remain free in the last disk block of the file.
     static const std::array<char, 1 << 16> zeros{};
     const off_t length = ::lseek(descriptor, 0, SEEK_END);
     std::size_t written = 0;

@@ -18,7 +18,8 @@ using particles::RealArray;
 
 namespace {
 
-constexpr double probeInBonds = 1e-4;  // largest displacement of a difference of membrane forces
+// Largest displacement of a node in a difference of membrane forces, over the mean bond length.
+constexpr double probeInBonds = 1e-4;
 
 template <class Real>
 class Verlet final : public AdjointVerlet {
@@ -90,7 +91,8 @@ class Verlet final : public AdjointVerlet {
         if (immersed_) immersed_->move(seconds);
     }
 
-    // Forces and rates for u + extrapolation a and rho + extrapolation rhodot; the latter stays in the store.
+    // Forces and rates at u + extrapolation a and rho + extrapolation rhodot; the extrapolated density stays in the
+    // store.
     void evaluate(double extrapolation) {
         ParticleStore& s = scene_.store();
         const std::size_t n = s.size();
@@ -122,8 +124,8 @@ class Verlet final : public AdjointVerlet {
         if (keeps) addMembraneRates(viscous);
     }
 
-    // Of the budget (sph/budget.hpp), for the velocities in field_: of the fluid's forces, before those of membranes
-    // are added; then of these.
+    // Rates of the budget (sph/budget.hpp) at the velocities in field_: findRates for the forces of the fluid, before
+    // those of membranes are added; then addMembraneRates for the latter.
     double power() const {
         double sum = 0;
         for (std::size_t i = 0; i < store().size(); ++i) sum += velocityUsed(i).dot(force(i));
@@ -138,7 +140,7 @@ class Verlet final : public AdjointVerlet {
         rates_[sph::Budget::compression] = compression;
         rates_[sph::Budget::viscous] = -fluidPower_ - compression;
     }
-    // own: power of the membranes' viscosity, of the cells that this rank owns.
+    // own: power of the viscous forces of membranes, over the cells that this rank owns [W].
     void addMembraneRates(double own) {
         rates_[sph::Budget::inMembranes] = -own;
         rates_[sph::Budget::elastic] = own - (power() - fluidPower_);
@@ -156,7 +158,8 @@ class Verlet final : public AdjointVerlet {
     Vec3 velocityUsed(std::size_t i) const { return {field_[at(i)], field_[at(i) + 1], field_[at(i) + 2]}; }
     Vec3 force(std::size_t i) const { return Vec3::Map(operators_.force().data() + at(i)); }
 
-    // Velocity and density from the forces found; what the walls feel. The density was extrapolated by `extrapolation`.
+    // Advances velocity and density by the rates found, and sets the forces on walls. extrapolation: that by which the
+    // density in the store was extrapolated [s].
     void accelerate(double dt, double extrapolation) {
         ParticleStore& s = scene_.store();
         const Vec3& g = scene_.model().bodyForce;
@@ -183,8 +186,8 @@ class Verlet final : public AdjointVerlet {
         if (keeps) scene_.budget.add(dt, rates_);
     }
 
-    // How particles move beside their velocity: shifting, less what would cross a membrane. Nodes get their velocity at
-    // the end of the step.
+    // Displacement of particles in addition to that by their velocity: shifting, less the part that would cross a
+    // membrane. Also sets the velocities of nodes to those at the end of the step.
     void findMoves(double dt) {
         transport_.shift(operators_, dt);
         if (!immersed_) return;
@@ -207,13 +210,13 @@ class Verlet final : public AdjointVerlet {
         noFlux_->keepSides(*scene_.system);
     }
 
-    // The force of nodes alone on the particles, in place of that of the fluid.
+    // Replaces the forces on the particles by those of the nodes alone.
     void spreadAlone(const Immersed::Vectors& f) {
         std::fill(operators_.force().begin(), operators_.force().end(), 0.0);
         immersed_->spread(f, operators_.force());
     }
-    // S^T P of the change of elastic force from `rest` with a displacement along P S field_; by what it is to be
-    // multiplied to be K P S field_.
+    // Leaves S^T P times the change of the elastic force from `rest`, with nodes displaced along P S field_, in the
+    // operators' force; returns the factor by which this is to be multiplied to give S^T P K P S field_.
     double springForces(const Immersed::Vectors& rest) {
         Immersed::Vectors displacement = nodeVelocities();
         double longest = 0;
@@ -227,8 +230,8 @@ class Verlet final : public AdjointVerlet {
         return -1 / scale;
     }
 
-    // Of M^-1 A by power iterations, from a start that depends on particle numbers only; image() leaves A field_ in the
-    // operators' force, but for the factor that it returns.
+    // Largest eigenvalue of M^-1 A by power iterations, from a start that depends on particle ids only. image() leaves
+    // a vector in the operators' force and returns the factor by which it is to be multiplied to give A field_.
     template <class Image>
     double largestEigenvalue(int iterations, Image&& image) {
         const ParticleStore& s = store();
@@ -266,7 +269,7 @@ class Verlet final : public AdjointVerlet {
     Field field_;  // velocities
     RealArray pressure_;
     Transport transport_;
-    sph::Budget::Values rates_;  // of the last evaluation
+    sph::Budget::Values rates_;  // budget rates of the last evaluation
     double fluidPower_ = 0;
 };
 

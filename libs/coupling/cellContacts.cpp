@@ -10,7 +10,7 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr double keptShare = 0.1;  // of a gap, on a way that is free
+constexpr double keptShare = 0.1;  // fraction of each gap that a free motion leaves
 
 std::shared_ptr<const contact::Surface> surfaceOf(const membrane::Network& network) {
     std::vector<Index3> whole;
@@ -99,7 +99,7 @@ std::vector<CellContacts::AtWall> CellContacts::atWallsOf(const NodeLayout& layo
     return found;
 }
 
-// add(part): of the pairs that this rank looks at.
+// add(part): adds the forces of the pairs that this rank computes.
 template <class Add>
 void CellContacts::addUp(NodeVectors& f, Add&& add) const {
     NodeVectors part(f.size(), Vec3::Zero());
@@ -153,7 +153,7 @@ double CellContacts::freeTravel(const Cells& cells, const NodeLayout& layout, co
     double free = isListed(cells, system.imagesAgo(way.ago)) && contacts_.covers(x)
                       ? contacts_.freeTravel(x, displacement, keptShare, way.seconds)
                       : 0;
-    if (free < 1) {  // perhaps by the lists, which were made for other ways
+    if (free < 1) {  // perhaps limited only by the lists, which were made for another motion
         std::map<const membrane::Network*, Known> known = known_;
         const Surfaces surfaces = surfacesOf(cells, known);
         contact::Contacts there(settings_.law.model);
@@ -186,8 +186,9 @@ double CellContacts::energy(const Cells& cells, const ParticleSystem& system) co
     return sum;
 }
 
-// With images n periods off, sum x f^T of the images that touch less that of their nodes is sum (n L + ...) f^T; along
-// the sliding axis the places of images have nothing else.
+// For images n periods L away, sum x f^T over the images that touch, less the same sum over their nodes, is
+// sum (n L + ...) f^T. The dots are the offset of sliding images and periods along the other axes; its row of the
+// sliding axis contains only n L.
 double CellContacts::powerOfImages(const Periodicity& period, const NodeVectors& displacement) const {
     if (!period.slides()) return 0;
     NodeVectors x = x_, f(x_.size(), Vec3::Zero());
@@ -196,12 +197,12 @@ double CellContacts::powerOfImages(const Periodicity& period, const NodeVectors&
     there.evaluate(x);
     there.addForces(f);
     const int axis = period.slidingAxis();
-    Vec3 force = there.virial().row(axis).transpose();  // times n L
+    Vec3 force = there.virial().row(axis).transpose();  // becomes the sum of n L f
     for (std::size_t m = 0; m < f.size(); ++m) force -= x[m][axis] * f[m];
     return period.slide().dot(force) / period.lengths()[axis];
 }
 
-// Of a node at a wall x f^T is that of the way from the wall to the node.
+// For a node at a wall, x in x f^T is the vector from the wall to the node.
 Mat3 CellContacts::stresslet(const Cells& cells, const ParticleSystem& system) const {
     const Now here = now(cells, system);
     Mat3 sum = -here.among.virial();

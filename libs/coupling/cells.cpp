@@ -15,13 +15,14 @@ using particles::ParticleSystem;
 
 namespace {
 
-// Whether some periodic image of [low, high] meets the brick; where images slide, of those along the other axes.
+// Whether a periodic image of [low, high] intersects the brick. sliding: axis whose images slide, which is left out
+// here; -1: none.
 bool touchesPlainly(const Box& box, const Vec3& low, const Vec3& high, const particles::Brick& brick, int sliding) {
     const Vec3 size = box.size();
     for (int k = 0; k < 3; ++k) {
         if (k == sliding) continue;
         if (!box.periodic[static_cast<std::size_t>(k)]) {
-            // Beyond the walls the outermost bricks reach on.
+            // The outermost bricks extend beyond the walls.
             const bool below = high[k] < brick.low[k] && brick.low[k] > box.low[k];
             const bool above = low[k] > brick.high[k] && brick.high[k] < box.high[k];
             if (below || above) return false;
@@ -114,7 +115,7 @@ std::vector<Vec3> Cells::startingNodes(int number) const {
     return type.places[static_cast<std::size_t>(number - type.firstCell)].of(type.nodes);
 }
 
-// A larger or smaller cell has another stress-free shape, and so a type of membrane of its own.
+// A cell of another scale has another stress-free shape, and so needs a MembraneType of its own.
 Cell Cells::make(int number) const {
     const std::size_t index = typeOf(number);
     const CellType& type = types_[index];
@@ -176,7 +177,7 @@ std::vector<int> Cells::holdersOf(const Bounds& reach, const ParticleSystem& sys
 void Cells::settle(const ParticleSystem& system) {
     for (Cell& cell : held_) {
         const Bounds now = boundsOf(cell.membrane.position);
-        if (!now.isEmpty()) cell.reach = now;  // else the run is about to be taken back
+        if (!now.isEmpty()) cell.reach = now;  // empty with non-finite positions: a rollback will follow
     }
     resettle(system);
 }
@@ -208,7 +209,7 @@ void Cells::resettle(const ParticleSystem& system) {
               [](const Cell& a, const Cell& b) { return a.membrane.cell < b.membrane.cell; });
 }
 
-// Number, reach, arc, places and velocities of the nodes, living bonds, damage.
+// Number, reach, arc, positions and velocities of the nodes, which bonds are unbroken, damage.
 std::vector<double> Cells::packed(const Cell& cell) const {
     const membrane::Membrane& m = cell.membrane;
     std::vector<double> message{static_cast<double>(m.cell)};

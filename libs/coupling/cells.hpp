@@ -1,12 +1,11 @@
-// The cells of a scene, of which each rank holds those that come near its brick.
+// The cells of a scene; each rank holds those near its brick.
 //
-// A cell is held by every rank of whose brick it comes within `margin`: they all have its network and the places of its
-// nodes, and compute the same forces, bit for bit. All holders know who the others are. The lowest of them is the
-// cell's owner: it speaks for the cell where each is to count once. Other ranks know no more of it than its type and
-// where it began.
+// A rank holds a cell if the cell comes within `margin` of its brick. All holders have the network and the node
+// positions of the cell and compute the same forces, bit for bit; each knows the other holders. The lowest holder is
+// the owner of the cell, which counts it in sums over all cells. Other ranks know only its type and where it started.
 //
-// Numbers go through the types, and within each through its places: cell n of the scene is cell n on every rank, in
-// results and in the field `side` of the particles inside it.
+// Cells are numbered type by type, and within a type in the order of its places: cell n of the scene is cell n on every
+// rank, in results and in the field `side` of the particles inside it.
 #pragma once
 #include <map>
 #include <utility>
@@ -19,23 +18,23 @@ namespace corpuscle::coupling {
 
 class Cells {
   public:
-    static constexpr double everywhere = 1e30;  // margin with which every rank holds every cell [m]
+    static constexpr double everywhere = 1e30;  // margin for which every rank holds every cell [m]
 
     Cells() = default;
-    // Nothing is held yet. margin [m].
+    // The rank holds no cell yet. margin [m].
     explicit Cells(std::vector<CellType> types, double margin = everywhere);
 
-    bool exist() const { return count_ > 0; }     // in the scene, whoever holds them
+    bool exist() const { return count_ > 0; }     // in the scene, held by this rank or not
     std::size_t count() const { return count_; }  // in the scene
     std::size_t nodeCount() const { return nodes_; }
     const std::vector<CellType>& types() const { return types_; }
-    // By the number of a cell, 1 and up; and by that of a node.
+    // number: of a cell, from 1. node: global number of a node.
     std::size_t typeOf(int number) const;
-    std::string nameOf(int number) const;                     // of its type, with its own number where that has several
-    std::pair<int, int> cellOfNode(std::int64_t node) const;  // number of the cell, and node in it
+    std::string nameOf(int number) const;  // name of its type, followed by its number if the type has several cells
+    std::pair<int, int> cellOfNode(std::int64_t node) const;  // number of the cell, and number of the node in it
     double meanBondLength() const;                            // the largest of all types [m]
 
-    // Those that this rank holds, in the order of their numbers.
+    // The cells that this rank holds, in the order of their numbers.
     auto begin() { return held_.begin(); }
     auto end() { return held_.end(); }
     auto begin() const { return held_.begin(); }
@@ -44,31 +43,31 @@ class Cells {
     const Cell& operator[](std::size_t index) const { return held_[index]; }
     std::size_t heldCount() const { return held_.size(); }
     static constexpr std::size_t notHeld = static_cast<std::size_t>(-1);
-    std::size_t indexOf(int number) const;  // among these, or notHeld
+    std::size_t indexOf(int number) const;  // index of a held cell, or notHeld
     Cell* find(int number);                 // null: this rank does not hold it
     const Cell* find(int number) const;
 
-    // As it stands at the start, at rest.
+    // The cell as it is at the start, at rest.
     Cell make(int number) const;
     std::vector<Vec3> startingNodes(int number) const;
     void setSolidVolume(int number, double volume) { solidVolume_[number] = volume; }  // before cells are made
     double solidVolume(int number) const;
 
-    // Those that come near this rank's brick, as they stand at the start.
+    // Makes the cells near this rank's brick, as they are at the start.
     void placeAtStart(const particles::ParticleSystem& system);
-    // Those given, which nobody else has: of a checkpoint. Until the next settle, or resettle by their `reach`.
+    // Takes cells of a checkpoint that this rank alone holds, until the next `settle`, or `resettle` by their `reach`.
     void take(std::vector<Cell> cells, int rank);
-    // Who holds which cell now that nodes have moved or bricks have been cut: hands the state of cells to those who
-    // hold them from now on. Collective.
+    // Determines the holders of each cell after nodes have moved or the box has been cut into new bricks, and sends the
+    // state of cells to their new holders. Collective.
     void settle(const particles::ParticleSystem& system);
-    // The same by the reach that each cell had when it was settled last.
+    // The same, but by the `reach` that each cell had at the last `settle`. Collective.
     void resettle(const particles::ParticleSystem& system);
-    // The first, where lists have been built since the last of these. Collective.
+    // `settle`, if lists have been built since holders were last determined. Collective.
     void follow(const particles::ParticleSystem& system) {
         if (system.builds() != settledAt_) settle(system);
     }
 
-    // A cell that every rank holds, of a type of its own: for scenes that are made by hand.
+    // Adds a cell that every rank holds, with a type of its own: for scenes that are not built from a case.
     void add(Cell cell);
 
   private:
@@ -78,9 +77,9 @@ class Cells {
 
     std::vector<CellType> types_;
     double margin_ = everywhere;
-    long settledAt_ = -1;  // of the system's builds
+    long settledAt_ = -1;  // count of the system's list builds when holders were last determined
     std::size_t count_ = 0, nodes_ = 0;
-    std::map<int, double> solidVolume_;  // of the cells that have bodies in them
+    std::map<int, double> solidVolume_;  // by number of the cell, for cells with rigid bodies inside [m^3]
     std::vector<Cell> held_;
 };
 

@@ -11,10 +11,10 @@ namespace corpuscle::coupling {
 using particles::Kind;
 
 namespace {
-// Of one region, outside first.
+// Sums over one region. Region 0 is the outside.
 struct Region {
-    double space = 0;  // sum m/rho of its fluid particles and its share of nodes
-    double mass = 0;   // of the same
+    double space = 0;  // sum m/rho of its fluid particles and its share of nodes [m^3]
+    double mass = 0;   // sum m of the same [kg]
 };
 static_assert(sizeof(Region) == 2 * sizeof(double));
 }  // namespace
@@ -24,12 +24,12 @@ void DensityBalance::apply(particles::ParticleSystem& system, const Cells& cells
     const Communicator ranks(system.comm());
     const auto n = static_cast<std::size_t>(system.owned());
     const std::size_t held = cells.heldCount();
-    std::vector<double> volume(held, 0);  // of closed cells
+    std::vector<double> volume(held, 0);  // of each held cell; 0: open
     for (std::size_t c = 0; c < held; ++c)
         if (!cells[c].membrane.network().isOpen()) volume[c] = cells[c].membrane.volume();
 
-    // Region 0 is the outside and all open cells, then those that this rank holds: who has a particle in a closed cell
-    // holds that cell. A node counts half to either side of its membrane.
+    // Region 0 is the outside with all open cells; then follow the cells that this rank holds. A rank that has a
+    // particle in a closed cell holds that cell. A node counts half to either side of its membrane.
     const auto regionOfCell = [&](int number) -> std::size_t {
         const std::size_t index = number > 0 ? cells.indexOf(number) : Cells::notHeld;
         return index != Cells::notHeld && volume[index] > 0 ? index + 1 : 0;
@@ -54,7 +54,7 @@ void DensityBalance::apply(particles::ParticleSystem& system, const Cells& cells
     sums_.plan(
         cells, system.comm(), [](const Cell&) { return 1; }, std::vector<char>(held, 1));
     sums_.addUp({reinterpret_cast<double*>(regions.data() + 1), 2 * held}, 2);
-    double closed = 0, closedAtStart = 0;  // volumes of the cells that this rank owns, rigid bodies in them included
+    double closed = 0, closedAtStart = 0;  // volumes of the closed cells that this rank owns, with rigid bodies inside
     for (std::size_t c = 0; c < held; ++c)
         if (volume[c] > 0 && cells[c].isOwnedBy(ranks.rank()))
             closed += volume[c], closedAtStart += cells[c].initialVolume;

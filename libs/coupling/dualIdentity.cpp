@@ -15,11 +15,12 @@ namespace {
 
 Vectors none(const Vectors& like) { return Vectors(like.size(), Vec3::Zero()); }
 
-// Of M^-1 K on the nodes of a cell, by power iterations; stiffness(mode) = K mode for modes of largest component one.
+// Largest eigenvalue of M^-1 K on the nodes of a cell, by power iterations. stiffness(mode) = K mode, for modes whose
+// longest node vector has the length 1.
 template <class F>
 double largestEigenvalue(const Cell& cell, int iterations, F&& stiffness) {
     Vectors mode(cell.nodeMass.size());
-    for (std::size_t k = 0; k < mode.size(); ++k)  // any vector that no symmetry of the mesh is likely to share
+    for (std::size_t k = 0; k < mode.size(); ++k)  // a vector that is unlikely to have a symmetry of the mesh
         mode[k] = Vec3(std::sin(1 + 12.9898 * static_cast<double>(k)), std::sin(2 + 78.233 * static_cast<double>(k)),
                        std::sin(3 + 37.719 * static_cast<double>(k)));
     const auto square = [&] {

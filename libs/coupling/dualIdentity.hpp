@@ -1,12 +1,12 @@
-// Coupling by dual identity (paper, section 2.4): a membrane's node is a particle of the fluid and a node of its
-// network.
+// Coupling by dual identity (paper, section 2.4): each node of a membrane is both a particle of the fluid and a node of
+// the network.
 //
-// As a particle it has the density of the fluid and takes part in pressure, viscosity and continuity; as a node it
-// feels the network, du/dt += f/m. No penetration, no slip and continuity of stress follow. Its volume is that of the
-// piece of membrane around it, one spacing thick:  V = A_vertex dx,  m = rho0 V. Interior overpressure can push fluid
-// through the single layer of nodes: LeakageGuard puts such particles back.
+// As a particle, the node has the density of the fluid and takes part in pressure, viscosity and continuity; as a node,
+// it is subject to the force f of the network, du/dt += f/m. No penetration, no slip and continuity of stress follow.
+// Its volume is that of the piece of membrane around it, one spacing thick:  V = A_vertex dx,  m = rho0 V. Interior
+// overpressure can push fluid through the single layer of nodes: LeakageGuard moves such particles back.
 //
-// Rupture is tested at every step, only where a cell's case names a criterion.
+// Rupture is tested at every step, for cells whose laws have a rupture criterion.
 #pragma once
 #include <functional>
 #include <memory>
@@ -18,19 +18,19 @@
 
 namespace corpuscle::coupling {
 
-// Bonds of one cell that broke at one step.
+// Bonds of one cell that broke in one step.
 struct RuptureEvent {
-    int cell;  // number, 1 and up
+    int cell;  // its number, from 1
     std::vector<membrane::BrokenBond> bonds;
 };
 
 class DualIdentity : public sph::Load {
   public:
-    // How often the guard looks and densities are balanced, in steps; 0: never.
+    // Intervals of the leakage guard and of the density balance, in steps; 0: never.
     struct Intervals {
         long guard = 10, densityBalance = 10;
     };
-    // How far from its brick a rank must know the nodes of membranes [m].
+    // Distance from its brick up to which a rank needs the nodes of membranes [m].
     static double margin(double spacing, double skin) { return LeakageGuard::reachInSpacings * spacing + skin; }
 
     DualIdentity(Cells& cells, double spacing, const DensityBalance& balance, Intervals intervals);
@@ -40,8 +40,8 @@ class DualIdentity : public sph::Load {
     void addRates(const particles::ParticleSystem& system, const sph::FluidForces& forces,
                   sph::Budget::Values& rates) const override;
 
-    // After each step, of dt [s]: rupture, guard, density balance. Returns what broke. budget: null, or what is to be
-    // kept. Collective.
+    // Called after each step of length dt [s]: rupture, leakage guard, density balance. Returns the bonds that broke.
+    // budget: to which the energy released by rupture is added; null: no budget is kept. Collective.
     std::vector<RuptureEvent> endStep(particles::ParticleSystem& system, double dt, sph::Budget* budget = nullptr);
 
     LeakageGuard& guard() { return guard_; }
@@ -50,10 +50,10 @@ class DualIdentity : public sph::Load {
     long steps() const { return steps_; }
     void restore(long steps) { steps_ = steps; }
 
-    // Squared frequency of the stiffest mode of any cell's nodes on their springs: the largest eigenvalue of M^-1 K, by
-    // power iterations on differences of forces [1/s^2]. Collective.
+    // Squared angular frequency of the stiffest mode of the nodes of any cell: the largest eigenvalue of M^-1 K, by
+    // power iterations on differences of elastic forces [1/s^2]. Collective.
     double springRate2(const particles::ParticleSystem& system, int iterations) const;
-    // Fastest decay by the viscosity of any membrane: the largest eigenvalue of M^-1 C, f = -C v [1/s]. Collective.
+    // Largest decay rate by the viscosity of any membrane: largest eigenvalue of M^-1 C, f = -C v [1/s]. Collective.
     double membraneRate(const particles::ParticleSystem& system, int iterations) const;
 
   private:

@@ -19,7 +19,7 @@ FlatMembrane::FlatMembrane(const sph::Kernel& kernel, double supportOverSpacing,
 }
 
 FlatMembrane::Weights FlatMembrane::weights(double place, double radius) {
-    constexpr int across = 6;  // places along either axis
+    constexpr int across = 6;  // positions of the node along either axis of the membrane
     const int reach = static_cast<int>(std::ceil(radius)) + 1;
     Weights mean{Vector::Zero(ViscousLayers::count), Vector::Zero(ViscousLayers::count),
                  Vector::Zero(ViscousLayers::count)};
@@ -49,7 +49,7 @@ FlatMembrane::Errors FlatMembrane::errors(int place, const NodeConditions& condi
     const Weights& w = weights_[static_cast<std::size_t>(place)];
     const Vector node = w.one + conditions.kink * w.kink + conditions.slope * stepsOfSlope_ * w.derivative;
     const Vector excess = layers_.excess(z, ratio_, film_), shear = ViscousLayers::shear(z, ratio_);
-    Vector loaded = shear;  // its half: a stress of -1/2 outside and 1/2 inside
+    Vector loaded = shear;  // becomes half of the shear flow: stress -1/2 outside and 1/2 inside
     for (int i = 0; i < ViscousLayers::count; ++i) loaded[i] *= i - ViscousLayers::half < z ? 0.5 : -0.5;
     return {node.dot(layers_.velocities(excess, Vector::Zero(ViscousLayers::count), shear)),
             node.dot(layers_.velocities(excess, node, loaded))};
@@ -64,7 +64,8 @@ FlatMembrane::Errors FlatMembrane::meanErrors(const NodeConditions& conditions) 
     return mean;
 }
 
-// The cross error is linear in v and t, and the self error of second degree in v where t is that of no cross error.
+// The cross error is linear in v and t. With t chosen for each v so that it vanishes, the self error is a polynomial of
+// second degree in v.
 NodeConditions FlatMembrane::conditions(double self) const {
     const double none = meanErrors({}).cross, byKink = meanErrors({.kink = 1}).cross - none,
                  bySlope = meanErrors({.slope = 1}).cross - none;

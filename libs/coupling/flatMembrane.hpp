@@ -1,18 +1,18 @@
-// A flat membrane between two fluids on a lattice of particles: what weights of its nodes have to be held to so that
-// they move as in the exact flow (nodeFluidMap.hpp).
+// A flat membrane between two fluids on a lattice of particles: the conditions that the weights of its nodes
+// (nodeFluidMap.hpp) must satisfy so that nodes move as in the exact flow.
 //
-// The flow is along the membrane and varies across it: layers of particles as in sph/viscousLayers.hpp. A node's
-// velocity is
+// The flow is along the membrane and varies across it, as for the layers of particles of sph/viscousLayers.hpp. The
+// velocity of a node is
 //     u_m = sum_j w_j u_j + t H (du/dn)_m,   sum_j w_j phi(z_j) = v
-// with a load spread by the same weights. v and t are those for which, in the mean over ten places of the membrane
-// between two layers,
-//     self : a node that is loaded with 1 per area moves by -0.019, where the exact flow has straight lines with 0
-//            there: among disordered particles it moves by 0.019 more than among layers (the twisted sphere of
-//            tests/implicit/loadedSphere.cpp)
-//     cross: a node stays at rest in the exact shear flow whose velocity is 0 at the membrane
-// Equal viscosities need no t. Where the fluid inside is more than about six times as viscous, a loaded node moves
-// further whatever v and t are: there v is that of the least self error, which is below 0.08. Lengths in spacings,
-// viscosity outside 1; mean over 36 places along the membrane.
+// and a load on the node is spread by the same weights. v and t are chosen so that, in the mean over ten positions of
+// the membrane between two layers,
+//     self : a node with a load of 1 per area has the velocity -0.019; in the exact flow, which is linear on either
+//            side, it has 0. Among disordered particles its velocity is higher by 0.019 than among layers (the twisted
+//            sphere of tests/implicit/loadedSphere.cpp).
+//     cross: a node stays at rest in the exact shear flow whose velocity is 0 at the membrane.
+// With equal viscosities, t = 0. If the fluid inside is more than about six times as viscous as that outside, a loaded
+// node moves too fast for any v and t; v is then that of the least self error, which is below 0.08. Lengths are in
+// spacings, the viscosity outside is 1; weights are means over 36 positions along the membrane.
 #pragma once
 #include "sph/viscousLayers.hpp"
 
@@ -32,20 +32,20 @@ class FlatMembrane {
     struct Errors {
         double cross = 0, self = 0;
     };
-    Errors errors(int place, const NodeConditions& conditions) const;  // at one place
+    Errors errors(int place, const NodeConditions& conditions) const;  // at one of the ten positions
     Errors meanErrors(const NodeConditions& conditions) const;
     NodeConditions conditions(double self = selfAmongLayers) const;
 
   private:
     using Vector = sph::ViscousLayers::Vector;
     struct Weights {
-        Vector one, kink, derivative;  // with 1 for this and 0 for the rest of the basis; the last in R d/dn
+        Vector one, kink, derivative;  // weights with 1 for 1, phi or R d/dn and 0 for the rest of the basis
     };
     static Weights weights(double place, double radius);
 
     sph::ViscousLayers layers_;
-    double ratio_, stepsOfSlope_;  // H/R
-    double film_;                  // kappa
+    double ratio_, stepsOfSlope_;  // inside over outside viscosity; H/R
+    double film_;                  // kappa of sph/viscousLayers.hpp
     std::vector<Weights> weights_;
 };
 

@@ -11,14 +11,14 @@ using particles::ParticleSystem;
 
 namespace {
 
-// Lists of contact hold for the rest of a step and the way to where the next one takes its forces, which may be twice
-// as long: in ways from the beginning of a step to there. Where images of the box slide, they have moved by then, and
-// that way has lists of its own.
+// Time ahead for which the lists of contact are made, over the time from the beginning of a step to x*, where its
+// forces are evaluated: 1 for the rest of the step, and 2 for the motion to x* of the next step, which may be twice as
+// long. If images of the box slide, they have moved by then, and the motion to the next x* gets lists of its own.
 constexpr double waysAhead = 3;
 
 std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidModel& model,
                                          const ParticleSystem& system) {
-    std::map<double, NodeConditions> known;  // by the ratio of viscosities
+    std::map<double, NodeConditions> known;  // by the viscosity ratio
     std::vector<NodeConditions> conditions;
     for (const CellType& type : cells.types()) {
         const auto [at, isNew] = known.try_emplace(type.viscosityRatio);

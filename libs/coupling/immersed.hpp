@@ -1,16 +1,18 @@
-// Immersed coupling: fluid fills space through the membrane; a node has no fluid of its own. It moves with the velocity
-// that it finds in the fluid around it, and its force goes to that fluid with the same weights:
+// Immersed coupling: fluid particles fill space without regard to the membrane, and a node has no mass of its own. It
+// moves with the velocity interpolated from the fluid around it, and its force is spread to that fluid with the same
+// weights:
 //
 //     u_m = P S u,     f_fluid = S^T P f_m
 // symbol | meaning
-// S      | from the fluid to the nodes (nodeFluidMap.hpp)
-// P      | the volume of closed cells kept (volumeProjection.hpp); it ends when a cell opens
+// S      | interpolation from the fluid to the nodes (nodeFluidMap.hpp)
+// P      | projection that conserves the volume of closed cells (volumeProjection.hpp); without effect on open cells
 // K, C   | stiffness and damping of the membranes (membraneStiffness.hpp); K with that of contact (cellContacts.hpp)
-// Power is neither made nor lost. The stiffness that the fluid feels is S^T P K P S, symmetric and positive
-// semi-definite as K is.
+// The two maps are transposes of each other, so the exchange conserves power. The stiffness that acts on the fluid is
+// S^T P K P S, symmetric and positive semi-definite as K is.
 //
-// A rank knows the nodes of the cells that it holds, the same bits as their other holders, and the weights of its own
-// particles. Whoever needs forces on ghosts (particles/sharedParticles.hpp) asks for their weights as well.
+// A rank has the nodes of the cells that it holds, bitwise identical to those on the other holders, and the weights of
+// its own particles. Forces on ghosts (particles/sharedParticles.hpp) need the weights of ghosts as well:
+// `placeOthers`.
 #pragma once
 #include "coupling/cellContacts.hpp"
 #include "coupling/membraneStiffness.hpp"
@@ -25,57 +27,57 @@ class Immersed {
     using Vectors = NodeVectors;
     static constexpr double radiusInSpacings = NodeFluidMap::radiusInSpacings;
 
-    // How far from its brick a rank must know the nodes of membranes, for its own particles and those of others that it
-    // knows [m].
+    // Distance from its brick up to which a rank needs the nodes of membranes, for its own particles and for the ghosts
+    // that it has [m].
     static double margin(double spacing, double support, double skin) {
         return radiusInSpacings * spacing + support + 2 * skin;
     }
 
-    // model: of the fluid around them. contacts: null where membranes do not feel each other. All must stay where they
-    // are.
+    // model: of the fluid. contacts: null without contact. Arguments are kept by reference and must not move in memory.
     Immersed(Cells& cells, const sph::FluidModel& model, const particles::ParticleSystem& system,
              CellContacts* contacts = nullptr);
 
     Cells& cells() { return cells_; }
     const Cells& cells() const { return cells_; }
     const NodeLayout& layout() const { return layout_; }
-    void move(double seconds);  // nodes along their velocities
-    // The same from the beginning of a step to where its forces are taken, and back from there. onArc: that is the
-    // middle of the arc on which each cell turns (arc.hpp).
+    void move(double seconds);  // moves nodes along their velocities
+    // Moves nodes from the beginning of a step to the positions x* where its forces are evaluated; takeBack moves them
+    // back. onArc: to the middle of the arc on which each cell rotates (arc.hpp).
     void depart(double seconds, bool onArc);
     void takeBack(double seconds);
-    // Which part of the way of the last `depart` was free of contact; of all ranks. Collective.
+    // Fraction of the motion of the last `depart` that was free of contact, over all ranks. Collective.
     double freeDeparture() const;
-    // The same of the way to the end of a step of dt with these velocities, and for `more` seconds on, from where
-    // forces are taken, `seconds` after its beginning. Collective.
+    // The same for the motion from x*, `seconds` after the beginning of a step of dt, to its end and `more` seconds
+    // beyond, with these velocities over the whole step. Collective.
     double freeArrival(double seconds, double dt, const Vectors& velocities, double more) const;
-    // In a box whose images slide, cells whose centre has left it across the sliding faces: their image inside.
+    // If images of the box slide: replaces each cell whose centre has left the box across the sliding faces by its
+    // image inside.
     void wrapCells();
     Vectors velocities() const;
     void setVelocities(const Vectors& velocities);
     void restoreVolume() { VolumeProjection::restore(cells_); }
 
-    // Who holds which cell, weights of the particles and forces of the membranes, where particles and nodes are now.
-    // volume: of each particle [m^3]. Collective. Throws Failure(numerics), on all ranks, where a node has no fluid
-    // around it.
+    // Determines the holders of cells, the weights of particles and the forces of membranes at the present positions.
+    // volume: of each particle [m^3]. Collective. Throws Failure(numerics), on all ranks, if a node has no fluid around
+    // it.
     void place(const particles::ParticleSystem& system, const std::vector<double>& volume);
-    // The same with the stiffness of the membranes.
+    // `place`, and the stiffness and damping of the membranes.
     void build(const particles::ParticleSystem& system, const std::vector<double>& volume);
 
-    // Weights of ghosts too, where `place` has just been. Collective.
+    // Weights of ghosts, to be called right after `place`. Collective.
     void placeOthers(particles::ParticleSystem& system, const particles::SharedParticles& shared,
                      const std::vector<double>& volume) {
         map_.placeOthers(cells_, layout_, system, shared, volume);
     }
 
-    // P S u, u of four numbers a particle: changes of velocities. Collective.
+    // P S u for changes of velocity u, of four numbers per particle. Collective.
     template <class Real>
     Vectors interpolate(const Real* u) {
         Vectors v = map_.interpolate(u);
         volume_.apply(v);
         return v;
     }
-    // The same of velocities, which images of particles have with their slide.
+    // The same for velocities: images of particles that slide have their slide velocity in addition.
     template <class Real>
     Vectors interpolateVelocities(const Real* u) {
         Vectors v = map_.interpolate(u);
@@ -93,35 +95,36 @@ class Immersed {
         addStiffness(-time, u, f);
         addDamping(u, f);
     }
-    // A third of the trace of (time K + C), per node [N s/m]. Collective.
+    // A third of the trace of (time K + C) per node [N s/m], without contact. Collective.
     double meanResistance(double time) const { return stiffness_.meanResistance(time, comm_); }
     bool isViscous() const;
-    void addViscousForces(const Vectors& u, Vectors& f) const {  // f -= C u, without build
+    void addViscousForces(const Vectors& u, Vectors& f) const {  // f -= C u; needs no `build`
         MembraneStiffness::addViscousForces(cells_, layout_, u, f);
     }
-    Vectors forceAt(const Vectors& displacement) const {  // of the membranes' elasticity, nodes displaced [N]
+    Vectors forceAt(const Vectors& displacement) const {  // elastic and contact forces with nodes displaced [N]
         Vectors f = MembraneStiffness::forceAt(cells_, layout_, displacement);
         if (contacts_) contacts_->addForcesAt(displacement, f);
         return f;
     }
-    // force_j += (S^T P f)_j, of four numbers a particle.
+    // force_j += (S^T P f)_j, of four numbers per particle.
     void spread(Vectors f, particles::RealArray& force) const;
-    // The same on ghosts, in their entries of `force`, after placeOthers.
+    // The same on ghosts, into their entries of `force`; after placeOthers.
     void spreadToOthers(Vectors f, particles::RealArray& force) const;
 
-    // a.b over all nodes of the scene, of which this is the rank's part.
+    // a.b over the nodes of the cells that this rank owns: its part of the sum over all nodes of the scene.
     double ownDot(const Vectors& a, const Vectors& b) const {
         return layout_.sumOverOwned(cells_, rank_, [&](std::size_t m) { return a[m].dot(b[m]); });
     }
 
     const CellContacts* contacts() const { return contacts_; }
 
-    const std::vector<int>& touched() const { return map_.touched(); }  // particles of this rank with weights
-    const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }  // of one held cell
+    const std::vector<int>& touched() const { return map_.touched(); }  // own particles with weights for a node
+    const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }  // for one held cell
     const std::vector<int>& touchedOthers() const { return map_.touchedOthers(); }              // entries of ghosts
 
-    long fallbacks() const { return map_.fallbacks(); }  // nodes of the last build with Shepard's weights, of all ranks
-    long mostFallbacks() const { return map_.mostFallbacks(); }  // of any build
+    // Number of nodes with Shepard's weights, over all ranks, at the last `place`; and the largest of any `place`.
+    long fallbacks() const { return map_.fallbacks(); }
+    long mostFallbacks() const { return map_.mostFallbacks(); }
 
   private:
     void addContact();
@@ -129,9 +132,9 @@ class Immersed {
     Cells& cells_;
     const particles::ParticleSystem& system_;
     CellContacts* contacts_;
-    Vectors departure_;    // places before the last `depart`; with contact only
-    double departed_ = 0;  // how long that took [s]
-    double outlook_ = 0;   // how far ahead the lists of contact look [s]
+    Vectors departure_;    // positions before the last `depart`; with contact only
+    double departed_ = 0;  // duration of the last `depart` [s]
+    double outlook_ = 0;   // time ahead for which the lists of contact are made [s]
     NodeFluidMap map_;
     NodeLayout layout_;
     VolumeProjection volume_;

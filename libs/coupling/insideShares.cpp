@@ -10,7 +10,7 @@ namespace corpuscle::coupling {
 
 namespace {
 
-// Of a membrane, between its nodes.
+// Curvature of a membrane, interpolated between its nodes [1/m].
 class Curvature {
   public:
     explicit Curvature(const membrane::Membrane& m)
@@ -45,7 +45,7 @@ std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux) 
             if (std::exchange(of, &cell) != &cell) curvature.emplace(cell.membrane);
             found = {std::clamp(0.5 - at.distance / dx - curvature->at(at) * dx / 24, 0.0, 1.0), mu * ratio};
         }
-        // Between two membranes it belongs to the one within which it lies, or to the nearer one.
+        // A particle near two membranes belongs to that for which its share is larger.
         if (!std::exchange(isNear[i], 1) || found.share > inside[i].share) inside[i] = found;
     });
     return inside;

@@ -1,10 +1,10 @@
-// Nothing leaks silently: fluid particles that have crossed a closed membrane are counted, reported and moved back.
+// Leakage guard: fluid particles that have crossed a closed membrane are counted, reported and moved back.
 //
-// A particle belongs to its `side`. When lists are built, the fluid particles within reach of a membrane are noted as
-// candidates; every few steps each of them is held against the nearest point p of the membrane. One on the wrong side
-// goes back to 0.1 dx on its own side of p, and loses what speed it had towards the membrane relative to it. A ruptured
-// cell is left alone; at the step at which it is going to break it is looked at once more, so that what is outside
-// later went through a hole.
+// The field `side` of a particle says on which side of the membrane it belongs. When lists are built, the fluid
+// particles within reach of a membrane become candidates; every few steps each of them is compared with the nearest
+// point p of the membrane. A particle on the wrong side is moved to 0.1 dx from p on its own side, and its velocity
+// relative to the membrane loses the component towards it. Ruptured cells are left alone. A cell is checked once more
+// in the step in which it ruptures, just before, so that fluid found outside later has passed through a hole.
 #pragma once
 #include <vector>
 
@@ -16,8 +16,8 @@ namespace corpuscle::coupling {
 struct GuardMove {
     std::int64_t particle;  // id
     int cell;
-    double depth;  // how far on the wrong side [m]
-    Vec3 place;
+    double depth;  // distance from the membrane, on the wrong side [m]
+    Vec3 place;    // where the particle was [m]
 };
 
 class LeakageGuard {
@@ -28,10 +28,11 @@ class LeakageGuard {
 
     void findCandidates(const particles::ParticleSystem& system, const Cells& cells);
     void movedBack(particles::ParticleSystem& system, const Cells& cells);
-    void movedBack(particles::ParticleSystem& system, const Cell& cell,
-                   std::size_t index);  // of one held cell, by its index
+    // index: of the held cell.
+    void movedBack(particles::ParticleSystem& system, const Cell& cell, std::size_t index);
 
-    // This rank's moves since the start of the run, and the last of them since the last call.
+    // Particles that this rank has moved back since the start of the run, the largest depth [m], and the moves since
+    // the last call of takeReport (1,000 at most).
     long moves() const { return moves_; }
     double deepest() const { return deepest_; }
     std::vector<GuardMove> takeReport() { return std::exchange(report_, {}); }
@@ -41,7 +42,7 @@ class LeakageGuard {
     double spacing_, deepest_ = 0;
     long moves_ = 0;
     SurfaceTrees surfaces_;
-    std::vector<std::vector<int>> candidates_;  // particles, of each held cell
+    std::vector<std::vector<int>> candidates_;  // particles near each held cell
     std::vector<GuardMove> report_;
 };
 

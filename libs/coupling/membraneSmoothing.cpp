@@ -13,7 +13,7 @@ void MembraneSmoothing::placeCell(const Cell& cell, std::size_t first, const Nod
     const std::vector<Vec3>& x = cell.membrane.position;
     std::vector<std::vector<int>> neighbours(x.size());
     for (const Index3& t : cell.membrane.network().triangles())
-        for (std::size_t k = 0; k < 3; ++k) {  // both ways, as the rim of a hole has no second triangle
+        for (std::size_t k = 0; k < 3; ++k) {  // in both directions, since an edge at a hole has one triangle only
             neighbours[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);
             neighbours[static_cast<std::size_t>(t[(k + 1) % 3])].push_back(t[k]);
         }
@@ -23,7 +23,7 @@ void MembraneSmoothing::placeCell(const Cell& cell, std::size_t first, const Nod
         double sum = 0;
         Vec3 mean = Vec3::Zero();
         double square = 0;
-        for (std::size_t k = 0; k < found.size(); ++k) {  // grows as it goes
+        for (std::size_t k = 0; k < found.size(); ++k) {  // `found` grows in this loop
             const std::size_t n = found[k];
             const Vec3 d = x[n] - x[m];
             const double r = d.norm() / reach_, w = areas[first + n].norm() * (1 - r) * (1 - r) * (1 + 2 * r);

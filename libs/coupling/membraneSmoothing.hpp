@@ -1,11 +1,12 @@
-// A mean along the membrane, by which nodes nearer to each other than the particles of the fluid are do not take hold
-// of it one by one: edges finer than dx would otherwise keep a stiff membrane's fluid from all that is not smooth on
-// their scale, and the membrane would act as a thicker one.
+// A mean along the membrane for nodes that are closer together than the particles of the fluid. Without it each of
+// these nodes would constrain the fluid on its own: with edges finer than dx, a stiff membrane would suppress every
+// motion of the fluid that is not smooth on their scale, and would act like a thicker one.
 //
 //     (M u)_m = sum_n M_mn u_n,   M_mn = A_n (1 - r)^2 (1 + 2 r) / sum of these,   r = |x_n - x_m|/s < 1,  s = 1.2 dx
-// over the nodes n that are joined to m by edges through nodes within s; A_n: area of the node. With edges of s and
-// more M is the identity. What the mean moves is made up for: the mean place of the nodes is not that of m (`shift`),
-// and the mean square of their distance (`square`) is taken off the weights' (nodeFluidMap.hpp).
+// over the nodes n that are connected to m by edges through nodes within s; A_n: area of the node. With all edges of
+// length s or more, M is the identity. Two effects of the mean are compensated in nodeFluidMap.hpp: the mean position
+// of the nodes is not that of m (`shift`), and the mean square of their distances (`square`) adds to that of the
+// weights.
 #pragma once
 #include "coupling/nodeLayout.hpp"
 
@@ -17,7 +18,7 @@ class MembraneSmoothing {
 
     explicit MembraneSmoothing(double spacing) : reach_(reachInSpacings * spacing) {}
 
-    // Where nodes are now; areas: of each node of the cells that this rank holds, as vectors.
+    // Computes M at the present positions. areas: area vector of each node of the cells that this rank holds [m^2].
     void place(const Cells& cells, const NodeLayout& layout, const NodeVectors& areas);
 
     bool isIdentity() const { return members_.size() == shift_.size(); }
@@ -26,7 +27,7 @@ class MembraneSmoothing {
 
     const Vec3& shift(std::size_t node) const { return shift_[node]; }  // x_m - sum M x_n [m]
     double square(std::size_t node) const { return square_[node]; }     // sum M |x_n - x_m|^2 [m^2]
-    // Whether one of those that a node's mean is made of is marked; marks of all nodes.
+    // For each node, whether one of the nodes in its mean is marked. marks: of all nodes.
     std::vector<char> reached(const std::vector<char>& marks) const;
 
   private:

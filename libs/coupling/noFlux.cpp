@@ -12,7 +12,7 @@ using particles::Kind;
 using particles::ParticleSystem;
 
 namespace {
-// Sign of the distance on the particle's side.
+// Sign that the distance from the membrane has on the particle's own side.
 double sideOf(const particles::ParticleStore& s, int particle, const Cell& cell) {
     return s.side[static_cast<std::size_t>(particle)] == cell.membrane.cell ? -1 : 1;
 }

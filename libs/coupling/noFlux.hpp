@@ -1,11 +1,11 @@
-// Fluid does not cross a closed membrane: what the discrete velocity of a particle near one has too much along the
-// normal is left out when it is moved.
+// Fluid does not cross a closed membrane: when a particle near one is moved, the normal component of its velocity
+// relative to the membrane, an error of the discrete velocity, is removed in part (chi).
 //
 //     x_i += dt [u_i - chi ((u_i - u_m).n) n],    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
-// phi: signed distance from the membrane; n, u_m: normal and membrane's velocity at the nearest point (transport.hpp
-// has it with shifting). After the move a particle that is nearer than 0.05 dx to its own side of the membrane, or
-// beyond it, goes to that distance; those that were beyond it are counted. In the interior of the fluid nothing is
-// done, and an opened cell is left alone.
+// phi: signed distance from the membrane; n, u_m: normal and velocity of the membrane at the nearest point
+// (transport.hpp has the equation with shifting). After the move, a particle that is beyond the membrane, or on its own
+// side but nearer than 0.05 dx, is placed at that distance on its own side; those that were beyond it are counted.
+// Particles further than dx from a membrane, and particles near an opened cell, are left alone.
 #pragma once
 #include <utility>
 #include <vector>
@@ -18,14 +18,14 @@ namespace corpuscle::coupling {
 
 class NoFlux {
   public:
-    static constexpr double imageMarginInSpacings =
-        2;  // that a case must leave between a cell and its image: twice the reach
+    // Least distance between a cell and its image that a case must leave: twice the reach.
+    static constexpr double imageMarginInSpacings = 2;
     static constexpr double leastDistanceInSpacings = 0.05, reachInSpacings = 1;
 
     NoFlux(Cells& cells, double spacing) : cells_(cells), spacing_(spacing), surfaces_(reachInSpacings * spacing) {}
 
-    // Which particles of this rank are near a membrane now: near the image of it that is nearest to them.
-    // candidates(cell): those that may be, of a held cell by its index.
+    // Finds the particles of this rank that are near a membrane now, or more exactly near its nearest image.
+    // candidates(cell): particles that may be near a held cell, given by its index.
     template <class Candidates>
     void findAmong(const particles::ParticleSystem& system, Candidates&& candidates) {
         forgetOthers();
@@ -35,20 +35,21 @@ class NoFlux {
     void find(const particles::ParticleSystem& system, const Immersed& immersed) {
         findAmong(system, [&](std::size_t cell) -> const std::vector<int>& { return immersed.touchedBy(cell); });
     }
-    // Those that were found, with the velocity that nodes have now, as the particle sees it.
+    // f(particle, side, chi, normal, velocity) for the particles found. side: 1 outside, -1 inside; normal: outward;
+    // velocity: of the membrane relative to the slide of the particle's image, by the present velocities of the nodes.
     template <class F>
-    void forNear(F&& f) const {  // f(particle, 1 outside and -1 inside, chi, outer normal, velocity of the membrane)
+    void forNear(F&& f) const {
         for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
     }
-    // f(particle, cell, the point of the membrane nearest to it), ordered by cells
+    // f(particle, cell, nearest point of the membrane) for the particles found, ordered by cells.
     template <class F>
     void forNearest(F&& f) const {
         for (const Near& near : near_) f(near.particle, std::as_const(cells_)[near.cell], near.at);
     }
-    // After particles and nodes have moved.
+    // Places particles on their own side, after particles and nodes have moved.
     void keepSides(particles::ParticleSystem& system);
 
-    long crossings() const { return crossings_; }  // of this rank since the start
+    long crossings() const { return crossings_; }  // counted by this rank since the start
     double deepest() const { return deepest_; }    // [m]
     void restore(long crossings) { crossings_ = crossings; }
 
@@ -59,9 +60,9 @@ class NoFlux {
         geometry::SurfacePoint at;
         double side, chi;
         Vec3 normal;
-        Vec3 slide;  // by which the particle's image beside the membrane is faster than the particle
+        Vec3 slide;  // velocity of the particle's image beside the membrane less that of the particle [m/s]
     };
-    void forgetOthers();  // than the cells that are held, and what was found
+    void forgetOthers();  // clears what was found, and the trees of cells that are no longer held
     void find(const particles::ParticleSystem& system, std::size_t cell, const std::vector<int>& candidates);
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;

@@ -9,7 +9,7 @@ namespace corpuscle::coupling {
 
 namespace {
 
-constexpr double secondMoment = 0.1;  // of W (c0 + c2 q^2)
+constexpr double secondMoment = 0.1;  // of the density m, from W (c0 + c2 q^2)
 constexpr std::size_t degree = 11;
 
 // 1 - 10 q^2 + 20 q^3 - 15 q^4 + 4 q^5

@@ -25,7 +25,7 @@ void NodeExchange::plan(ParticleSystem& system, Cells& cells) {
     owned_.clear();
     const ParticleStore& store = system.store();
     std::string lost;
-    // Each owner tells each holder which nodes it will send.
+    // Each owner of node particles tells each holder which nodes it will send.
     std::vector<std::vector<int>> lists(static_cast<std::size_t>(size)), entries(static_cast<std::size_t>(size));
     for (int i = 0; i < system.owned(); ++i) {
         const std::int64_t number = store.node[static_cast<std::size_t>(i)];
@@ -64,8 +64,8 @@ void NodeExchange::plan(ParticleSystem& system, Cells& cells) {
 
 void NodeExchange::place(const Periodicity& periodicity, Cell& cell, int node, const Vec3& position,
                          const Vec3& velocity) {
-    // The image nearest to where the node was: whole box lengths are added, so that without them the bits are the
-    // particle's.
+    // The image of the particle nearest to the previous position of the node. Where no box length is added, position
+    // and particle have the same bits.
     Vec3& x = cell.membrane.position[static_cast<std::size_t>(node)];
     x = periodicity.nearest(position, x);
     cell.membrane.velocity[static_cast<std::size_t>(node)] = velocity;

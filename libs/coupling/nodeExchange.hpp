@@ -1,5 +1,5 @@
-// Keeps the nodes of held cells up to date: owners of node particles send position and velocity to every rank that
-// holds the cell. Planned when lists are built, used at every step.
+// Updates the nodes of held cells (dual identity): the owner of a node's particle sends its position and velocity to
+// every rank that holds the cell. Planned when lists are built, used at every step.
 #pragma once
 #include <vector>
 
@@ -9,17 +9,18 @@ namespace corpuscle::coupling {
 
 class NodeExchange {
   public:
-    // Who owns which node, and who holds its cell, now that lists have been built. Collective.
+    // Plans the messages, after lists have been built: which node particles this rank owns, who holds their cells.
+    // Collective.
     void plan(particles::ParticleSystem& system, Cells& cells);
 
-    // Positions (unwrapped) and velocities, `extrapolation` seconds on by the present acceleration, of all nodes of
-    // held cells. Collective.
+    // Updates positions (unwrapped) and velocities of all nodes of held cells; velocities are extrapolated by
+    // `extrapolation` seconds with the present acceleration. Collective.
     void gather(const particles::ParticleSystem& system, Cells& cells, double extrapolation);
 
     struct OwnedNode {
-        int particle;  // in the store
-        int cell;      // index among those that this rank holds
-        int node;
+        int particle;  // its index in the store
+        int cell;      // index of the cell among those that this rank holds
+        int node;      // number of the node in the cell
     };
     const std::vector<OwnedNode>& owned() const { return owned_; }
 

@@ -19,11 +19,11 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr int fewest = 10;  // particles for more than Shepard's weights
-constexpr std::size_t moments =
-    NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;  // upper triangle of sum V W b b^T, and how many
+constexpr int fewest = 10;  // with fewer particles a node has Shepard's weights
+// Sums of each node: the upper triangle of sum V W b b^T, and the number of particles.
+constexpr std::size_t moments = NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;
 
-using Quad = Eigen::Array4d;  // a particle's four numbers, or three and 0
+using Quad = Eigen::Array4d;  // the four numbers of a particle; of a vector, its three components and 0
 Quad quadOf(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
 Vec3 vectorOf(const Quad& quad) { return quad.head<3>(); }
 
@@ -66,7 +66,7 @@ void NodeFluidMap::place(const Cells& cells, const NodeLayout& layout, const Par
     if (system.periodicity().slides()) findSlides(system.periodicity(), system.store(), cells);
 }
 
-// By which the image of each particle beside a node is faster than the particle.
+// Interpolates the velocities of images beside the nodes, less those of their particles.
 void NodeFluidMap::findSlides(const Periodicity& period, const particles::ParticleStore& s, const Cells& cells) {
     std::vector<Vec3> slide(own_.entries.size());
     std::size_t m = 0;
@@ -91,7 +91,7 @@ void NodeFluidMap::findNormals(const Cells& cells) {
 
 void NodeFluidMap::findNear(const Cells& cells, const ParticleSystem& system, const std::vector<double>& volume) {
     const particles::ParticleStore& s = system.store();
-    const double reach = radius_ + 0.5 * system.skin();  // particles are found by their places when lists were built
+    const double reach = radius_ + 0.5 * system.skin();  // the search uses positions at the time of the last list build
     firstNear_.assign(1, 0), near_.clear();
     for (const Cell& cell : cells)
         for (const Vec3& x : cell.membrane.position) {
@@ -111,7 +111,7 @@ bool NodeFluidMap::hasSlopes() const {
     return std::any_of(conditions_.begin(), conditions_.end(), [](const NodeConditions& c) { return c.slope != 0; });
 }
 
-// Of the sums over all particles near the node.
+// Coefficients from the sums over all particles near the node.
 NodeFluidMap::Coefficients NodeFluidMap::solve(const Cell& cell, std::size_t m, const double* sums) const {
     NodeBasis::Matrix A;
     for (int a = 0; a < NodeBasis::size; ++a)
@@ -187,7 +187,7 @@ void NodeFluidMap::add(const Near& near, std::size_t m, Weights& weights) const 
 }
 
 void NodeFluidMap::Weights::findTouched(const NodeLayout& layout, std::size_t particles) {
-    std::vector<std::size_t> lastSeen(particles, 0);  // by which cell, 1 and up
+    std::vector<std::size_t> lastSeen(particles, 0);  // 1 + index of the last cell that touched each particle; 0: none
     touched.clear();
     touchedBy.assign(layout.cells(), {});
     for (std::size_t c = 0; c < layout.cells(); ++c)
@@ -228,9 +228,9 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
     others_.findTouched(layout, shared.entries());
 }
 
-// Sums over all components alike; normals come in behind them: with T = sum_j u_j g_j^T of the slopes g,
+// All components are summed alike; then the normals are applied to the sums. With T = sum_j u_j g_j^T of the slopes g,
 //     sum_j (n.g) [u - (n.u) n] + (n.u) [g - (n.g) n] = T n + T^T n - 2 (n.T n) n
-// velocityOf(entry)
+// velocityOf(k): four numbers of the particle of entry k.
 template <class VelocityOf>
 NodeVectors NodeFluidMap::interpolateBy(VelocityOf&& velocityOf) {
     NodeVectors v(normal_.size()), shifts(smoothing_.isIdentity() ? 0 : v.size());

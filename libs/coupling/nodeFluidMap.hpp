@@ -1,5 +1,5 @@
-// What nodes of membranes find of a field in the fluid around them, and how their forces go to that fluid: the same
-// weights both ways.
+// Interpolation S of fluid fields to the nodes of membranes; its transpose S^T spreads forces of the nodes to the fluid
+// with the same weights.
 //
 //     S : u_m = sum_n M_mn s_n + (x_m - sum_n M_mn x_n).grad u
 //         s_m = sum_j [w_mj (1 - n n^T) + w'_mj n n^T] u_j + t H [(du/dn)_along + grad_along (u.n)],   n: normal at m
@@ -7,16 +7,18 @@
 // w, w'  | V_j W(r/R) (c.b(q)),  W Wendland C2,  q = d_j/R,  r = |d_j|,  d_j = x_j - x_m,  R = 2 dx;  b: nodeBasis.hpp
 //        | sum w = 1,   sum w q = 0,   sum w phi = v along the membrane (w) and v' across it (w'),
 //        | sum w rho^2 = r - s and sum w' rho^2 = r' - s
-// s      | mean square of M at the node, in R^2, so that M and w together have the second moments r, r'
+// s      | mean square distance of M at the node, in R^2, so that M and w together have the second moments r, r'
 // M      | mean along the membrane (membraneSmoothing.hpp); the identity where edges are longer than 1.2 dx
-// grad   | by weights of the same form that have 1 for q_k and 0 for the rest
-// v, t   | so that nodes move as in the exact flow along a flat membrane between two fluids (flatMembrane.hpp)
-// v',r,r'| 0.23, -0.07, 0.02, by the responses of a sphere to loads of all kinds (tests/implicit/loadedSphere.cpp)
-// Constant and linear fields are found exactly. Where sum_j |w_mj| > 4, as on one side of fluid alone, or fewer than 10
-// particles are near, s_m is the mean by V_j W (Shepard).
+// grad   | by weights of the same form that have 1 for q_k and 0 for the rest of the basis
+// H      | support of the fluid's kernel
+// v, t   | chosen so that nodes move as in the exact flow along a flat membrane between two fluids (flatMembrane.hpp)
+// v',r,r'| 0.23, -0.07, 0.02, fitted to the responses of a sphere to loads of all kinds
+//        | (tests/implicit/loadedSphere.cpp)
+// Constant and linear fields are interpolated exactly. Where sum_j |w_mj| > 4, as with fluid on one side only, or where
+// fewer than 10 particles are near, s_m is the mean with the weights V_j W (Shepard).
 //
-// A rank has the entries of its own particles for the nodes of the cells that it holds. Sums over the particles of a
-// node are added up among the holders of its cell (holderSums.hpp).
+// A rank has the weights of its own particles for the nodes of the cells that it holds. Sums over the particles around
+// a node are completed among the holders of its cell (holderSums.hpp).
 #pragma once
 #include "coupling/flatMembrane.hpp"
 #include "coupling/holderSums.hpp"
@@ -32,40 +34,41 @@ class NodeFluidMap {
     static constexpr double radiusInSpacings = 2, largestWeights = 4.0;
     static constexpr double kinkAcross = 0.23, squareAlong = -0.07, squareAcross = 0.02;  // v', r, r'
 
-    // conditions: of the nodes of each type of cell. support: of the fluid's kernel [m].
+    // conditions: v and t of each type of cell. support: of the fluid's kernel [m].
     NodeFluidMap(double spacing, double support, std::vector<NodeConditions> conditions)
         : radius_(radiusInSpacings * spacing),
           support_(support),
           conditions_(std::move(conditions)),
           smoothing_(spacing) {}
 
-    // Weights where particles and nodes are now; lists are up to date. volume: of each particle [m^3]. Collective.
-    // Throws Failure(numerics), on all ranks, where a node has no fluid around it.
+    // Computes the weights at the present positions; lists must be up to date. volume: of each particle [m^3].
+    // Collective. Throws Failure(numerics), on all ranks, if a node has no fluid around it.
     void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
                const std::vector<double>& volume);
-    // Weights of ghosts too, where `place` has just been. Collective.
+    // Weights of ghosts, to be called right after `place`. Collective.
     void placeOthers(const Cells& cells, const NodeLayout& layout, particles::ParticleSystem& system,
                      const particles::SharedParticles& shared, const std::vector<double>& volume);
 
-    // S u, u of four numbers a particle. Collective among holders.
+    // S u, u of four numbers per particle. Collective among holders.
     template <class Real>
     NodeVectors interpolate(const Real* u);
-    // += S of what images of the particles are faster than these, where the images of the box slide: nodes see those
-    // beside them.
+    // v += S of the slide velocities of images, if images of the box slide: nodes interpolate from the images beside
+    // them.
     void addSlides(NodeVectors& v) const {
         for (std::size_t m = 0; m < slides_.size(); ++m) v[m] += slides_[m];
     }
-    // force_j += (S^T f)_j, of four numbers a particle: of own particles, and of ghosts in their entries.
+    // force_j += (S^T f)_j, of four numbers per particle: for own particles; for ghosts, into their entries.
     void spread(const NodeVectors& f, particles::RealArray& force) const { spreadBy(own_, f, force); }
     void spreadToOthers(const NodeVectors& f, particles::RealArray& force) const { spreadBy(others_, f, force); }
 
-    const std::vector<int>& touched() const { return own_.touched; }  // particles of this rank with weights
-    // Those with weights for the nodes of one held cell.
+    const std::vector<int>& touched() const { return own_.touched; }  // own particles with weights for any node
+    // Own particles with weights for the nodes of one held cell.
     const std::vector<int>& touchedBy(std::size_t cell) const { return own_.touchedBy[cell]; }
     const std::vector<int>& touchedOthers() const { return others_.touched; }  // entries of ghosts
 
-    long fallbacks() const { return fallbacks_; }  // nodes of the last place with Shepard's weights, for either reason
-    long mostFallbacks() const { return mostFallbacks_; }  // of any
+    // Number of nodes with Shepard's weights at the last `place`, over all ranks; and the largest of any `place`.
+    long fallbacks() const { return fallbacks_; }
+    long mostFallbacks() const { return mostFallbacks_; }
 
   private:
     struct Near {  // a particle within R of a node
@@ -75,19 +78,19 @@ class NodeFluidMap {
     };
     struct Entry {
         int particle;
-        double along, extra, shift;  // w, w' - w, (x_m - sum M x).grad
+        double along, extra, shift;  // w, w' - w, weight of (x_m - sum M x).grad
     };
     struct Weights {
-        std::vector<std::size_t> first;  // of each node in `entries`, and one behind the last
+        std::vector<std::size_t> first;  // first entry of each node, and the number of all entries
         std::vector<Entry> entries;
-        NodeVectors slopes;  // t H grad of each entry; none where no cell has a t
+        NodeVectors slopes;  // weights of t H grad of each entry; empty if t = 0 for all types of cell
         std::vector<int> touched;
-        std::vector<std::vector<int>> touchedBy;  // of each cell
+        std::vector<std::vector<int>> touchedBy;  // for each cell
 
         void clear() { first.assign(1, 0), entries.clear(), slopes.clear(), touched.clear(), touchedBy.clear(); }
         void findTouched(const NodeLayout& layout, std::size_t particles);
     };
-    struct Coefficients {  // c of a node's weights
+    struct Coefficients {  // c of the weights of one node
         NodeBasis::Vector along, across, shift;
         Eigen::Matrix<double, NodeBasis::size, 3> slope;
     };
@@ -106,12 +109,12 @@ class NodeFluidMap {
     std::vector<NodeConditions> conditions_;
     MembraneSmoothing smoothing_;
     HolderSums sums_;
-    std::vector<std::size_t> firstNear_;  // of each node in near_, and one behind the last
-    std::vector<Near> near_;              // own particles
-    Weights own_, others_;
+    std::vector<std::size_t> firstNear_;      // first entry of each node in near_, and the number of all entries
+    std::vector<Near> near_;                  // own particles
+    Weights own_, others_;                    // of own particles, of ghosts
     std::vector<Coefficients> coefficients_;  // of each node
-    NodeVectors normal_;                      // of each node; 0 where it has no area
-    NodeVectors slides_;                      // of each node; none where the images of the box do not slide
+    NodeVectors normal_;                      // of each node; 0 if the node has no area
+    NodeVectors slides_;                      // of each node; empty if images of the box do not slide
     long fallbacks_ = 0, mostFallbacks_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Everything that is simulated: particles, fluid, walls, rigid bodies, cells; what observers read and integrators
-// advance.
+// The scene: everything that is simulated (particles, fluid, walls, rigid bodies, cells). Observers read it, schemes
+// advance it.
 #pragma once
 #include <memory>
 #include <vector>
@@ -14,20 +14,20 @@
 namespace corpuscle::coupling {
 
 struct Scene {
-    std::unique_ptr<particles::ParticleSystem> system;  // its box holds the walls' layers too
-    particles::Box fluidBox;                            // the smallest around the fluid
-    double fluidVolume = 0;                             // between the walls, with all that floats in it [m^3]
+    std::unique_ptr<particles::ParticleSystem> system;  // its box includes the layers of wall particles
+    particles::Box fluidBox;                            // the smallest box around the fluid
+    double fluidVolume = 0;                             // between the walls, cells and rigid bodies included [m^3]
     sph::FlowState flow;
-    std::unique_ptr<bodies::Bodies> bodies;    // none unless the case has rigid bodies
-    std::unique_ptr<sph::FluidForces> forces;  // with the fluid's model
-    std::unique_ptr<sph::Shifting> shifting;   // none unless the case names it
-    Cells cells;                               // none for a fluid alone
-    std::unique_ptr<CellContacts> contacts;    // none unless the case has contact
-    std::unique_ptr<DualIdentity> coupling;    // none without cells
-    std::vector<RuptureEvent> broken;          // at the last step, of the cells that this rank holds
-    sph::Budget budget;                        // of energy and momentum; not kept unless an observer asks for it
-    long movedBack =
-        0;  // fluid particles of this rank that had crossed a membrane and were moved back, since the start
+    std::unique_ptr<bodies::Bodies> bodies;    // null without rigid bodies
+    std::unique_ptr<sph::FluidForces> forces;  // includes the model of the fluid
+    std::unique_ptr<sph::Shifting> shifting;   // null unless the case has shifting
+    Cells cells;                               // empty for a fluid alone
+    std::unique_ptr<CellContacts> contacts;    // null unless the case has contact
+    std::unique_ptr<DualIdentity> coupling;    // null without cells
+    std::vector<RuptureEvent> broken;          // bonds broken in the last step, of the cells that this rank holds
+    sph::Budget budget;                        // of energy and momentum; kept only if an observer asks for it
+    // Fluid particles of this rank that had crossed a membrane and were moved back, since the start.
+    long movedBack = 0;
     double spacing = 0;  // dx [m]
 
     const sph::FluidModel& model() const { return forces->model(); }

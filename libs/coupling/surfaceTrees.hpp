@@ -1,4 +1,4 @@
-// Search trees over the triangles of held cells, kept while they are held and brought up to date when asked for.
+// Search trees over the triangles of held cells: kept while a cell is held, updated when asked for.
 #pragma once
 #include <map>
 #include <memory>
@@ -10,9 +10,9 @@ namespace corpuscle::coupling {
 
 class SurfaceTrees {
   public:
-    explicit SurfaceTrees(double reach) : reach_(reach) {}  // of their questions [m]
+    explicit SurfaceTrees(double reach) : reach_(reach) {}  // largest distance that is searched [m]
 
-    // Where its nodes are now. The tree stays where it is until the cell is forgotten.
+    // The tree of a cell at the present positions of its nodes. The reference is valid until keepHeld drops the cell.
     geometry::TriangleTree& of(const Cell& cell) {
         const membrane::Membrane& m = cell.membrane;
         std::unique_ptr<geometry::TriangleTree>& tree = trees_[m.cell];

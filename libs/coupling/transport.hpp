@@ -1,18 +1,17 @@
-// How particles move beside their velocity in one step: shifting, which keeps them even, less what would cross a
-// membrane.
+// Displacement of particles in one step in addition to that by their velocity: shifting, which keeps their distribution
+// even, less the part that would cross a membrane.
 //
 //     s_i = min(C H^2 gammadot dt, 0.3/sum_j V_j F) R_i,  |s_i| <= gammadot dt dx,
 //         R_i = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij
 //     near a membrane: s_i - chi [(dt (u_i - u_m) + s_i^-).n] n,    s_i^-: s_i if it goes towards the membrane, else 0
 //
 // symbol   | meaning
-// C        | coefficient of the case; the strength is C per unit of strain. A step's share ends where a shift would
-//          | overshoot
-// R        | disorder (sph/momentPair.hpp); the second term holds off pairs that are nearer than a spacing, which the
-//          | gradient of a smooth kernel alone would let close up: Monaghan, J. Comput. Phys. 159 (2000) 290; Lind et
-//              al., ibid. 231 (2012) 1499
-// chi, u_m | noFlux.hpp. What goes away from the membrane stays: else particles that have come near it would never
-//          | leave
+// C        | coefficient of the case: strength per unit of strain. The second bound in min() prevents a shift from
+//          | overshooting
+// R        | disorder (sph/momentPair.hpp); its second term separates pairs that are nearer than a spacing, which
+//          | the gradient of a smooth kernel alone would let close up: Monaghan, J. Comput. Phys. 159 (2000) 290;
+//          | Lind et al., ibid. 231 (2012) 1499
+// chi, u_m | noFlux.hpp. Shifts away from the membrane are not reduced: else particles near it could never leave
 #pragma once
 #include <algorithm>
 #include <optional>
@@ -43,7 +42,7 @@ class Transport {
         }
     }
 
-    // velocity(i): of the particle, constant over the step.
+    // velocity(i): of particle i, constant over the step.
     template <class Velocity>
     void holdAtMembranes(const NoFlux& noFlux, double dt, Velocity&& velocity) {
         noFlux.forNear([&](int particle, double side, double chi, const Vec3& normal, const Vec3& membrane) {

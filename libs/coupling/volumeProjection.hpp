@@ -1,7 +1,7 @@
-// A closed cell keeps its volume exactly: of velocities and forces of its nodes the part along the gradient of its
-// volume is taken away,
+// Conservation of the volume of closed cells: the component along the gradient of the volume is removed from the
+// velocities and forces of the nodes,
 //     P = I - g g^T/(g.g),  g = dV/dx
-// and what a finite step leaves is corrected along g. An open cell is left alone.
+// and the remaining error of a finite step is corrected along g. Open cells are left alone.
 #pragma once
 #include "coupling/nodeLayout.hpp"
 
@@ -9,10 +9,10 @@ namespace corpuscle::coupling {
 
 class VolumeProjection {
   public:
-    // g where nodes are now.
+    // Computes g at the present positions of the nodes.
     void place(const Cells& cells, const NodeLayout& layout);
     void apply(NodeVectors& v) const;  // P v
-    // Moves nodes to where their cells have the volume that they began with.
+    // Moves nodes along g so that each closed cell has its initial volume.
     static void restore(Cells& cells);
 
   private:

@@ -50,7 +50,7 @@ void BoundsIndex::add(int surface, const Bounds& bounds) {
         if (!periodic_[k])
             from[k] = std::clamp(from[k], 0, count_[k] - 1), to[k] = std::clamp(to[k], 0, count_[k] - 1);
         else
-            to[k] = std::min(to[k], from[k] + count_[k] - 1);  // each once
+            to[k] = std::min(to[k], from[k] + count_[k] - 1);  // each cuboid once
     }
     for (int a = from[0]; a <= to[0]; ++a)
         for (int b = from[1]; b <= to[1]; ++b)
@@ -92,7 +92,7 @@ std::vector<std::vector<std::size_t>> pointsNear(const std::vector<Vec3>& points
     if (points.empty()) return near;
     Bounds box;
     for (const Vec3& x : points) box.extend(x);
-    for (int k = 0; k < 3; ++k)  // of periodic images one whole period is needed
+    for (int k = 0; k < 3; ++k)  // along a periodic axis, one whole period
         if (period.isAlong(k)) box.max()[k] = box.min()[k] + period.lengths()[k];
     std::vector<Bounds> bounds;
     bounds.reserve(meshes.size());

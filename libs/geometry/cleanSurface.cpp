@@ -13,7 +13,7 @@
 namespace corpuscle::geometry {
 namespace {
 
-constexpr double mergeWithin = 1e-6;  // of the size
+constexpr double mergeWithin = 1e-6;  // of the size of the surface
 
 struct Place {
     std::array<std::int64_t, 3> cell;
@@ -28,7 +28,7 @@ struct PlaceHash {
     }
 };
 
-// Numbers of nodes after those at exactly the same place have been made one.
+// New number of each node after merging nodes at exactly the same place.
 std::vector<int> exactly(const std::vector<Vec3>& nodes, std::vector<Vec3>& merged) {
     std::unordered_map<Place, int, PlaceHash> places;
     std::vector<int> number;
@@ -45,7 +45,7 @@ std::vector<int> exactly(const std::vector<Vec3>& nodes, std::vector<Vec3>& merg
     return number;
 }
 
-// The same for nodes within `reach` of the first of their kind.
+// The same, merging nodes within `reach` of the first node of a group.
 std::vector<int> nearly(const std::vector<Vec3>& nodes, double reach, std::vector<Vec3>& merged, double& furthest) {
     std::unordered_map<Place, std::vector<int>, PlaceHash> grid;
     std::vector<int> number;
@@ -87,7 +87,7 @@ struct Side {
     bool forward;        // the triangle runs through a -> b
 };
 
-// Sides of all triangles, those of one edge one after the other.
+// Sides of all triangles, sorted so that those of one edge follow each other.
 std::vector<Side> sidesOf(const TriangleMesh& mesh) {
     std::vector<Side> sides;
     sides.reserve(3 * mesh.triangles.size());
@@ -163,14 +163,14 @@ void mergeNodes(SurfaceFromFile& surface) {
     dropLeftovers(surface);
 }
 
-// Across an edge of two triangles these run through it in opposite directions; where they do not, one is turned. From a
-// first triangle of each part on, breadth first. A surface that cannot be oriented (a Klein bottle) keeps edges that
-// checkClosedManifold names.
+// The two triangles at an edge must run through it in opposite directions; if they do not, one is turned. The search is
+// breadth first, from a first triangle of each part. A surface that cannot be oriented (a Klein bottle) keeps edges
+// that checkClosedManifold reports.
 void orient(SurfaceFromFile& surface) {
     TriangleMesh& mesh = surface.mesh;
     const std::size_t count = mesh.triangles.size();
-    std::vector<std::vector<std::pair<int, bool>>> next(
-        count);  // neighbour; whether it runs the same way, as it must not
+    // Neighbours of each triangle, and whether they run through the common edge in the same direction, which is wrong.
+    std::vector<std::vector<std::pair<int, bool>>> next(count);
     const std::vector<Side> sides = sidesOf(mesh);
     forEachEdge(sides, [&](std::size_t begin, std::size_t end) {
         if (end - begin != 2) return;

@@ -17,7 +17,7 @@ CGAL::Bbox_3 box(const Bounds& b) {
     return {b.min().x(), b.min().y(), b.min().z(), b.max().x(), b.max().y(), b.max().z()};
 }
 
-// A triangle with its bounds; of the mesh, moved by a shift.
+// A triangle of a surface, moved by a shift, with its bounds.
 struct Facet {
     Kernel::Triangle_3 triangle;
     Bounds bounds;
@@ -50,11 +50,11 @@ Bounds boundsOf(const std::vector<Vec3>& points) {
 }
 
 std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Periodicity& period, double margin) {
-    // Each surface as its image with the lower corner of its bounds in the first period, and all images of it that may
-    // meet one of these.
+    // own: each surface by the image whose bounds have their lower corner in the first period. images: all images of
+    // the surfaces that may meet one of these.
     struct Image {
         std::size_t surface;
-        Vec3 shift;  // of the surface as it stands
+        Vec3 shift;  // from the surface's own position
     };
     std::vector<Image> own, images;
     Bounds all;
@@ -94,10 +94,10 @@ std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Perio
             const std::size_t first = a.info()->surface, second = b.info()->surface;
             const Vec3 shift = b.info()->shift - a.info()->shift;
             if (first > second) return;
-            if (first == second) {  // of the two images opposite to each other one, and not itself
+            if (first == second) {  // take one of two opposite images, and not the surface itself
                 const Vec3 half = 0.5 * period.lengths();
                 const auto side = [&](int k) { return shift[k] > half[k] ? 1 : shift[k] < -half[k] ? -1 : 0; };
-                // Across sliding faces first: along the others such images lie off by anything.
+                // The sliding axis decides first: along the others, images across sliding faces have any offset.
                 const int across = period.slides() ? side(period.slidingAxis()) : 0;
                 const int lead = across != 0 ? across : side(0) != 0 ? side(0) : side(1) != 0 ? side(1) : side(2);
                 if (lead <= 0) return;
@@ -126,7 +126,7 @@ std::optional<Crossing> crossing(const SurfaceView& first, const SurfaceView& se
     CGAL::box_intersection_d(boxes[0].begin(), boxes[0].end(), boxes[1].begin(), boxes[1].end(),
                              [&](const Box& a, const Box& b) {
                                  if (!CGAL::do_intersect(a.info()->triangle, b.info()->triangle)) return;
-                                 // The first by place, so that it is the same in whatever order the boxes come.
+                                 // The first by place, which does not depend on the order of the boxes.
                                  const Vec3 place = a.info()->bounds.intersection(b.info()->bounds).center();
                                  if (!found)
                                      found = Crossing{place, 1};

@@ -1,9 +1,9 @@
-// Where closed surfaces touch or cross each other, or their own images in a periodic box.
+// Finds where closed surfaces touch or cross each other, or their own images in a periodic box.
 //
-// Two stages, so that the cost grows with the number of surfaces and of their neighbours, and not with all pairs:
-// bounds of whole surfaces against each other (sweep of sorted boxes), then of each pair only the triangles in the
-// intersection of the two bounds, by their boxes and by exact predicates (CGAL). One surface wholly inside another does
-// not cross it: that is a question for InsideTest.
+// Two stages make the cost grow with the number of surfaces and of their neighbours, and not with all pairs. First the
+// bounds of whole surfaces are tested against each other (sweep over sorted boxes); then, for each pair, only the
+// triangles in the intersection of the two bounds, by their boxes and by exact predicates (CGAL). A surface wholly
+// inside another does not cross it: use InsideTest to find it.
 #pragma once
 #include <Eigen/Geometry>
 #include <optional>
@@ -14,9 +14,9 @@
 namespace corpuscle::geometry {
 
 using Bounds = Eigen::AlignedBox3d;
-Bounds boundsOf(const std::vector<Vec3>& points);  // empty where one is not finite
+Bounds boundsOf(const std::vector<Vec3>& points);  // empty if a point is not finite
 
-// A surface that stands elsewhere.
+// A reference to a surface that is stored elsewhere.
 struct SurfaceView {
     const std::vector<Vec3>* nodes;
     const std::vector<Index3>* triangles;
@@ -24,15 +24,16 @@ struct SurfaceView {
     Bounds bounds() const { return boundsOf(*nodes); }
 };
 
-// The second surface, moved by `shift`, beside the first. A surface and its own image: first == second, shift not zero.
+// Two neighbours: the first surface, and the second one moved by `shift`. For a surface and its own image, the two
+// numbers are equal and the shift is not zero.
 struct ImagePair {
     std::size_t first, second;  // first <= second
     Vec3 shift;
-    Vec3 slide = Vec3::Zero();  // by which the image is faster than the second surface [m/s]
+    Vec3 slide = Vec3::Zero();  // velocity of the image relative to the second surface [m/s]
 };
 
-// Every pair of whose bounds, grown by `margin` [m], some images meet; each pair of images once. Empty bounds meet
-// nothing.
+// All pairs of surfaces with images whose bounds, grown by `margin` [m], overlap; each pair of images once. Empty
+// bounds overlap nothing.
 std::vector<ImagePair> neighbours(const std::vector<Bounds>& bounds, const Periodicity& period, double margin = 0);
 
 struct Crossing {

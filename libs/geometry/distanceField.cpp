@@ -18,7 +18,7 @@ DistanceField::DistanceField(const TriangleMesh& mesh, double spacing, double re
         count_[k] = static_cast<int>(std::ceil((high[k] + reach - low_[k]) / spacing)) + 1;
         all *= static_cast<std::size_t>(count_[k]);
     }
-    // A node's neighbours beyond the reach are needed to interpolate up to it.
+    // Interpolation up to the reach needs exact distances at nodes beyond it.
     const TriangleTree surface(mesh, reach + std::sqrt(3.0) * spacing);
     const InsideTest inside(mesh);
     values_.reserve(all);

@@ -1,8 +1,8 @@
-// Signed distance from a closed surface on a grid, for many questions about one rigid mesh.
+// Signed distance from a closed surface on a grid, for many queries to one rigid mesh; negative inside.
 //
-// Nodes within `reach` of the surface have their exact distance (triangleTree.hpp), the others +-reach; in between the
-// eight nodes around a point are interpolated linearly. Error: at most spacing^2/4 (k1 + k2), k the curvatures of the
-// surface; negative inside.
+// Nodes within `reach` of the surface have their exact distance (triangleTree.hpp), the others +-reach; between nodes,
+// the values of the eight nodes around a point are interpolated linearly. Error: at most spacing^2/4 (k1 + k2), k1 and
+// k2 the curvatures of the surface.
 #pragma once
 #include <cmath>
 #include <vector>
@@ -16,17 +16,17 @@ class DistanceField {
     // A closed, outward oriented mesh; grid spacing and reach in metres.
     DistanceField(const TriangleMesh& mesh, double spacing, double reach);
 
-    // In the mesh's frame; at most `reach` away from 0.
+    // Signed distance at x, in the mesh's frame; limited to +-reach [m].
     double at(const Vec3& x) const;
-    // By how much the exact distance may differ from `at` where that is less than the reach [m]: the nodes between
-    // which it is found are no further away than a cell's diagonal, and a distance changes no faster than one moves.
+    // Bound on the difference between the exact distance and `at` where this is less than the reach [m]: the nodes of
+    // the interpolation are at most the diagonal of a grid cell away, and a distance has a gradient of at most 1.
     double margin() const { return std::sqrt(3.0) * spacing_; }
 
   private:
     Vec3 low_;
     double spacing_, reach_;
     Index3 count_{};             // nodes along each axis
-    std::vector<float> values_;  // over reach
+    std::vector<float> values_;  // distance over reach
 };
 
 }  // namespace corpuscle::geometry

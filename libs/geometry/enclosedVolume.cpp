@@ -11,10 +11,10 @@ namespace corpuscle::geometry {
 
 namespace {
 
-constexpr double exactEnough = 1e-13, least = 0.5, most = 2.0;  // relative error of the volume; c
+constexpr double exactEnough = 1e-13, least = 0.5, most = 2.0;  // relative error of the volume; range of c
 constexpr int tries = 20;
 
-// Of each node, for c = 1.
+// Displacement of each node, for c = 1.
 std::vector<Vec3> movesOf(const TriangleMesh& mesh, const Shape& shape) {
     std::vector<Vec3> normal(mesh.nodes.size(), Vec3::Zero());
     std::vector<double> gap(mesh.nodes.size(), 0.0), area(mesh.nodes.size(), 0.0);
@@ -40,7 +40,7 @@ void encloseVolume(TriangleMesh& mesh, const Shape& shape) {
         for (std::size_t m = 0; m < from.size(); ++m) mesh.nodes[m] = from[m] + c * move[m];
         return mesh.volume() / wanted - 1;
     };
-    // The secant method; the volume is a cubic polynomial of c that is nearly straight.
+    // Secant method; the volume is a cubic polynomial of c that is nearly linear.
     double before = 0, c = 1, errorBefore = error(before);
     if (std::abs(errorBefore) < exactEnough) return;
     for (int k = 0; k < tries; ++k) {
@@ -48,7 +48,7 @@ void encloseVolume(TriangleMesh& mesh, const Shape& shape) {
         if (std::abs(here) < exactEnough) break;
         const double next = c - here * (c - before) / (here - errorBefore);
         before = c, errorBefore = here;
-        if (!(next >= least && next <= most)) break;  // not a number where c no longer changes
+        if (!(next >= least && next <= most)) break;  // NaN if c no longer changes
         c = next;
     }
     if (!(std::abs(error(c)) < 1e-10))

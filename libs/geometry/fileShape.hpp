@@ -4,7 +4,7 @@
 // symbol | meaning                                                       | unit | default
 // file   | STL, OFF, PLY or VTP, relative to the case                    |      | required
 // scale  | length of one unit of the file                                | m    | 1 um
-// A longest side below 50 nm or above 1 cm is refused: the file's unit is another than `scale` says.
+// A longest side below 50 nm or above 1 cm is rejected: the file's unit is then not what `scale` says.
 //
 // F is the signed distance; the surface is the file's own triangulation, so that its nodes, after remeshing, lie on its
 // triangles.

@@ -22,14 +22,14 @@ void checkEdge(double edge, double greatest) {
                         edge * 1e6, greatest * 1e6));
 }
 
-// Nodes of one row or ring: first number, and where each stands along it.
+// Nodes of one row: the number of the first, and the position of each along the row.
 struct Line {
     int first;
     std::vector<double> place;
 };
 
-// Triangles between two open lines, `upper` on the left of `lower`: from both starts, the line whose next node comes
-// first goes on.
+// Adds the triangles between two open lines, `upper` on the left of `lower`: beginning at both starts, the line whose
+// next node comes first advances.
 void join(const Line& lower, const Line& upper, std::vector<Index3>& triangles) {
     std::size_t i = 0, j = 0;
     const auto node = [](const Line& line, std::size_t k) { return line.first + static_cast<int>(k); };
@@ -82,7 +82,7 @@ TriangleMesh disc(double radius, double edge) {
             const double angle = 2 * std::numbers::pi * k / (6 * ring);
             mesh.nodes.push_back(radius * ring / rings * Vec3(std::cos(angle), std::sin(angle), 0));
         }
-        // Six sectors alike: `ring` edges outside, one less inside.
+        // Six equal sectors: `ring` edges outside, one less inside.
         for (int sector = 0; sector < 6; ++sector) {
             const auto in = [&](int k) { return ring == 1 ? 0 : inner + (sector * (ring - 1) + k) % (6 * (ring - 1)); };
             const auto out = [&](int k) { return outer + (sector * ring + k) % (6 * ring); };

@@ -50,7 +50,7 @@ bool InsideTest::inside(const Vec3& x) const {
     int crossings = 0;
     for (int n = start_[column]; n < start_[column + 1]; ++n) {
         const Index3& t = mesh_.triangles[triangles_[n]];
-        // Twice the areas of the three triangles that x makes with the sides, in the plane z = 0.
+        // Twice the areas of the three triangles that x forms with the sides, projected onto the plane z = 0.
         double s[3];
         bool close = false;
         for (int e = 0; e < 3; ++e) {

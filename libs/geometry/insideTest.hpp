@@ -1,8 +1,8 @@
-// Inside or outside of a closed surface, for any points and in great number.
+// Tests whether points lie inside a closed surface; made for many points and one surface.
 //
-// A ray along +z from the point is cut with the triangles of one column of a plane grid, counting crossings outwards as
-// +1 and inwards as -1. A ray that passes within rounding of an edge, or a point within rounding of the surface, is
-// decided by the generalised winding number instead (the sum of the solid angles of all triangles over 4 pi).
+// A ray along +z from the point is intersected with the triangles of one column of a plane grid, counting crossings
+// outwards as +1 and inwards as -1. If the ray passes within rounding of an edge, or the point lies within rounding of
+// the surface, the generalised winding number decides instead (the sum of the solid angles of all triangles over 4 pi).
 #pragma once
 #include <optional>
 #include <vector>
@@ -12,14 +12,14 @@
 
 namespace corpuscle::geometry {
 
-// 1 inside, 0 outside of a closed, outward oriented surface; in between on it. Costs all triangles.
+// 1 inside, 0 outside a closed, outward oriented surface; in between on it. Sums over all triangles.
 double windingNumber(const TriangleMesh& mesh, const Vec3& x);
 
 class InsideTest {
   public:
     explicit InsideTest(const TriangleMesh& mesh);  // keeps a copy
     bool inside(const Vec3& x) const;
-    // In a periodic box: the image of x that is inside, empty: none is; and whether there is one.
+    // In a periodic box: the image of x that is inside, empty if none is; and whether there is one.
     std::optional<Vec3> imageInside(const Vec3& x, const Periodicity& period) const;
     bool inside(const Vec3& x, const Periodicity& period) const { return imageInside(x, period).has_value(); }
 

@@ -84,8 +84,8 @@ std::vector<int> carve(const std::vector<Vec3>& points, const std::vector<Vec3>&
                       fmt::format("the membranes take the place of {} fluid particles, but there are only {}: "
                                   "take a smaller spacing or a larger box",
                                   count, points.size()));
-    // Nodes in hashed cells of size s: a point that finds a node within s has its true distance. Doubled until enough
-    // points do.
+    // Nodes are kept in hashed cells of size s: the distance of a point that finds a node within s is exact. s is
+    // doubled until enough points have found one.
     Vec3 low = points.front(), high = points.front();
     for (const Vec3& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
     double s = std::cbrt((high - low).prod() / static_cast<double>(points.size()));

@@ -22,7 +22,7 @@ struct Fault {
     }
 };
 
-// A place for messages.
+// Writes a position for messages.
 struct At {
     const std::string& unit;
     std::string operator()(const Vec3& x) const {
@@ -45,7 +45,7 @@ struct UnionFind {
     }
 };
 
-// True when the indices can be used at all.
+// Whether indices and coordinates are valid, so that the other checks can be made.
 bool checkIndices(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     if (mesh.triangles.empty()) {
         faults.emplace_back("the mesh has no triangles");
@@ -83,7 +83,7 @@ void checkTriangles(const TriangleMesh& mesh, const At& at, std::vector<std::str
     degenerate.report(faults, "degenerate triangles without area");
 }
 
-// Edges with one, two, or more triangles, and the direction in which they are run through.
+// Checks how many triangles each edge has, and in which directions they run through it.
 void checkEdges(const TriangleMesh& mesh, const At& at, std::vector<std::string>& faults) {
     std::map<std::pair<int, int>, std::pair<int, int>> runs;  // (a < b) -> times a->b, times b->a
     for (const Index3& t : mesh.triangles)

@@ -23,7 +23,7 @@ TriangleMesh firstMesh(const Shape& shape, double a) {
     return starSurface([&](const Vec3& x) { return shape.implicit(a * x); }, shape.box().max() / a, baseRefinements);
 }
 
-// Of the surface: that of a triangulation, or of an ellipsoid in the shape's box.
+// That of an ellipsoid in the shape's box, or of the shape's own triangulation if this is larger.
 double estimatedArea(const Shape& shape) {
     const Vec3 sides = shape.box().sizes();
     const double ofBox = 2 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0]) * std::numbers::pi / 6;

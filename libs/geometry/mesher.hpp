@@ -2,9 +2,8 @@
 //
 // 1. A subdivided icosahedron moved onto the surface along rays from the centre (or the shape's own triangulation).
 // 2. Refined, or coarsened, to the wanted edge length by isotropic remeshing.
-// 3. Smoothing with edge flips until the smallest angle exceeds the wanted one; 2 and 3 are repeated with a corrected
-// length until the
-//    mean edge is within 3 % of the wanted one.
+// 3. Smoothing with edge flips until the smallest angle exceeds the wanted one; steps 2 and 3 are repeated with a
+//    corrected length until the mean edge is within 3 % of the wanted one.
 // Every node is put on the exact surface by Newton's method each time it moves, so the nodes carry no discretisation
 // error; area and volume of the mesh converge with the square of the edge length. The same input gives the same mesh.
 #pragma once
@@ -17,15 +16,15 @@ namespace corpuscle::geometry {
 
 struct MesherOptions {
     double smallestAngle = 31;  // degrees; the mesher fails when it cannot reach it
-    int rounds = 12;            // remeshing and smoothing at most so often
+    int rounds = 12;            // largest number of rounds of remeshing and smoothing
 };
 
-// Around the origin, axis along z. Throws Failure(invalidCase) for an edge length that does not suit the shape and
-// Failure(numerics) when the quality is not reached.
+// A mesh around the origin with its axis along z. Throws Failure(invalidCase) for an edge length that does not suit the
+// shape, and Failure(numerics) if the quality is not reached.
 TriangleMesh meshSurface(const Shape& shape, double edge, const MesherOptions& options = {});
 
-// Why a surface of this shape is not meshed with edges of this length, in plain words; empty: it can be. Predicted from
-// the area: more than `mostTriangles` take minutes and gigabytes.
+// A message that says why this shape is not meshed with this edge length; empty if it can be meshed. The number of
+// triangles is predicted from the area; more than `mostTriangles` take minutes and gigabytes.
 constexpr double mostTriangles = 2e6;
 std::string tooManyTriangles(const Shape& shape, double edge);
 

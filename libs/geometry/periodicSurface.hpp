@@ -5,10 +5,10 @@
 
 namespace corpuscle::geometry {
 
-// Of a surface that may move, as it stands now.
+// For a surface that may move, in its present position.
 class NearestImages {
   public:
-    // grid: with these nodes, and it must stay where it is.
+    // grid: a tree with these nodes, which is referred to and must not be moved in memory.
     NearestImages(const TriangleTree& grid, const std::vector<Vec3>& nodes, const Periodicity& period);
 
     struct Found {
@@ -16,17 +16,17 @@ class NearestImages {
         Vec3 image = Vec3::Zero();  // of the point
         explicit operator bool() const { return static_cast<bool>(at); }
     };
-    // Of all images of x that are within reach the one nearest to the surface. As long as the surface and its own
-    // images are apart, the sign is that of x among all of them.
+    // Of all images of x within reach, the one nearest to the surface. As long as the surface and its own images do not
+    // touch, the sign of its distance tells whether any image of x lies inside.
     Found nearest(const Vec3& x) const;
 
   private:
     const TriangleTree& grid_;
     Periodicity period_;
-    Vec3 low_, high_;  // of what is within reach
+    Vec3 low_, high_;  // bounds of the points within reach
 };
 
-// Of a fixed surface.
+// For a fixed surface.
 class PeriodicSurface {
   public:
     // Distances are exact within `reach` [m].
@@ -36,9 +36,9 @@ class PeriodicSurface {
     PeriodicSurface& operator=(const PeriodicSurface&) = delete;
 
     struct Place {
-        double distance = 0;  // [m]; -reach further inside, infinity further outside
-        Vec3 image =
-            Vec3::Zero();  // of the point: the one nearest to the surface, or inside it; itself further outside
+        double distance = 0;  // [m]; beyond the reach -reach inside, infinity outside
+        // Image of the point that is nearest to the surface, or inside it; further outside the point itself.
+        Vec3 image = Vec3::Zero();
     };
     Place at(const Vec3& x) const;
 

@@ -1,4 +1,4 @@
-// Where a surface stands that is made around the origin with its axis along z.
+// Where a surface is put that is made around the origin with its axis along z.
 //
 //     x -> centre + scale R x,    R: the shortest rotation from z to the axis
 #pragma once

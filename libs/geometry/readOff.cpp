@@ -1,6 +1,7 @@
 // OFF (Geomview): [ST][C][N]OFF, numbers of points, faces and (not used) edges, a line for each point, a line for each
-// face: the number of its corners, their points, counted from 0, and a colour if it likes. '#' begins a comment. Behind
-// the three coordinates of a point stand three of the normal (N), three or four of a colour (C), two of a texture (ST).
+// face: the number of its corners, their points, counted from 0, and optionally a colour. '#' begins a comment. After
+// the three coordinates of a point follow three numbers of the normal (N), three or four of a colour (C), two of a
+// texture (ST).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -112,7 +113,7 @@ class Off {
     std::string_view bytes_;
     TextLines lines_;
     int points_ = 0, faces_ = 0;
-    std::size_t least_ = 3, most_ = 3;  // numbers of a point
+    std::size_t least_ = 3, most_ = 3;  // how many numbers a point has
     int outside_ = 0;
     std::string first_;
     PolygonSoup soup_;

@@ -1,9 +1,9 @@
 // PLY: a header in text,
 //     ply  format ascii|binary_little_endian|binary_big_endian 1.0  { element NAME COUNT  { property ... } }
 //         end_header
-// and the elements in its order, each with its properties: numbers of eight types, or lists of them with their length
-// before them. Read are x, y, z of `vertex`, the list vertex_indices (or vertex_index) of `face` and, where there are
-// no faces, that of `tristrips`, in which -1 ends a strip. All else is passed over.
+// and the elements in the order of the header, each with its properties: numbers of eight types, or lists of numbers
+// preceded by their length. The reader takes x, y, z of `vertex`, the list vertex_indices (or vertex_index) of `face`
+// and, if there are no faces, that of `tristrips`, in which -1 ends a strip. Everything else is ignored.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ class Ply {
                 for (std::size_t i = 0; i + 1 < elements_.size(); ++i)
                     if (elements_[i].name == words[1])
                         lines_.fault(fmt::format("the element {} stands twice", words[1]));
-                // Each takes a byte at least, in text with its line end.
+                // Each takes at least one byte, in text its line end included.
                 if (count < 0 || static_cast<std::size_t>(count) > bytes_.size())
                     lines_.fault(fmt::format("{} of the element {} are announced, and the file has {} bytes", count,
                                              words[1], bytes_.size()));
@@ -135,7 +135,7 @@ class Ply {
         if (!hasVertices) lines_.fault("there is no element vertex");
     }
 
-    // One number, wherever it stands.
+    // The next number, from text or from binary data.
     double value(Type type) {
         if (ascii_) {
             if (word_ >= lines_.words().size()) lines_.fault("the line has too few numbers");

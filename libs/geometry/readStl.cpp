@@ -1,8 +1,8 @@
 // STL, ASCII or binary. An ASCII file is
 //     solid [name]  { facet normal n n n  outer loop  vertex x y z (3 times)  endloop  endfacet }  endsolid [name]
 // words in any case, separated by blanks, tabs or line ends. A binary file has 80 bytes of any content, the number N of
-// triangles (4 bytes), and 50 bytes for each: normal and three corners as 32-bit floats, 2 bytes of anything, all
-// little-endian. It is told by its length, 84 + 50 N bytes, since its header too may begin with "solid".
+// triangles (4 bytes), and 50 bytes for each: normal and three corners as 32-bit floats, 2 bytes of any content, all
+// little-endian. It is recognised by its length, 84 + 50 N bytes, since its header may begin with "solid" too.
 #include <fmt/format.h>
 
 #include <bit>
@@ -54,7 +54,7 @@ class AsciiStl {
         return !ended_;
     }
 
-    // The name ends with its line, or before "facet normal" where all stands in one line.
+    // The name ends with its line, or before "facet normal" if the whole file is one line.
     void skipName() {
         const int line = lines_.number();
         while (advance() && lines_.number() == line) {
@@ -74,7 +74,7 @@ class AsciiStl {
 
     void facet() {
         expect("normal");
-        for (int k = 0; k < 3; ++k)  // not used, and in some files no number: the corners say it all
+        for (int k = 0; k < 3; ++k)  // not used, and in some files not a number: the corners suffice
             if (!advance()) cutOff();
         expect("outer");
         expect("loop");
@@ -120,7 +120,7 @@ PolygonSoup readBinary(std::string_view bytes, std::size_t triangles) {
     return soup;
 }
 
-// Text, by its first word and the absence of zero bytes near the beginning.
+// Whether the file is text, by its first word and the absence of zero bytes near the beginning.
 bool looksLikeText(std::string_view bytes) {
     const std::string_view begin = bytes.substr(0, 512);
     const std::size_t first = begin.starts_with("\xEF\xBB\xBF") ? 3 : begin.find_first_not_of(" \t\r\n");

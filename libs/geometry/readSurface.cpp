@@ -22,7 +22,7 @@ struct Format {
 };
 constexpr Format formats[] = {{".stl", readStl}, {".off", readOff}, {".ply", readPly}, {".vtp", readVtpSurface}};
 
-// The format that the first bytes speak of, for a file with the wrong ending.
+// The format that the first bytes indicate, for a file with the wrong ending.
 const char* formatOf(std::string_view bytes) {
     if (bytes.starts_with("ply")) return ".ply";
     if (bytes.substr(0, 6).find("OFF") != std::string_view::npos) return ".off";
@@ -31,7 +31,7 @@ const char* formatOf(std::string_view bytes) {
     return nullptr;
 }
 
-// Ear clipping in the plane of the polygon: exact for plane ones, convex or not.
+// Ear clipping in the plane of the polygon: exact for plane polygons, convex or not.
 void cutPolygon(const std::vector<Vec3>& points, std::vector<int> corners, std::vector<Index3>& triangles) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k)
@@ -50,7 +50,7 @@ void cutPolygon(const std::vector<Vec3>& points, std::vector<int> corners, std::
             });
             if (empty && turn(a, b, c) > 0) break;
         }
-        ear %= n;  // no ear: a polygon that cuts itself, which the checks of the surface name
+        ear %= n;  // no ear: the polygon intersects itself, which the checks of the surface report
         triangles.push_back({corners[(ear + n - 1) % n], corners[ear], corners[(ear + 1) % n]});
         corners.erase(corners.begin() + static_cast<long>(ear));
     }

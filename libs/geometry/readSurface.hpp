@@ -1,12 +1,12 @@
-// Triangulated surface from a file: STL, OFF, PLY or VTP, by the file's ending. Coordinates as written.
+// Triangulated surface from a file: STL, OFF, PLY or VTP, by the file's ending. Coordinates are kept as written.
 //
 // 1. Polygons are cut into triangles.
-// 2. Nodes at the same place are made one (STL repeats them for each triangle). Where the surface is not closed then,
-//    nodes nearer to each other than 1e-6 of its size are made one as well: some programs round each copy differently.
-// 3. Triangles with two equal corners, and nodes of no triangle, are left out.
-// 4. Triangles are turned to the orientation of their neighbours, and the whole outwards.
-// What was done in 2 to 4 stands in `remarks`. What cannot be read throws Failure with the file, the place and what is
-// wrong there: invalidCase for its content, io for a file that is missing or cannot be read.
+// 2. Nodes at the same place are merged (STL repeats them for each triangle). If the surface is still not closed, nodes
+//    nearer to each other than 1e-6 of its size are merged too: some programs round each copy differently.
+// 3. Triangles with two equal corners, and nodes that belong to no triangle, are left out.
+// 4. Triangles are turned to the orientation of their neighbours, and the whole surface outwards.
+// `remarks` lists what was done in steps 2 to 4. Throws Failure with the file, the place and the error: invalidCase for
+// its content, io for a file that is missing or cannot be read.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -6,7 +6,7 @@
 
 namespace corpuscle::geometry {
 
-// Polygons and triangle strips of all pieces; points and lines are passed over.
+// Polygons and triangle strips of all pieces; points and lines are ignored.
 PolygonSoup readVtpSurface(std::string_view bytes) {
     if (bytes.find("</VTKFile>", bytes.size() < 64 ? 0 : bytes.size() - 64) == std::string_view::npos)
         throw SurfaceFault(fmt::format(

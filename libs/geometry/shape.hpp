@@ -1,4 +1,4 @@
-// Rest shape of a cell: a closed surface around the origin with its symmetry axis along z. Metres.
+// Rest shape of a cell: a closed surface around the origin with its symmetry axis along z. In metres.
 //
 // A shape is the zero set of a function F that is negative inside and positive outside, with a gradient that does not
 // vanish on the surface. Models are chosen by name in a case (`shape: {type: kuchelFackerell, d: 8 um, ...}`).
@@ -19,14 +19,14 @@ class Shape {
     virtual ~Shape() = default;
 
     // To be called once before use. Checks the parameters and reads what the shape needs (paths relative to the case).
-    // Throws Failure(invalidCase) that says which value is wrong and which would do.
+    // Throws Failure(invalidCase) that says which value is wrong and which would be valid.
     virtual void prepare(const std::filesystem::path& caseDirectory) const = 0;
 
     virtual double implicit(const Vec3& x) const = 0;
     virtual Vec3 gradient(const Vec3& x) const = 0;
 
-    // A point of the surface near x: Newton's method along the gradient, converged to rounding. x lies within a
-    // fraction of radius() of the surface. Throws Failure(numerics) when it does not converge.
+    // A point of the surface near x, by Newton's method along the gradient, converged to rounding. x has to lie within
+    // a fraction of radius() of the surface. Throws Failure(numerics) if the method does not converge.
     virtual Vec3 project(const Vec3& x) const;
 
     virtual Eigen::AlignedBox3d box() const = 0;
@@ -40,8 +40,8 @@ class Shape {
     // What prepare() changed in what it read, in whole sentences.
     virtual std::vector<std::string> remarks() const { return {}; }
 
-    // For a size that cannot be meant: which setting would give a longest side between `least` and `most`, and how long
-    // it would be then. Empty where there is no such setting.
+    // Advice for an implausible size: which setting would give a longest side between `least` and `most` [m], and how
+    // long it would be then. Empty if there is no such setting.
     virtual std::string cureForSize(double /*least*/, double /*most*/) const { return {}; }
 };
 

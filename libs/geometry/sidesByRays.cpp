@@ -59,7 +59,7 @@ std::vector<RaySide> sidesByRays(const std::vector<Vec3>& points, const std::vec
                     const auto end = firstFrom(to.x() + by.x() + slack);
                     for (auto next = firstFrom(from.x() + by.x() - slack); next != end; ++next) {
                         const std::size_t i = *next;
-                        const Vec3 x = points[i] - by;  // to the surface as it stands; rounding stays below the slack
+                        const Vec3 x = points[i] - by;  // for the unmoved surface; rounding stays below the slack
                         if (((x - from).array() < -slack).any() || ((x - to).array() > slack).any()) continue;
                         const CGAL::Bounded_side found = side({points[i].x(), points[i].y(), points[i].z()});
                         if (found == CGAL::ON_UNBOUNDED_SIDE) continue;

@@ -75,7 +75,7 @@ class FlipMesh {
         const int a = T[s], b = T[(s + 1) % 3], c = T[(s + 2) % 3];
         const int su = side(u, b, a), d = U[(su + 2) % 3];
         if (valence_[a] <= 4 || valence_[b] <= 4 || !better(a, b, c, d) || joined(c, d, t)) return false;
-        // The two new triangles must look the way of the old ones: no fold over a sharply bent edge.
+        // The two new triangles must face the same way as the old ones: no fold over a sharply bent edge.
         const Vec3 old = normal(a, b, c) + normal(b, a, d), first = normal(c, d, b), second = normal(d, c, a);
         if (!(first.dot(old) > 0 && second.dot(old) > 0 && first.normalized().dot(second.normalized()) > 0.5))
             return false;
@@ -107,7 +107,7 @@ TriangleMesh refineOnce(const TriangleMesh& mesh, const Projection& project) {
     TriangleMesh fine;
     fine.nodes = mesh.nodes;
     const std::vector<MeshEdge> edges = mesh.edges();
-    std::vector<Index3> middle(mesh.triangles.size());  // of side s of each triangle
+    std::vector<Index3> middle(mesh.triangles.size());  // node in the middle of side s of each triangle
     for (const MeshEdge& e : edges) {
         const int node = static_cast<int>(fine.nodes.size());
         fine.nodes.push_back(project((mesh.nodes[e.a] + mesh.nodes[e.b]) / 2));

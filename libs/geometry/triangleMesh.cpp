@@ -22,7 +22,7 @@ double TriangleMesh::area() const {
 }
 
 namespace {
-// Moments of the solid about `origin`, which is put near the mesh to keep the digits.
+// Moments of the solid about `origin`, which is chosen near the mesh to avoid cancellation.
 struct Moments {
     double volume = 0;
     Vec3 first = Vec3::Zero();

@@ -1,11 +1,10 @@
-// Closed triangulated surface, outward oriented (nodes of a triangle counter-clockwise seen from outside). Metres.
+// Closed triangulated surface, outward oriented (nodes of a triangle counter-clockwise seen from outside). In metres.
 //
 // Integrals over the enclosed solid come from the divergence theorem, one tetrahedron (origin, a, b, c) per triangle
-// with D = a.(b x c):
-//     V = sum D/6        centroid = sum D (a+b+c)/24 / V        int x x^T dV = sum D/120 [s s^T + a a^T + b b^T + c
-//     c^T],  s = a+b+c
+// with D = a.(b x c) and s = a+b+c:
+//     V = sum D/6        centroid = sum D s/24 / V        int x x^T dV = sum D/120 [s s^T + a a^T + b b^T + c c^T]
 // They are exact for the polyhedron. The vertex area is a third of the area of the triangles around a node, so that the
-// sum is the area of the mesh.
+// sum over the nodes is the area of the mesh.
 #pragma once
 #include <array>
 #include <string>
@@ -46,12 +45,12 @@ double cornerAngle(const Vec3& at, const Vec3& next, const Vec3& previous);
 // Rotation that takes the z axis to `axis` (any length above zero) the shortest way.
 Mat3 rotationFromZ(const Vec3& axis);
 
-// Every way in which the mesh is not one closed, outward oriented, non-degenerate surface without self-intersection, in
-// plain words; empty: sound. `unit` stands behind the coordinates of a place. Only a surface without another fault is
-// searched for triangles that cut each other.
+// A message for every way in which the mesh is not one closed, outward oriented, non-degenerate surface without
+// self-intersections; empty if it is one. `unit` is appended to the coordinates in messages. Triangles that intersect
+// each other are searched for only in a surface without other faults.
 std::vector<std::string> checkClosedManifold(const TriangleMesh& mesh, const std::string& unit = " m");
 
-// Pairs of triangles that cut each other (exact predicates).
+// Pairs of triangles that intersect each other (exact predicates).
 std::vector<std::pair<int, int>> selfIntersections(const TriangleMesh& mesh);
 
 }  // namespace corpuscle::geometry

@@ -37,8 +37,8 @@ Vec3 nearestWeights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c) 
 
 namespace {
 
-// Boxes and planes this much further off than the nearest point are still looked at, so that of triangles that share it
-// the one with the lowest number is found, in whatever order the tree has them.
+// Boxes and planes further away than the nearest point by this factor (of squared distances) are still searched, so
+// that of the triangles that share this point the one with the lowest number is found, whatever the order of the tree.
 constexpr double slack = 1 + 1e-12;
 
 Vec3 combine(const Vec3& w, const Vec3& a, const Vec3& b, const Vec3& c) { return w[0] * a + w[1] * b + w[2] * c; }
@@ -97,7 +97,7 @@ void TriangleTree::computeNormals() {
     faceNormal_.resize(triangles_.size());
     nodeNormal_.assign(nodes_.size(), Vec3::Zero());
     edgeNormal_.assign(edges_.size(), Vec3::Zero());
-    for (const int t : place_) {  // as the mesh has them, whatever the tree is
+    for (const int t : place_) {  // in the order of the mesh, whatever that of the tree
         const Index3& n = triangles_[t];
         faceNormal_[t] = (nodes_[n[1]] - nodes_[n[0]]).cross(nodes_[n[2]] - nodes_[n[0]]).normalized();
         for (int s = 0; s < 3; ++s) {

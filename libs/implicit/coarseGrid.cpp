@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t components = 3;
 }
 
-// Values on the grid and their transforms, component after component: between walls of every plane by itself, else of
-// all planes at once.
+// Values on the grid and their Fourier transforms, component after component. Between walls each plane is transformed
+// by itself, otherwise all planes at once.
 struct CoarseGrid::Plans {
     std::size_t nodes, modes;           // of one component
-    std::size_t realPart, complexPart;  // of these, transformed at once
+    std::size_t realPart, complexPart;  // of one part: what is transformed at once
     double* values;
     fftw_complex* spectrum;
-    fftw_plan forward, backward;  // of a part
+    fftw_plan forward, backward;  // of one part
 
     Plans(const std::array<int, 3>& count, bool walls) {
         const int last = count[2] / 2 + 1;
@@ -51,7 +51,7 @@ struct CoarseGrid::Plans {
         return reinterpret_cast<Complex*>(spectrum) + static_cast<std::size_t>(component) * modes + k;
     }
     template <class F>
-    void forParts(Planes planes, F&& f) {  // f(values, spectrum) of those that have these planes
+    void forParts(Planes planes, F&& f) {  // f(values, spectrum) for the parts that contain these planes
         const std::size_t parts = nodes / realPart;
         for (std::size_t part = 0; part < components * parts; ++part) {
             const auto plane = static_cast<int>(part % parts);
@@ -78,7 +78,7 @@ CoarseGrid::CoarseGrid(const particles::Box& box, double spacing) : box_(box) {
 
 CoarseGrid::~CoarseGrid() = default;
 
-// Of linear elements along a periodic axis, for exp(i theta n) on its nodes.
+// Symbols of linear elements along a periodic axis, for the nodal values exp(i theta n).
 CoarseGrid::Symbol CoarseGrid::symbol(int axis, int mode) const {
     const double h = step_[axis];
     const double theta = 2 * std::numbers::pi * mode / count_[static_cast<std::size_t>(axis)];
@@ -86,17 +86,17 @@ CoarseGrid::Symbol CoarseGrid::symbol(int axis, int mode) const {
 }
 
 CoarseGrid::Block CoarseGrid::block(const std::array<Symbol, 3>& s) const {
-    const auto product = [&](int p) {  // of masses, that of axis p replaced by its stiffness
+    const auto product = [&](int p) {  // of the masses of all axes, with that of axis p replaced by its stiffness
         double value = 1;
         for (int k = 0; k < 3; ++k) value *= k == p ? s[k].stiffness : s[k].mass;
         return value;
     };
-    Block gradients;  // (p, q): of derivatives along p and q
+    Block gradients;  // (p, q): derivatives along p and q
     for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
             gradients(p, q) = p == q ? Complex(product(p)) : -s[p].slope * s[q].slope * s[3 - p - q].mass;
     if (sliding_ >= 0) {
-        Block by = Block::Identity();  // to derivatives along the box
+        Block by = Block::Identity();  // maps to derivatives along the axes of the box
         const auto across = static_cast<int>(std::find(axis_.begin(), axis_.end(), sliding_) - axis_.begin());
         for (int k = 0; k < 3; ++k) by(across, k) -= tilt_[axis_[static_cast<std::size_t>(k)]];
         gradients = (by * gradients * by.transpose()).eval();
@@ -116,12 +116,13 @@ void CoarseGrid::setCoefficients(double inertia, double viscosity, double lambda
 void CoarseGrid::factorise() {
     closedAt_ = -1;
     const int last = count_[2] / 2 + 1, planes = count_[0];
-    const double scale = 1.0 / (count_[1] * count_[2] * (walls_ ? 1 : planes));  // of both transforms together
+    // Normalisation of both transforms together.
+    const double scale = 1.0 / (count_[1] * count_[2] * (walls_ ? 1 : planes));
     inverse_.resize(plans_->modes);
     const std::size_t perPlane = static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(last);
     if (walls_) upper_.resize(perPlane);
     const double h = step_[0];
-    const Symbol own{2 * h / 3, 2 / h, 0}, next{h / 6, -1 / h, 0.5};  // of a node with itself and with the next plane
+    const Symbol own{2 * h / 3, 2 / h, 0}, next{h / 6, -1 / h, 0.5};  // of a plane with itself and with the next one
     for (int a = 0; a < count_[1]; ++a)
         for (int b = 0; b < last; ++b) {
             const Symbol sa = symbol(1, a), sb = symbol(2, b);
@@ -133,7 +134,8 @@ void CoarseGrid::factorise() {
                         scale * block({symbol(0, c), sa, sb}).inverse();
                 continue;
             }
-            // The derivatives of test and trial function along the walls' normal have one matrix, with opposite signs.
+            // Along the normal of the walls, the derivatives of test and trial function have the same matrix, with
+            // opposite signs.
             const Block diagonal = block({own, sa, sb}) / scale, upper = block({next, sa, sb}) / scale;
             upper_[k] = upper;
             Block pivot = diagonal;
@@ -145,8 +147,8 @@ void CoarseGrid::factorise() {
         }
 }
 
-// The planes above `plane`, with nothing on them, by elimination from the top: all that is needed of them is what they
-// add to its pivots.
+// Eliminates the planes above `plane` from the top, where the right-hand side is zero: only their contribution to the
+// pivots of `plane` is needed.
 void CoarseGrid::close(int plane) {
     if (plane == closedAt_) return;
     const std::size_t perPlane = upper_.size();
@@ -157,7 +159,7 @@ void CoarseGrid::close(int plane) {
         const auto pivot = [&](int c) -> Block {
             return inverse_[static_cast<std::size_t>(c) * perPlane + k].inverse();
         };
-        const Block own = pivot(0);  // nothing is below it
+        const Block own = pivot(0);  // no plane is below this one
         Block above = Block::Zero();
         for (int c = count_[0] - 1; c > plane; --c) above = upper * (own - above).inverse() * upper.adjoint();
         closed_[k] = (pivot(plane) - above).inverse();
@@ -188,7 +190,7 @@ void CoarseGrid::solveModes(Planes planes) {
 
 CoarseGrid::Planes CoarseGrid::planesOf(MPI_Comm comm, const std::vector<int>& particles) const {
     if (!walls_) return all();
-    int range[2] = {-(count_[0] - 1), 0};  // the first, negative, and the last
+    int range[2] = {-(count_[0] - 1), 0};  // minus the first plane; the last plane
     for (const int i : particles) {
         const Place& p = places_[static_cast<std::size_t>(i)];
         for (std::size_t side = 0; side < 2; ++side) {

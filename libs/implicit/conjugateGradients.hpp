@@ -1,17 +1,17 @@
 // Preconditioned conjugate gradients for A x = r from x = 0, in the form of Chronopoulos and Gear (J. Comput. Appl.
-// Math. 25 (1989) 153): all scalar products of an iteration are added up over the ranks at once. Flexible (Notay, SIAM
-// J. Sci. Comput. 22 (2000) 1444, with one direction kept): the direction p = z + beta p_before is conjugate to the one
-// before by
+// Math. 25 (1989) 153): one reduction per iteration adds up all its scalar products over the ranks. The method is
+// flexible (Notay, SIAM J. Sci. Comput. 22 (2000) 1444, with one direction kept): the direction p = z + beta p_before
+// is made conjugate to the previous one by
 //     beta = -z.s/sigma,   s = A p_before,   sigma = p_before.s;     p.A p = z.A z - (z.s)^2/sigma
-// whatever z is, so that the preconditioner need not be quite the same from one application to the next, as one that
-// iterates is not.
+// whatever z is, so that the preconditioner may differ slightly from one application to the next, as one with an inner
+// iteration does.
 //
-// The fluid's solver stops by the energy of the error (StopByEnergy): g_k = alpha_k gamma_k is what step k takes off
-// |x - x_k|_A^2 (Hestenes and Stiefel 1952), so that the error is the sum of what later steps would take off. They are
-// taken to fall as the last few did, by q a step, the slowest of the means over one, two and three of them: g_k q/(1 -
-// q). A sum over steps already made (Strakos and Tichy, ETNA 13 (2002) 56) is the error before them, which is far above
-// the present one where convergence is fast. A norm of the residual would under-weigh smooth modes, the more the finer
-// the resolution.
+// The solver of the fluid stops by the energy of the error (StopByEnergy). Step k reduces |x - x_k|_A^2 by
+// g_k = alpha_k gamma_k (Hestenes and Stiefel 1952), so that the error is the sum of the reductions of all later steps.
+// These are assumed to decrease by a factor q per step, as the last few did: q is the largest of the mean factors over
+// the last one, two and three steps, and the sum is g_k q/(1 - q). A sum over steps already made (Strakos and Tichy,
+// ETNA 13 (2002) 56) is the error before those steps, which is far above the present one where convergence is fast. A
+// norm of the residual would give too little weight to smooth modes, the more so the finer the resolution.
 #pragma once
 #include <mpi.h>
 
@@ -25,8 +25,8 @@
 
 namespace corpuscle::implicit {
 
-// Rows [first, last) of a vector that other ranks have too and count: `apply` and `precondition` keep them the same
-// there, to rounding.
+// Rows [first, last) of a vector that belong to other ranks, which count them in scalar products. `apply` and
+// `precondition` keep them equal to the rows of those ranks, to rounding.
 struct Copies {
     std::size_t first = 0, last = 0;
     template <class F>
@@ -43,17 +43,19 @@ struct Convergence {
     bool reached = true;
 };
 
-// Where the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x).
+// Stops where the estimated |error|_A^2 is below tolerance^2 max(reference, x.A x).
 class StopByEnergy {
   public:
-    static constexpr std::size_t window = 3, least = 2;  // steps
-    static constexpr double negligible = 1e-10;  // of the residual's norm: rounding, even for the smoothest error
-    // Whether to ask `before` in front of the product, at the price of a reduction of its own: where products are dear.
+    static constexpr std::size_t window = 3, least = 2;  // steps over which q is taken; least number of steps
+    // Of the allowed energy: a smaller r.M^-1 r is rounding, even for the smoothest error.
+    static constexpr double negligible = 1e-10;
+    // Whether `before` is called ahead of the matrix product, at the cost of a separate reduction: where products are
+    // expensive.
     static constexpr bool looksFirst = false;
 
     StopByEnergy(double reference, double tolerance) : reference_(reference), tolerance2_(tolerance * tolerance) {}
 
-    // gamma: r.M^-1 r, before a step; gain: what the step has taken off |error|_A^2.
+    // Whether to stop. gamma: r.M^-1 r before a step; gain: by how much the step has reduced |error|_A^2.
     bool before(double gamma, const Convergence& c) const { return gamma >= 0 && gamma <= negligible * allowed(c); }
     bool after(double gain, Convergence& c) {
         gains_.push_back(gain);
@@ -81,22 +83,23 @@ class ConjugateGradients {
     using Field = particles::AlignedVector<Real>;
     static constexpr int most = 2000;
 
-    // Of what else follows linearly from the velocity: `image` is that of the last z, left there by `apply`; what
-    // belongs to x is added to `value`.
+    // Another quantity that is linear in the velocity: `apply` leaves its value for the last z in `image`, and the
+    // solver adds its value for x to `value`.
     struct Carried {
         Field value, image;
     };
 
     // apply(z, w): w = A z; precondition(r, z): z = M^-1 r. At the end r is the residual; in rows where z is always
-    // zero, whatever was there less A x. Ends when the estimated |error|_A^2 is below tolerance^2 max(reference, x.A
-    // x). Collective.
+    // zero, it is the initial r less A x. Stops where the estimated |error|_A^2 is below tolerance^2 max(reference,
+    // x.A x). Collective.
     template <class Apply, class Precondition>
     Convergence solve(MPI_Comm comm, Field& r, Field& x, double reference, double tolerance, Apply&& apply,
                       Precondition&& precondition, Copies copies = {}, Carried* carried = nullptr) {
         return solveUntil(comm, r, x, StopByEnergy(reference, tolerance), std::forward<Apply>(apply),
                           std::forward<Precondition>(precondition), copies, carried);
     }
-    // The same with another end, `stop` as StopByEnergy. rows: which of them this rank counts, as Copies says it.
+    // The same with another criterion: `stop` has the functions of StopByEnergy. rows: those that this rank counts, by
+    // forCounted as in Copies.
     template <class Stop, class Apply, class Precondition, class Rows>
     Convergence solveUntil(MPI_Comm comm, Field& r, Field& x, Stop stop, Apply&& apply, Precondition&& precondition,
                            const Rows& rows, Carried* carried = nullptr) {

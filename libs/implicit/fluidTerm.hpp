@@ -1,8 +1,8 @@
-// The fluid's term: viscosity, and pressure with the stiffness of the bulk.
+// The term of the fluid: viscosity, and pressure with the bulk stiffness.
 //
 //     load = D^T V (p^n + lead K D v0),   A = L + (middle + lead) D^T V K D,   K = rho c^2      (Reach of term.hpp)
-// By the operators of sph/operators.hpp, which see walls and bodies as well. It comes last, and adds up over the ranks
-// what it and the terms before it have given to particles that several ranks know.
+// It uses the operators of sph/operators.hpp, which include walls and bodies. This term comes last: it adds up over the
+// ranks the forces that it and the terms before it have exerted on particles that several ranks know.
 #pragma once
 #include "coupling/adjoint.hpp"
 #include "coupling/scene.hpp"
@@ -64,10 +64,10 @@ class FluidTerm final : public Term<Real> {
 
     sph::Operators<Real>& operators() { return operators_; }
     const sph::Operators<Real>& operators() const { return operators_; }
-    double pressure(std::size_t i) const { return pressure_[i]; }  // in the load [Pa]
+    double pressure(std::size_t i) const { return pressure_[i]; }  // that in the load [Pa]
     double pressure(std::size_t i, double divergence) const {
         return pressure_[i] - stiffness_[i] * divergence;
-    }  // as it acts
+    }  // the acting one, at this divergence [Pa]
 
   private:
     const coupling::Scene& scene_;

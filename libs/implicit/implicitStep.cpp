@@ -60,7 +60,8 @@ class Step final : public ImplicitStep {
   private:
     using Field = typename System<Real>::Field;
 
-    bool isBackward() const { return damped || options_.settings.method == "backwardEuler"; }  // not only halves
+    // Every step, not only halves.
+    bool isBackward() const { return damped || options_.settings.method == "backwardEuler"; }
     Events make(double dt, bool backward, int halvings) {
         if (attempt(dt, halvings == 0 ? planned_ : dt, backward)) {
             ++statistics.steps;
@@ -78,7 +79,7 @@ class Step final : public ImplicitStep {
         return events;
     }
 
-    // False, and everything where it was, where it fails for the reason in fault_.
+    // Tries one step. If it fails, returns false with everything where it was, and the reason in fault_.
     bool attempt(double dt, double planned, bool backward) {
         const TimeDifference time = backward ? TimeDifference::backwardEuler(dt, state)
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
@@ -106,14 +107,15 @@ class Step final : public ImplicitStep {
         return true;
     }
 
-    // Whether the velocities of two middles are known. After the first step only where the flow starts fully developed:
-    // beside cells and bodies, where walls or a body force set in and where the viscosity jumps, its acceleration is
-    // the jump from a velocity that did not know of the forces, which does not go on.
+    // Whether the acceleration between two midpoints is known. After the first step this is so only if the flow starts
+    // fully developed. With cells or bodies, where walls or a body force start the flow, and where the viscosity jumps,
+    // the acceleration of the first step is a single jump, because the initial velocity does not include the effect of
+    // the forces.
     bool hasAcceleration() const { return state.steps > (startsDeveloped() ? 0 : 1); }
     bool startsDeveloped() const {
         return !immersed_ && !system_.rigid() && !scene_.flow.settles && !scene_.store().optional().viscosity;
     }
-    // By how much the store's velocity is later than the middle of the last step.
+    // Time by which the velocity in the store is later than the midpoint of the last step.
     double ahead() const { return hasAcceleration() ? state.behind : 0; }
 
     void takeDivergence(Field& divergence) const {
@@ -121,7 +123,7 @@ class Step final : public ImplicitStep {
         for (std::size_t i = 0; i < divergence.size(); ++i) divergence[i] = static_cast<Real>(system_.divergence(i));
     }
 
-    // The velocity of this step, that of the nodes in the membranes' term.
+    // Solves for the velocity of this step, and leaves that of the nodes in the term of the membranes.
     bool solve() {
         const double reference = std::max(state.reference, leastDisturbance(scene_));
         const double tolerance =
@@ -153,7 +155,8 @@ class Step final : public ImplicitStep {
         }
     }
 
-    // As residual_; the energy of the velocity that it makes, by the preconditioner.
+    // Puts the defect into residual_; returns the energy of the velocity that it causes, as the preconditioner
+    // estimates it.
     double findDefect() {
         system_.findDefect(residual_);
         preconditioner_->apply(residual_, correction_);
@@ -164,18 +167,18 @@ class Step final : public ImplicitStep {
         return Communicator(scene_.system->comm()).sum(energy);
     }
 
-    // By which factor the second difference over steps of this length would be larger than that over the last three
-    // middles.
+    // Factor by which the second difference over steps of this length would be larger than that over the last three
+    // midpoints.
     double unevenness() const {
         const TimeDifference& time = system_.time();
         return isBackward() || state.lastSpacing == 0 ? 1
                                                       : 2 * time.dt * time.dt / (time.h * (time.h + state.lastSpacing));
     }
 
-    // By which the velocity found differs from the extrapolated one, with backward Euler from the last, over the
-    // lengths of stepControl.hpp [1/s].
+    // Difference between the computed velocity and the extrapolated one (with backward Euler, the last one), divided by
+    // the lengths of stepControl.hpp [1/s].
     double difference() const {
-        const double h = isBackward() ? 0 : system_.time().h;  // over which the other one is extrapolated
+        const double h = isBackward() ? 0 : system_.time().h;  // time over which the other one is extrapolated
         const RigidUnknowns<Real>* const rigid = system_.rigid();
         const bool freeBodies = rigid && rigid->areSomeFree();
         if (!immersed_ && !freeBodies) return differenceOfFluid(h) / scene_.flow.length;
@@ -186,13 +189,14 @@ class Step final : public ImplicitStep {
         if (freeBodies) largest = std::max(largest, rigid->largestDifference(h, velocity_));
         return largest;
     }
-    // So that the way to where the next step takes its forces is free: of x* to the end of this step and dt more.
+    // Largest next step for which the way to the positions where it evaluates forces is free. The way from x* to the
+    // end of this step, and on for dt, is examined.
     double allowedByContact(const TimeDifference& time) const {
         if (!immersed_ || !immersed_->contacts()) return 0;
         const double rest = time.dt - time.begin();
         const double free = immersed_->freeArrival(time.begin(), time.dt, system_.membranes()->velocities(), time.dt);
         if (free == 1) return 0;
-        const double ahead = 0.9 * free * (rest + time.dt) - rest;  // free way beyond the end of this step
+        const double ahead = 0.9 * free * (rest + time.dt) - rest;  // free time beyond the end of this step
         return std::max(ahead / (time.isAtEnd() ? 1 : 0.5), 0.2 * time.dt);
     }
     double largestOfRanks(double value) const { return Communicator(scene_.system->comm()).max(value); }
@@ -209,7 +213,8 @@ class Step final : public ImplicitStep {
         return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0;
     }
 
-    // With the velocity found: what the walls feel, density, places; the state of the next step.
+    // Completes the step with the computed velocity: forces on walls, density, positions, and the state for the next
+    // step.
     void finish() {
         ParticleStore& s = scene_.store();
         const TimeDifference& time = system_.time();
@@ -244,11 +249,11 @@ class Step final : public ImplicitStep {
     Movement<Real> movement_;
     StepBudget<Real> budget_;
     ConjugateGradients<Real> solver_;
-    double planned_ = 0;  // length of the step but for an event [s]
-    long sinceStep_ = 0;  // iterations since the last step that was made: of all solves and attempts
+    double planned_ = 0;  // length of the step without an event that shortens it [s]
+    long sinceStep_ = 0;  // iterations of all solves and attempts since the last step that was completed
     Field velocity_, residual_, correction_;
     typename ConjugateGradients<Real>::Carried divergence_;
-    std::vector<double> rate_;  // divergence of the velocity found
+    std::vector<double> rate_;  // divergence of the computed velocity
 };
 
 }  // namespace

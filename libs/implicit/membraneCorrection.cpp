@@ -11,7 +11,7 @@ namespace corpuscle::implicit {
 namespace {
 
 using Vectors = coupling::Immersed::Vectors;
-using Flat = ConjugateGradients<double>::Field;  // the same, number after number
+using Flat = ConjugateGradients<double>::Field;  // the same as one array of numbers
 
 Vectors vectorsOf(const Flat& flat) {
     Vectors vectors(flat.size() / 3);
@@ -23,7 +23,7 @@ Flat flatOf(const Vectors& vectors) {
     return {numbers, numbers + 3 * vectors.size()};
 }
 
-// The nodes of the cells that this rank owns.
+// Counts the rows of the nodes of cells that this rank owns.
 struct OwnedRows {
     const coupling::Immersed& immersed;
     int rank;
@@ -35,8 +35,8 @@ struct OwnedRows {
     }
 };
 
-// Where the square of the residual is a small share of r.z (membraneCorrection.hpp). energy: r.B r, from which y takes
-// x.A x.
+// Stops where s.K' s of the residual s is a small share of r.z (membraneCorrection.hpp). energy: r.B r. With A the
+// matrix of the node system, r.z is r.B r less x.A x.
 struct StopByShare {
     static constexpr bool looksFirst = true;
     double energy, share2;
@@ -81,12 +81,12 @@ template <class Real>
 Vectors MembraneCorrection<Real>::solve(const Parts& parts, const Vectors& first, double energy) {
     const Communicator ranks(parts.comm);
     const Flat atFirst = flatOf(first);
-    Flat residual = flatOf(resistance(parts, first)), x;  // K' of what is left
+    Flat residual = flatOf(resistance(parts, first)), x;  // K' s of the residual s
     left_.value.assign(atFirst.size(), 0.0), left_.image.resize(atFirst.size());
     const Convergence c = solver_.solveUntil(
         parts.comm, residual, x, StopByShare{ranks.sum(energy), tolerance * tolerance, most},
         [&](const Flat& z, Flat& w) {
-            scatter(parts, vectorsOf(residual));  // K' z
+            scatter(parts, vectorsOf(residual));  // the residual is K' z
             parts.grid.gather(scattered_.data(), parts.immersed.touched(), parts.planes);
             parts.grid.solve(parts.comm, parts.planes);
             const Vectors t = onNodes(parts, [&](std::size_t at) { return scattered_[at]; });  // N K' z

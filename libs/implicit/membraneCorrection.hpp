@@ -1,18 +1,19 @@
-// What a stiff membrane adds to a preconditioner of the fluid. With B the inverse of the fluid's part, K' = (middle +
-// lead) k + C, times of Reach (term.hpp) and S the interpolation to the nodes with the volume kept, the inverse of both
-// together is (Woodbury)
+// Contribution of a stiff membrane to a preconditioner of the fluid. Let B be the inverse of the fluid's part, K' =
+// (middle + lead) k + C with the times of Reach (term.hpp), and S the interpolation to the nodes that keeps the volume.
+// The inverse of both parts together is then (Woodbury)
 //
 //     (B^-1 + S^T K' S)^-1 = B - B S^T y,   y = K' x,   (1 + N K') x = S B r,   N = S B S^T
-// The system for x lives on the nodes alone. Conjugate gradients solve it as K' (1 + N K') x = K' S B r, symmetric and
-// positive semi-definite, preconditioned by K'^-1: of the residual that makes S B r - (1 + N K') x, which they carry
-// along. So the iterations of the whole become those of the fluid, however stiff the membrane is.
+// The unknowns x of this system belong to the nodes alone. It is solved by conjugate gradients as
+// K' (1 + N K') x = K' S B r, which is symmetric and positive semi-definite, with K'^-1 as the preconditioner: applied
+// to the residual, it gives S B r - (1 + N K') x, which the solver carries along. The iterations of the whole system
+// thus become those of the fluid, however stiff the membrane is.
 //
-// How far: where x leaves the residual s, the energy of the error of z is s.(1 + K' N)^-1 K' N K' s, which is below
-// s.K' s, and nearly that where the membrane is stiff. It is made a small share of r.z, the energy of z. (A share of
-// the first residual asks too much of a soft membrane and too little of a stiff one, whose first residual is the larger
-// the stiffer it is.)
+// Stopping: where x leaves the residual s, the energy of the error of z is s.(1 + K' N)^-1 K' N K' s, which is below
+// s.K' s, and close to it if the membrane is stiff. s.K' s is made a small share of r.z, the energy of z. (A share of
+// the first residual would be too strict for a soft membrane and too loose for a stiff one, because the first residual
+// grows with the stiffness.)
 //
-// While x is looked for, all that acts on the grid and all that is asked of it lies in the planes of the membranes.
+// During the iterations for x, all forces on the grid and all values taken from it lie in the planes of the membranes.
 #pragma once
 #include <utility>
 
@@ -26,20 +27,21 @@ template <class Real>
 class MembraneCorrection {
   public:
     using Field = particles::AlignedVector<Real>;
-    static constexpr double tolerance = 0.2;  // in the norm of energy, of z
+    static constexpr double tolerance = 0.2;  // of z, in the energy norm
     static constexpr int most = 1000;
 
-    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T, four numbers a particle: `own` of this rank,
-    // then those of others that it knows, in r as in z. Collective.
+    // z = (B^-1 + S^T K' S)^-1 r with B = diag(inverse) + P A_c^-1 P^T. time: middle + lead [s]. r and z have four
+    // numbers per particle: first the `own` particles of this rank, then those of other ranks that it knows.
+    // Collective.
     void apply(MPI_Comm comm, coupling::Immersed& immersed, CoarseGrid& grid, double time, const Field& inverse,
                std::size_t own, const Field& r, Field& z);
 
-    long takeIterations() { return std::exchange(iterations_, 0); }  // since it was asked last
+    long takeIterations() { return std::exchange(iterations_, 0); }  // since the last call
 
   private:
     using Vectors = coupling::Immersed::Vectors;
     using Solver = ConjugateGradients<double>;
-    // What one application of the preconditioner has to do with.
+    // The data of one application of the preconditioner.
     struct Parts {
         MPI_Comm comm;
         coupling::Immersed& immersed;
@@ -51,8 +53,8 @@ class MembraneCorrection {
     Vectors resistance(const Parts& parts, const Vectors& u) const;  // K' u
     void scatter(const Parts& parts, const Vectors& f);              // S^T f
     template <class Force>
-    Vectors onNodes(const Parts& parts, Force&& force);  // S B, from the grid's values and what acts on a particle
-    // y = K' x. first: S B r; energy: r.B r, this rank's part.
+    Vectors onNodes(const Parts& parts, Force&& force);  // S B, from grid values and the force on each particle
+    // Returns y = K' x. first: S B r; energy: r.B r, this rank's part.
     Vectors solve(const Parts& parts, const Vectors& first, double energy);
 
     particles::RealArray scattered_, image_;  // on the particles near membranes

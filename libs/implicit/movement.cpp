@@ -19,7 +19,7 @@ void Movement<Real>::moveFluid(double seconds) {
     for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + seconds * s.velocity(i));
 }
 
-// What crosses the faces between sliding images in `wrap` gains momentum and energy.
+// Books the momentum and energy that particles gain where `wrap` moves them across the faces between sliding images.
 template <class Real>
 template <class Wrap>
 void Movement<Real>::countCrossings(Wrap&& wrap) {
@@ -84,7 +84,7 @@ void Movement<Real>::arrive(const Field& velocity) {
     if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
     if (noFlux_) noFlux_->keepSides(system);
     if (!system.periodicity().slides()) return;
-    // What looks at velocities until the next step need not ask of which image they are.
+    // So that code that reads velocities before the next step need not ask to which image they belong.
     countCrossings([&] { system.wrapAll(); });
     if (system_.immersed()) system_.immersed()->wrapCells();
 }

@@ -1,12 +1,11 @@
-// How an implicit step moves what is in a scene: to where its forces are taken, back from there, and to its end with
-// the velocity found.
+// Moves the contents of a scene in an implicit step: to the positions where forces are evaluated, back from there, and
+// to the end of the step with the computed velocity.
 //
-//     x* = x^n + share dt u                                       departs, or takes it back; nodes of cells in the
-//                                                                 middle of a step on the arc (coupling/arc.hpp)
-//     x^(n+1) = x^n + dt v + shift,   a = (v - u)/h               arrives (timeDifference.hpp)
-// Images that slide (core/periodicity.hpp) move along in time.
-// The state between steps has the velocity at its end, u + (t - t_middle) a; the step takes it back to that of the
-// middle first.
+//     x* = x^n + share dt u                                       depart; takeBack undoes it. At the midpoint of steps,
+//                                                                 nodes of cells are on the arc (coupling/arc.hpp)
+//     x^(n+1) = x^n + dt v + shift,   a = (v - u)/h               arrive (timeDifference.hpp)
+// Images that slide (core/periodicity.hpp) are moved to the same times. Between steps the store has the velocity at the
+// end of the last step, u + (t - t_middle) a; the step first converts it back to that at the midpoint.
 #pragma once
 #include <optional>
 
@@ -21,16 +20,16 @@ class Movement {
   public:
     using Field = typename System<Real>::Field;
 
-    // shifting: coefficient of the case. noFlux: null without cells. All must stay where they are.
+    // shifting: coefficient of the case. noFlux: null without cells. System and noFlux are kept by reference.
     Movement(System<Real>& system, std::optional<double> shifting, coupling::NoFlux* noFlux)
         : system_(system), noFlux_(noFlux), transport_(system.scene(), shifting) {}
 
-    // Velocities along their accelerations, between the middle of a step and its end.
+    // Advances velocities by their accelerations, between the midpoint of a step and its end.
     void moveVelocities(double seconds);
-    // To the places at which forces are taken, and lists there. Collective.
+    // Moves to the positions where forces are evaluated, and builds the lists there. Collective.
     void depart(const TimeDifference& time);
     void takeBack(const TimeDifference& time);
-    // With the velocity v found: places, velocities and accelerations at the end of the step. Collective.
+    // With the computed velocity v: positions, velocities and accelerations at the end of the step. Collective.
     void arrive(const Field& v);
 
   private:

@@ -9,7 +9,7 @@ namespace corpuscle::implicit {
 
 namespace {
 
-// Resistance of a node's membrane over mu dx from which on the preconditioner with it is the cheaper one
+// Resistance of a node's membrane over mu dx above which the preconditioner with membranes is the cheaper one
 // (docs/implicit.md).
 constexpr double stiffMembrane = 50;
 
@@ -65,7 +65,7 @@ class TwoLevel : public Preconditioner<Real> {
 template <class Real>
 class WithMembrane final : public TwoLevel<Real> {
   public:
-    // always: however soft the membranes are.
+    // always: with the membranes however soft they are.
     WithMembrane(System<Real>& system, bool always) : TwoLevel<Real>(system), always_(always) {}
 
     void prepare() override {

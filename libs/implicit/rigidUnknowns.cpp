@@ -53,11 +53,12 @@ void RigidUnknowns<Real>::depart(double seconds) {
 template <class Real>
 void RigidUnknowns<Real>::takeBack() {
     for (std::size_t b = 0; b < saved_.size(); ++b) bodies()[b].state = saved_[b];
-    scene_.bodies->findMembers(*scene_.system);  // lists may have been made since
+    scene_.bodies->findMembers(*scene_.system);  // lists may have been rebuilt since
     scene_.bodies->place(*scene_.system);
 }
 
-// L of 1 within bodies has at their particles the sum of l_ij over all others.
+// L of a field that is 1 on particles of bodies and 0 elsewhere is, on these particles, the sum of l_ij over all
+// others.
 template <class Real>
 void RigidUnknowns<Real>::prepare(const Reach&) {
     scene_.bodies->moved(*scene_.system, 0, true);
@@ -135,7 +136,7 @@ void RigidUnknowns<Real>::addLayer(const Field& u, sph::FieldOf of, Forces& forc
         u, of, [&](std::size_t b) { return motion(u, b); }, force, reaction_);
 }
 
-// By the layer alone, whose A is symmetric.
+// The power is that of the layer alone; as its A is symmetric, forces are evaluated for w and their power in v.
 template <class Real>
 double RigidUnknowns<Real>::slidingPower(const Field& v, const std::vector<double>& /*divergence*/, const Field& w) {
     Forces force(width * operators_.shared().entries(), 0.0);
@@ -165,7 +166,7 @@ double RigidUnknowns<Real>::powerOfSlides(const RealArray& force) const {
     return sum.dot(scene_.system->periodicity().slide());
 }
 
-// row(body, P^T of the forces) of free bodies; the rest 0.
+// Writes row(body, P^T of the forces) for free bodies, and 0 for other bodies and for particles of bodies.
 template <class Real>
 template <class Row>
 void RigidUnknowns<Real>::putRows(const RealArray& force, Field& rows, Row&& row) const {

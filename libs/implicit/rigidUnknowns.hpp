@@ -2,33 +2,33 @@
 // velocities.
 //
 //     u_j = U + Omega x r_j                                    P, for the body's particles, r_j from its centre of mass
-//     F = sum_j f_j,   T = sum_j r_j x f_j                     P^T, of what the system has as forces on particles
+//     F = sum_j f_j,   T = sum_j r_j x f_j                     P^T, of the forces f_j of the system on particles
 //     m (c1 (U - U') - c2 A') = F + rho0 b V
 //     I (c1 (Omega - Omega') - c2 alpha') = T - Omega* x I Omega*
 //
-// symbol        | meaning                                                                                       | unit
-// U', Omega'    | of the middle of the last step; A', alpha': rates between the middles of the last two           |
-//               | m/s, 1/s
-// m, I, V       | mass, inertia where the body stands at x*, and volume: of the solid, not of its particles       | kg,
-//               | kg m^2, m^3
-// rho0 b        | uniform body force: a pressure gradient (bodies/bodies.hpp)                                     |
-//               | N/m^3
-// Omega*        | extrapolated                                                                                   | 1/s
+// symbol     | meaning                                                                                    | unit
+// U', Omega' | at the midpoint of the last step; A', alpha': rates between the last two midpoints         | m/s, 1/s
+// m, I, V    | mass, inertia (of the body as it stands at x*) and volume of the solid, not of its         | kg, kg m^2,
+//            | particles                                                                                  | m^3
+// rho0 b     | uniform body force: a pressure gradient (bodies/bodies.hpp)                                | N/m^3
+// Omega*     | extrapolated Omega                                                                         | 1/s
 //
-// Particles of bodies are in D, D^T V and L as those of the fluid, pairs within a body included. L carries mu grad u
-// where the true stress is mu (grad u + grad u^T). Over fluid and body together both have the same energy as long as
-// the velocity is continuous and without divergence, since then int grad u : grad u^T = int (div u)^2 = 0. So the
-// torque 2 mu V Omega, which the traction mu du/dn lacks (sph/rigidGroups.hpp adds it as D Omega), is that of the pairs
-// within the body, and arms are those of the particles.
+// Particles of bodies take part in D, D^T V and L like those of the fluid, pairs within a body included. L represents
+// mu grad u, whereas the true stress is mu (grad u + grad u^T). Over fluid and body together the two have the same
+// energy as long as the velocity is continuous and free of divergence, since then
+// int grad u : grad u^T = int (div u)^2 = 0. The torque 2 mu V Omega, which the traction mu du/dn lacks
+// (sph/rigidGroups.hpp adds it as D Omega), is therefore that of the pairs within the body, and lever arms are those of
+// the particles.
 //
-// The surface lies somewhere between its particles and those of the fluid: what L lacks there is SurfaceLayer
-// (surfaceLayer.hpp), and this term of the system is it.
+// The surface lies somewhere between the particles of the body and those of the fluid. SurfaceLayer (surfaceLayer.hpp)
+// adds what L lacks there; it is what this class contributes as a term of the system.
 //
-// In a field (four numbers an entry of the shared particles) a body's unknowns stand behind the particles: U, 0, Omega,
-// 0. Of a velocity every rank has all of them, and the particles of bodies have theirs; of forces every rank has its
-// part, and particles of bodies have none. So the sum over all numbers that a rank counts (Copies of
-// conjugateGradients.hpp) and over the ranks is the scalar product, and nothing but the preconditioner needs a
-// reduction. Held and driven bodies keep their velocity: their rows are taken out, as those of walls.
+// In a field (four numbers per entry of the shared particles) the unknowns of the bodies follow the particles: U, 0,
+// Omega, 0 for each body. In a field of velocities every rank has the unknowns of all bodies, and particles of bodies
+// have their velocities. In a field of forces every rank has its part of the force on each body, and particles of
+// bodies have none. The scalar product is therefore the sum over all numbers that a rank counts (Copies of
+// conjugateGradients.hpp) and over the ranks, and only the preconditioner needs a reduction. Held and driven bodies
+// keep their velocity: their rows are removed, like those of walls.
 #pragma once
 #include <Eigen/Cholesky>
 
@@ -52,35 +52,36 @@ class RigidUnknowns final : public Term<Real> {
     RigidUnknowns(coupling::Scene& scene, sph::Operators<Real>& operators, bool onGrid)
         : scene_(scene), operators_(operators), onGrid_(onGrid), layer_(scene, operators) {}
 
-    std::size_t length() const { return perBody * bodies().size(); }  // what stands behind the particles
+    std::size_t length() const { return perBody * bodies().size(); }  // numbers behind the particles
 
-    void moveVelocities(double seconds);  // along their accelerations
-    // Places of bodies and of their particles: `seconds` on from the beginning of the step; back to it.
+    void moveVelocities(double seconds);  // advances those of bodies by their accelerations
+    // Moves bodies and their particles to `seconds` after the beginning of the step; back to the beginning.
     void depart(double seconds);
     void takeBack();
 
-    // As a term: what the surfaces add. Bodies get theirs in the next rows.
+    // As a term: the forces of the surface layer. Those on bodies are added with the rows below.
     void prepare(const Reach& reach) override;
     void addForces(const Field& u, Forces& forces) override { addLayer(u, sph::FieldOf::velocities, forces); }
     void addProduct(const Field& u, Forces& forces) override { addLayer(u, sph::FieldOf::changes, forces); }
     double slidingPower(const Field& v, const std::vector<double>& divergence, const Field& w) override;
     double diagonal(std::size_t i) const override { return layer_.diagonal(i); }
 
-    // First guess: the velocity extrapolated over h.
+    // First guess: the velocity extrapolated over h [s].
     void extrapolate(double h, Field& u) const;
-    // By which the velocity u differs from it: the largest |dU| + a |dOmega| of free bodies, over a, the radius of the
-    // sphere of their volume [1/s].
+    // Largest difference of a free body between the velocity u and the extrapolated one: (|dU| + a |dOmega|)/a, with a
+    // the radius of the sphere of its volume [1/s].
     double largestDifference(double h, const Field& u) const;
     bool areSomeFree() const;
     // Rows of bodies in A u, and in the residual of u.
     void putProduct(double c1, const Field& u, const particles::RealArray& force, Field& product) const;
     void putResidual(double c1, double c2, const Field& u, const particles::RealArray& force, Field& residual);
-    // P^T of forces alone.
+    // Rows of bodies: P^T of forces alone.
     void putForces(const particles::RealArray& force, Field& rows) const;
 
-    // Preconditioner: z = Pi (D^-1 + G) Pi^T r, where Pi makes the velocities of a body's particles rigid by least
-    // squares, G is the part on the grid, and D of a body is inertia and what its particles have of the diagonal with
-    // others. diagonal(i): of particle i without its mass. Takes the particles of bodies out of `inverse`. Collective.
+    // Preconditioner: z = Pi (D^-1 + G) Pi^T r. Pi makes the velocities of a body's particles rigid by least squares,
+    // and G is the part on the grid. D of a body is its inertia and the part of its particles' diagonal that is due to
+    // pairs with particles outside bodies. diagonal(i): that of particle i without its inertia. Sets `inverse` to 0 at
+    // particles of bodies. Collective.
     template <class Diagonal>
     void factorise(double c1, Diagonal&& diagonal, Field& inverse) {
         std::vector<Matrix6> blocks = continuationBlocks();
@@ -93,27 +94,27 @@ class RigidUnknowns final : public Term<Real> {
         invert(c1, blocks);
     }
     const Field& distribute(const Field& r);  // Pi^T r
-    void project(Field& z);                   // of the last r. Collective
+    void project(Field& z);                   // completes z for the last r. Collective
 
     // At the end of a step with the velocity u: motion and places of bodies, force and torque on them. Collective.
     void arrive(double dt, double h, const Field& u);
-    // Force and torque of the fluid, from the forces at the velocity found. Collective.
+    // Force and torque of the fluid on bodies, from the forces at the computed velocity. Collective.
     void findWrenches(const particles::RealArray& force);
 
-    // What bodies do for the budget at the velocity u found, after findWrenches; the power of the continuation on them
-    // is returned. This rank's part.
+    // Adds what bodies contribute to the budget at the computed velocity u, after findWrenches. Returns the power of
+    // the continuation (surfaceLayer.hpp) on them. This rank's part.
     double addRates(double c1, double c2, const Field& u, sph::Budget::Values& rates) const;
 
-    // In a flow w whose images slide: sets the velocities of bodies to w at their centres, and of their particles.
+    // For a flow w whose images slide: sets the velocity of each body to w at its centre, and those of its particles.
     template <class W>
     void setMotions(W&& w, Field& u) const {
         for (std::size_t b = 0; b < bodies().size(); ++b) put(u, b, w(bodies()[b].state.centre), Vec3::Zero());
         spread(u, sph::FieldOf::velocities);
     }
-    // Power in the flow u of the surface layer's reaction on bodies, as found last; this rank's part [W].
+    // Power, in the flow u, of the reaction of the surface layer on bodies as last computed; this rank's part [W].
     double reactionPower(const Field& u) const;
-    // Power of these forces on bodies' particles by the slide alone of those that are in another image than their
-    // body's centre; this rank's part [W].
+    // Power of these forces on particles of bodies due to the slide alone: that of particles in another image than the
+    // centre of their body; this rank's part [W].
     double powerOfSlides(const particles::RealArray& force) const;
 
     bool isMember(std::size_t i) const { return scene_.store().kindOf(i) == particles::Kind::body; }
@@ -151,13 +152,14 @@ class RigidUnknowns final : public Term<Real> {
         Vec3 arm;
         double periods;
     };
-    std::vector<OtherMember> others_;               // particles of bodies that other ranks have
-    std::vector<double> periods_;                   // of members, from where their body has them
-    std::vector<bodies::RigidState> saved_;         // at the beginning of the step
-    SurfaceLayer<Real> layer_;                      // beside the surfaces
-    std::vector<double> outward_;                   // share of the members' pairs, by l_ij, that are not with bodies
-    std::vector<Vec3> gyroscopic_;                  // torque that the system has of each body, on the root
-    std::vector<sph::Wrench> reaction_, residual_;  // of the continuation, this rank's part; of the last r, whole
+    std::vector<OtherMember> others_;        // particles of bodies owned by other ranks
+    std::vector<double> periods_;            // of members: periods from their place on the body to the particle
+    std::vector<bodies::RigidState> saved_;  // at the beginning of the step
+    SurfaceLayer<Real> layer_;               // beside the surfaces
+    std::vector<double> outward_;   // for each member, share of its pairs, by l_ij, with particles outside bodies
+    std::vector<Vec3> gyroscopic_;  // gyroscopic torque on each body in the system, on the root
+    // Of the continuation, this rank's part; of the last r, of all ranks.
+    std::vector<sph::Wrench> reaction_, residual_;
     std::vector<Eigen::LLT<Matrix6>> inertia_, particles_;  // D, and P^T P
     Field shared_;
 };

@@ -24,7 +24,7 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
     Budget::Values rates = Budget::zero(scene.model().walls.count());
     const bool slides = scene.system->periodicity().slides();
     if (slides) findStep();
-    double power = 0, inStep = 0;  // of the terms on everything that moves, walls included; of the same forces in w
+    double power = 0, inStep = 0;  // of the terms' forces on all that moves, walls included; of the same in w
     for (std::size_t i = 0; i < s.size(); ++i) {
         rates[Budget::compression] -=
             system_.operators().volume(i) * system_.fluid().pressure(i, divergence[i]) * divergence[i];
@@ -51,7 +51,8 @@ void StepBudget<Real>::keep(const Field& velocity, const Field& residual, const 
     if (rigid) power += rigid->addRates(time.c1, time.c2, velocity, rates);
     if (system_.membranes()) {
         system_.membranes()->addRates(rates);
-        for (const auto& on : system_.membranes()->forcesOnWalls()) {  // along the normal: walls move across it
+        // Contact forces are along the normal; walls move at right angles to it.
+        for (const auto& on : system_.membranes()->forcesOnWalls()) {
             const boundary::Wall& wall = scene.model().walls[static_cast<std::size_t>(on.wall)];
             Budget::addWall(rates, on.wall, wall.velocityAt(on.place), on.place - middle, -on.force);
         }

@@ -11,9 +11,9 @@ using coupling::Immersed;
 
 namespace {
 
-// Change from step to step. The stiffest displacements of membranes halve in a step and change their sign
-// (TimeDifference::leadShare); in steps that were halved too their velocities would not decay, and steps would shrink
-// on and on.
+// Bounds of the change from step to step. The stiffest displacements of membranes halve in a step and change their sign
+// (TimeDifference::leadShare). If the steps were halved as well, the velocities of these displacements would not decay,
+// and steps would shrink without end.
 constexpr double most = 2, least = 0.2, leastWithMembranes = 0.7;
 
 bool isStrict(const ImplicitSettings& settings) { return settings.error < ImplicitSettings{}.error; }

@@ -1,34 +1,36 @@
-// How long a step may be, by what the last one did.
+// Largest permissible length of the next step, from the last one.
 //
-// Places. The velocity found, v, differs from v0, the one extrapolated from the steps before, by the second difference
-// of velocity, and from that of the step before, u, by the first, which is also what the local error of a step is made
-// of: x is wrong by
+// Positions. The computed velocity v differs from v0, extrapolated from the steps before, by the second difference of
+// the velocity in time, and from u, that of the step before, by the first difference. The local error of a step
+// consists of the same differences: after a step, x is wrong by
 //     dt |v - v0|/24 (midpoint),   dt |v - u|/2 (backward Euler)
-// after a step. With E, this error over a length a and the strain of the step, the next one may be (error/E)^(1/2) as
-// long, or error/E. Halves by backward Euler within a run by the midpoint rule are looked at as if they were of its
-// kind, which the next step is.
+// Let E be this error divided by a length a and by the strain of the step. The next step may then be (error/E)^(1/2)
+// times as long (midpoint), or error/E times (backward Euler). Half steps by backward Euler within a run by the
+// midpoint rule are treated like midpoint steps, because the next step is one.
 //
 // in the scene | the difference                                      | a
-// cells        | of each the largest of its nodes; of these the root | radius of the sphere of the cell's volume
-//              | mean square, a quarter of the largest at the least  |
+// cells        | of each cell the largest of its nodes; over the     | radius of the sphere of the cell's volume
+//              | cells the root mean square, but not less than a     |
+//              | quarter of the largest                              |
 // free bodies  | the largest of |dU| + a |dOmega|                    | the same of the body
 // neither      | root mean square of the fluid                       | length of the flow (sph/flow.hpp)
-// Steps of different length: the second difference is scaled to what it would be over steps as long as the last.
-// Of one cell that is its largest; of many, the more of them there are, the largest is that of some rare event, and a
-// step that follows it would be made by all.
-// With cells and free bodies, the larger of both. A fluid beside them is not looked at: what moves them is what is
-// asked for.
+// If steps have different lengths, the second difference is scaled to the value over steps as long as the last. For one
+// cell the mean over cells is its largest difference. Among many cells the largest difference is that of a rare event,
+// the more so the more cells there are, and all cells would have to follow it with short steps. With cells and free
+// bodies, the larger of both differences counts. Fluid beside them is not considered: only the motion of cells and
+// bodies matters.
 //
-// Nothing is known of the error before the third step (the second, of a flow that starts fully developed), and the
-// start from a velocity that does not know of the forces is of first order: where `error` is below its default, the
-// first step is (error/default)^(1/2) as long as `step`, and the second twice that.
+// There is no estimate of the error before the third step (the second, if the flow starts fully developed), and the
+// start from a velocity that does not include the effect of the forces is of first order. Where `error` is below its
+// default, the first step is therefore limited to (error/default)^(1/2) of `step`, and the second to twice that.
 //
-// What the solver leaves is in the difference as well, whatever the length of the step. In steps shorter than those of
-// the case, where the extrapolated velocity is the better by the square of the length, its tolerance is the smaller by
-// that much (toleranceShare); else such steps would shrink without end where many cells make it large.
+// The difference also contains the error of the solver, which does not decrease with the step. In steps shorter than
+// those of the case, the extrapolated velocity is more accurate by the square of the length, and the tolerance of the
+// solver is reduced by the same factor (toleranceShare). Otherwise such steps would shrink without end where many cells
+// make the difference large.
 //
-// Contact. Nodes move to where the next step takes its forces before these act: no further than nine tenths of the way
-// on which nothing meets.
+// Contact. Nodes move to the positions where the next step evaluates its forces before these forces act. They may move
+// at most nine tenths of the way on which nothing meets.
 //
 // Bonds. No bond may change its length by more than bondStrain in one step: dt <= bondStrain/max |d/dt ln l|.
 #pragma once
@@ -38,31 +40,31 @@
 namespace corpuscle::implicit {
 
 struct AllowedSteps {
-    double error = 0, bond = 0, contact = 0;  // [s]; 0: of any length
+    double error = 0, bond = 0, contact = 0;  // by each criterion [s]; 0: of any length
 };
 
-// Of the first step.
+// Limits of the first step.
 AllowedSteps firstStep(const ImplicitSettings& settings, double rate);
 
 struct LastStep {
     double dt;       // its length [s]
-    double planned;  // that which it would have had but for an event (core/time.hpp): from it the next one grows [s]
+    double planned;  // without an event that shortens it (core/time.hpp): the next step grows from it [s]
     bool backwardEuler;
     bool hasMembranes;
 };
-// difference: that of the last step over a [1/s]; 0: nothing is known of it. rate: of the flow; bondRate: largest of a
-// bond [1/s].
+// difference: that of the last step divided by a [1/s]; 0: not known. rate: of the flow [1/s]; bondRate: largest rate
+// |d/dt ln l| of a bond [1/s].
 AllowedSteps allowedSteps(const ImplicitSettings& settings, double rate, const LastStep& last, double difference,
                           double bondRate);
 
-// Of the solver's tolerance in a step of this length, on a rate of the flow [1/s].
+// Factor of the solver's tolerance in a step of the length `planned` [s]. rate: of the flow [1/s].
 double toleranceShare(const ImplicitSettings& settings, double rate, double planned);
 
-// Of two velocities of nodes, in radii of their cell [1/s]: of all cells of the scene. Collective.
+// Difference of two velocities of the nodes, in radii of their cell, over all cells of the scene [1/s]. Collective.
 double differenceOfCells(const coupling::Immersed& immersed, MPI_Comm comm, const coupling::Immersed::Vectors& a,
                          const coupling::Immersed::Vectors& b);
 
-// Of the cells that this rank holds: the largest rate at which a bond's length changes, over its length [1/s].
+// Largest rate |d/dt ln l| of a bond, among the cells that this rank holds [1/s].
 double largestBondRate(const coupling::Immersed& immersed, const coupling::Immersed::Vectors& velocity);
 
 }  // namespace corpuscle::implicit

@@ -13,16 +13,17 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr double ofMeans = 0.5;        // how much of T a velocity stands for
-constexpr double mostOfMean = 0.6;     // of T/2, which is 0.25 at most beside one surface
-constexpr double leastStretch = 1e-3;  // below it a particle has none
-constexpr double leastRatio = 0.25;    // of g: what curves more is an edge
+constexpr double ofMeans = 0.5;        // share of T in 1 + gamma = 1/(1 - T/2)
+constexpr double mostOfMean = 0.6;     // upper bound of T/2, which is 0.25 at most beside one surface
+constexpr double leastStretch = 1e-3;  // smaller gammas are set to 0
+constexpr double leastRatio = 0.25;    // lower bound of g: a stronger curvature is that of an edge
 constexpr double normalByFoot = 0.2;   // distance above which the nearest point gives the normal [spacings]
-constexpr std::size_t mostBodies = 4;  // of which a particle's stretch is known to other ranks
+// Largest number of bodies for which the gamma of a particle is known to other ranks.
+constexpr std::size_t mostBodies = 4;
 
 }  // namespace
 
-// Of own particles, then of ghosts; of bodies' particles also the body, counted from 1, and the arm.
+// Records of own particles, then of ghosts. Those of bodies' particles also have the body, counted from 1, and the arm.
 template <class Real>
 struct SurfaceLayer<Real>::Records {
     static constexpr int fields = 11;
@@ -60,7 +61,7 @@ struct SurfaceLayer<Real>::Records {
     }
     const double* of(std::size_t k) const { return values.data() + fields * k; }
     Vec3 position(std::size_t k) const { return Vec3::Map(of(k)); }
-    // f(record, d, l) of those within the support of own particle i.
+    // f(index of the record, d, l) for the particles within the support of own particle i.
     template <class F>
     void forNear(std::size_t i, F&& f) const {
         const double* a = of(i);
@@ -73,17 +74,17 @@ struct SurfaceLayer<Real>::Records {
               mu * beta(a[gap], b[gap]) * unit * model.kernel->slope(q) * a[volume] * b[volume] *
                   (a[scale] + b[scale]));
         };
-        const double reach = H + 0.5 * system.skin();  // particles are found by their places when lists were built
+        const double reach = H + 0.5 * system.skin();  // particles are found by their positions when lists were built
         system.forOwnedNear(position(i), reach, [&](int k) { each(static_cast<std::size_t>(k)); });
         system.forGhostsNear(position(i), reach, [&](int g) { each(owned + static_cast<std::size_t>(g)); });
     }
-    double beta(double gapI, double gapJ) const {  // of walls
+    double beta(double gapI, double gapJ) const {  // Morris's factor at walls
         const double far = std::max(gapI, gapJ), depth = std::max(-std::min(gapI, gapJ), 0.0);
         return std::min(1 + depth / std::max(far, noSlip.smallestDistance), noSlip.betaMax);
     }
 };
 
-// The surface of a body as a fluid particle beside it sees it.
+// The surface of a body as seen from a fluid particle beside it.
 template <class Real>
 struct SurfaceLayer<Real>::Side {
     double distance, curvature;  // s, q
@@ -122,7 +123,7 @@ auto SurfaceLayer<Real>::sideOf(std::size_t b, const Vec3& arm) const -> Side {
     const Vec3 x = body.inBody(arm);
     const double known = std::abs(body.distance.at(x)) + body.distance.margin();
     geometry::SurfacePoint at = surfaces_[b]->nearest(x, known);
-    if (!at) at = surfaces_[b]->nearest(x);  // the grid knows nothing beyond its reach
+    if (!at) at = surfaces_[b]->nearest(x);  // the distance grid has no values beyond its reach
     Side side{at ? at.distance : body.distance.at(x), 0.5 * bodies::curvature(body.distance, x, dx), Vec3::Zero()};
     if (at && at.distance > normalByFoot * dx)
         side.normal = x - at.point;
@@ -139,7 +140,7 @@ template <class Real>
 auto SurfaceLayer<Real>::sharesOfAll(const Records& records) const -> std::vector<std::vector<Share>> {
     std::vector<std::vector<Share>> shares(records.owned);
     const auto& near = scene_.bodies->groups().near;
-    const double apart = 0.5 * scene_.spacing;  // images of a body are further from each other
+    const double apart = 0.5 * scene_.spacing;  // [m]; images of a body are further apart
     std::vector<Side> sides;
     std::vector<double> T;
     for (std::size_t first = 0, end = 0; first < near.size(); first = end) {
@@ -176,7 +177,7 @@ auto SurfaceLayer<Real>::sharesOfAll(const Records& records) const -> std::vecto
     return shares;
 }
 
-// Of all entries; own particles have the same as other ranks know of them.
+// Finds the gammas of all entries. Own particles have the same gamma here as on other ranks.
 template <class Real>
 void SurfaceLayer<Real>::findStretches(std::vector<std::vector<Share>>& shares) {
     particles::SharedParticles& shared = operators_.shared();

@@ -1,32 +1,33 @@
-// The fluid beside the surfaces of rigid bodies: what the viscosity of pairs (sph/operators.hpp) lacks there.
+// The fluid beside the surfaces of rigid bodies: the force that the viscosity of pairs (sph/operators.hpp) lacks there.
 //
 // symbol    | meaning                                                                               | unit
 // w_i       | u_i - U - Omega x r_i: velocity of fluid particle i in the frame of a body            | m/s
 // s_i, n    | distance of i from the body's surface, at least 0.05 dx, and the direction away from it | m
 // q         | mean curvature at i of the surface of equal distance, positive for a convex body      | 1/m
-// z_ij      | depth of the body's particle j below the surface as i sees it                         | m
+// z_ij      | depth of the body's particle j below the surface, as seen from i                      | m
 // l_ij      | coefficient of the pair in L                                                          | N s/m
 //
-// Continuation. Beyond the surface the velocity is taken as -w_i z_ij/(s_i g_ij), so that it vanishes on it. i takes
-// the surface for the plane or the sphere that has its curvature there: with d = x_j - x_i
+// Continuation. Below the surface the velocity is continued as -w_i z_ij/(s_i g_ij), so that it vanishes on the
+// surface. Particle i takes the surface as the plane or the sphere that has its curvature there: with d = x_j - x_i
 //     g_ij = sqrt(1 + 2 q n.d + q^2 d^2),   z_ij = -s_i - (2 n.d + q d^2)/(1 + g_ij), at least 0
-// g is the ratio of the distances of j and i from the sphere's centre. The flow about a turning sphere is continued
-// exactly. A particle within a thin body lies as deep as it is from that side, however near the other side is. The
-// energy is
+// g is the ratio of the distances of j and i from the centre of the sphere. The flow about a turning sphere is
+// continued exactly. In a thin body the depth of a particle is that below the side that faces i, however near the other
+// side is. The energy is
 //     1/2 kappa_i |w_i|^2,   kappa_i = sum_j l_ij z_ij/(s_i g_ij)          over the body's particles
-// which makes Morris' factor 1 + z/s of the pairs.
+// which gives the pairs Morris's factor 1 + z/s.
 //
-// Means and values. Of a velocity that is a parabola across the layer, w = G s + w'' s^2/2, a linear continuation
-// misses a force: that on i is too small by the part
+// Means and values. If the velocity is a parabola across the layer, w = G s + w'' s^2/2, a linear continuation misses a
+// force: that on i is too small by the fraction
 //     T_i = sum_j l_ij z_ij (s_i + z_ij)/(2 mu V_i),   with z_ij/g_ij for z_ij where the surface is curved,
-// of mu w'' V_i, and the fluid slips by 0.09 dx^2 w''. Taking this part off what drives the particle, pressure
-// included, is to conserve the flux of (1 - T_i) w_i in place of that of w_i (divergence and pressure force are
-// adjoint), which is an error of the same size and the opposite sign. Half of it makes flux and force in a gap right
-// (docs/theory/bodies.md), whatever the direction of the lattice. So a fluid particle's velocity stands for a mean, and
+// of mu w'' V_i, and the fluid slips by 0.09 dx^2 w''. To subtract this fraction from all that drives the particle,
+// pressure included, would mean to conserve the flux of (1 - T_i) w_i instead of that of w_i (divergence and pressure
+// force are adjoint), an error of the same size and the opposite sign. Half of it gives the right flux and force in a
+// gap (docs/theory/bodies.md), whatever the direction of the lattice. The velocity of a fluid particle is thus taken as
+// a mean, and
 //     v_i = u_i + gamma_i w_i,   1 + gamma_i = 1/(1 - T_i/2)
-// takes its place in the energy of viscosity, of the pairs as of the continuation. Near several bodies each has its
-// kappa, its T and its share of gamma. All of it is symmetric and positive semi-definite, gives to the bodies what it
-// takes from the fluid, and vanishes where everything moves as one piece.
+// takes its place in the viscous energy, of the pairs as of the continuation. Near several bodies each has its own
+// kappa, T and share of gamma. The whole is symmetric and positive semi-definite, gives to the bodies the momentum that
+// it takes from the fluid, and vanishes where everything moves as one rigid body.
 #pragma once
 #include <memory>
 
@@ -40,16 +41,16 @@ namespace corpuscle::implicit {
 template <class Real>
 class SurfaceLayer {
   public:
-    using Field = particles::AlignedVector<Real>;  // four numbers an entry of the shared particles
+    using Field = particles::AlignedVector<Real>;  // four numbers per entry of the shared particles
     using Forces = particles::RealArray;           // the same [N]
 
     SurfaceLayer(coupling::Scene& scene, sph::Operators<Real>& operators);
 
-    // At x*, with operators built and bodies' particles found there. Collective.
+    // At x*, with operators built and the particles of bodies found there. Collective.
     void prepare();
 
-    // forces -= A u of own particles, A what this adds to L; the opposite to `reaction` of the bodies, or to their
-    // particles. u: of all entries; motion(b): velocity of body b.
+    // forces -= A u of own particles, where A is what the layer adds to L. The opposite force goes to `reaction` of the
+    // bodies, or to their particles. u: velocities of all entries; motion(b): velocity of body b.
     template <class Motion>
     void addProduct(const Field& u, sph::FieldOf of, Motion&& motion, Forces& forces,
                     std::vector<sph::Wrench>& reaction) {
@@ -59,7 +60,7 @@ class SurfaceLayer {
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             const std::size_t i = rows_[row];
             const Vec3 own = particles::vectorAt(u, i), excess = excessAt(i);
-            Vec3 onVelocity = Vec3::Zero(), onExcess = Vec3::Zero();  // what goes with u_i, and with gamma_i w_i
+            Vec3 onVelocity = Vec3::Zero(), onExcess = Vec3::Zero();  // forces that do work on u_i, and on gamma_i w_i
             for (std::size_t k = firstPair_[row]; k < firstPair_[row + 1]; ++k) {
                 const Vec3 change = excess - excessAt(pairs_[k].entry);
                 onVelocity -= pairs_[k].coefficient * change;
@@ -82,7 +83,7 @@ class SurfaceLayer {
         }
     }
     double diagonal(std::size_t i) const { return diagonal_[i]; }  // of A [N s/m]
-    // f(body, arm, resistance [N s/m]) of all that own particles have to do with bodies.
+    // Calls f(body, arm, resistance [N s/m]) for each body beside each own particle.
     template <class F>
     void forEachResistance(F&& f) const {
         for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -95,11 +96,11 @@ class SurfaceLayer {
 
   private:
     static constexpr std::size_t width = 4;
-    struct Share {  // of a body, in what a fluid particle beside it feels
+    struct Share {  // of one body, in the force on a fluid particle beside it
         std::size_t body = 0;
         double stretch = 0, resistance = 0;  // gamma; kappa [N s/m]
-        Vec3 arm = Vec3::Zero();             // from the body's centre to the image of the particle that is there
-        double periods = 0;                  // of that image, across faces whose images slide
+        Vec3 arm = Vec3::Zero();             // from the body's centre to the image of the particle beside it
+        double periods = 0;                  // periods to that image, across faces whose images slide
     };
     struct Pair {
         std::size_t entry;
@@ -131,10 +132,10 @@ class SurfaceLayer {
     std::vector<std::unique_ptr<geometry::TriangleTree>> surfaces_;  // of the bodies, in their frames
     std::vector<std::pair<std::size_t, Share>> stretches_;           // gamma, of all entries that have one
     particles::RealArray excess_;                                    // gamma w of all entries
-    // Rows of A: own particles, fluid and bodies', each with its pairs and the bodies beside it.
+    // Rows of A: own particles, of the fluid and of bodies, each with its pairs and the bodies beside it.
     std::vector<std::size_t> rows_, firstPair_, firstShare_;
-    std::vector<Pair> pairs_;  // in which one of the two has a gamma
-    // Of the image of each pair's entry, across faces whose images slide; empty where none does.
+    std::vector<Pair> pairs_;  // pairs of which at least one particle has a gamma
+    // Periods to the image in each pair, across faces whose images slide; empty where none does.
     std::vector<double> periods_;
     std::vector<Share> shares_;
     std::vector<double> diagonal_;

@@ -90,8 +90,8 @@ std::string System<Real>::whyNot(const Field& v, double dt) {
     return {};
 }
 
-// What the system has as forces at the velocity found, so that they are what changes momentum. The solver does not
-// carry them: rows of particles of bodies are empty.
+// Computes the forces by the system itself, so that they are those that change the momentum. The solver does not
+// provide them: the rows of particles of bodies are empty.
 template <class Real>
 void System<Real>::findForcesOnBodies(const Field& v) {
     sumTerms([&](Term<Real>& term) { term.addForces(v, forces_); });

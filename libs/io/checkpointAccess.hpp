@@ -1,6 +1,6 @@
 // One rank's view of a checkpoint file, without MPI: reading needs no coordination at this level, so a corrupt file
-// cannot leave ranks waiting for each other. Opening a file verifies all but the numbers in its datasets, which are
-// verified as they are read. Everything throws Failure(ExitCode::io) naming file and dataset.
+// cannot leave ranks waiting for each other. Opening a file verifies everything except the numbers in its datasets,
+// which are verified as they are read. All functions throw Failure(ExitCode::io) naming file and dataset.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -21,7 +21,7 @@ class CheckpointAccess {
         std::string name;
         bool isDouble = false;
         hsize_t rows = 0, components = 0;
-        std::uint64_t sum = 0;  // checksum of the whole
+        std::uint64_t sum = 0;  // checksum of the whole dataset
     };
     Dataset open(const std::string& name) const;
     template <class T>
@@ -34,8 +34,8 @@ class CheckpointAccess {
     template <class T>
     std::vector<T> whole(const Dataset& dataset) const;
 
-    // First row and number of rows of a rank: those it wrote when `ranks` ranks wrote the file, otherwise an even
-    // share.
+    // First row and number of rows of a rank: those that it wrote if the file was written by `ranks` ranks, otherwise
+    // an even share.
     std::pair<hsize_t, hsize_t> share(const Dataset& dataset, int rank, int ranks) const;
 
     // T is double, std::int64_t or std::string.

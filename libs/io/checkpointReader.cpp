@@ -21,7 +21,7 @@ struct CheckpointReader::File {
         guarded([&] { access.emplace(path); });
     }
 
-    // Runs work() on all ranks; what fails anywhere is thrown on all, with the checkpoint to go back to.
+    // Runs work() on all ranks; a failure on any rank is thrown on all, with the checkpoint to restart from instead.
     template <class Work>
     void guarded(Work&& work) {
         try {

@@ -54,15 +54,15 @@ struct CheckpointWriter::File {
     }
 
     ~File() {
-        // The file is closed with the last of the two.
+        // HDF5 closes the file together with the last of these two handles.
         const herr_t first = attributes.close(), last = file.close();
         if (first < 0 || last < 0) leaveMpiOpen();
         std::error_code ignored;
         if (rank == 0) std::filesystem::remove(temporary, ignored);
     }
 
-    // Runs work() on all ranks. What fails is named by the system where it can be: HDF5 knows no limits and no full
-    // disks.
+    // Runs work() on all ranks. The reason of a failure is asked from the system where possible, since HDF5 does not
+    // report limits or full disks.
     template <class Work>
     void attempt(Work&& work) {
         together(comm, [&] {
@@ -74,7 +74,7 @@ struct CheckpointWriter::File {
         });
     }
 
-    // Rows [first, first + rows.size()/components) of `total` from this rank.
+    // Rows [first, first + values.size()/components) of `total` from this rank.
     template <class T>
     void write(const std::string& name, std::span<const T> values, int components, hsize_t first, hsize_t total) {
         const std::string what = fmt::format("dataset '{}'", name);

@@ -1,10 +1,10 @@
-// Checksum of a distributed array, the same for every way of cutting it into slabs:
+// Checksum of a distributed array, independent of how the array is divided into slabs:
 //
 //     S = sum_i  mix(bits(v_i) + (i + 1) phi)   mod 2^64
 //
 // i counts the numbers of the whole array, phi = 2^64/golden ratio, mix is the bijective finaliser of splitmix64
-// (Steele, Lea, Flood, OOPSLA 2014). Ranks add up their parts. One changed number always changes S; swapped ones do
-// with odds of 1 - 2^-64.
+// (Steele, Lea, Flood, OOPSLA 2014). The parts of the ranks add up to S. A single changed number always changes S; two
+// swapped ones change it with probability 1 - 2^-64.
 #pragma once
 #include <bit>
 #include <cstddef>
@@ -21,7 +21,7 @@ inline std::uint64_t mix(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-// The part of `values`, the first of which is number `first` of the whole array.
+// The part of the sum from `values`, the first of which has index `first` in the whole array.
 template <class T>
 std::uint64_t checksum(std::span<const T> values, std::uint64_t first) {
     std::uint64_t sum = 0;
@@ -31,7 +31,7 @@ std::uint64_t checksum(std::span<const T> values, std::uint64_t first) {
     return sum;
 }
 
-// Of a text, letter by letter.
+// Checksum of a text, byte by byte.
 inline std::uint64_t checksum(std::string_view text) {
     std::vector<std::uint64_t> letters;
     letters.reserve(text.size());

@@ -1,5 +1,5 @@
 // The list of what a checkpoint holds: number of ranks, attributes with their values, datasets with type, shape and
-// checksum. Its own checksum stands in the file, so that nothing can be lost, renamed or changed unseen.
+// checksum. The list has its own checksum in the file, so that nothing can be lost, renamed or changed unnoticed.
 #pragma once
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ class Contents {
     void attribute(const std::string& name, const std::string& text) {
         add(fmt::format("attribute {} text {}", name, text));
     }
-    // With its group: "data/fluid/velocity".
+    // fullName includes the group: "data/fluid/velocity".
     void dataset(const std::string& fullName, bool isDouble, std::uint64_t rows, std::uint64_t components,
                  std::uint64_t sum) {
         add(fmt::format("dataset {} {} {} {} {:x}", fullName, isDouble, rows, components, sum));

@@ -35,7 +35,7 @@ std::string headOf(const CsvHead& head) {
     return comments + header + '\n';
 }
 
-// Whole lines only, without their ends: what follows the last line end was being written.
+// Complete lines only, without their newline: what follows the last newline was still being written.
 bool nextLine(std::istream& file, std::string& line) {
     if (!std::getline(file, line) || file.eof()) return false;
     if (line.ends_with('\r')) line.pop_back();
@@ -49,7 +49,7 @@ std::vector<std::string> words(const std::string& line) {
     return all;
 }
 
-// Numbers of a row; or what is wrong with it.
+// Reads the numbers of a row. Returns what is wrong with it, or an empty text.
 std::string parseRow(const std::string& line, std::size_t columns, std::vector<double>& row) {
     row.clear();
     for (const std::string& word : words(line)) {
@@ -60,11 +60,11 @@ std::string parseRow(const std::string& line, std::size_t columns, std::vector<d
     return row.size() == columns ? "" : fmt::format("{} numbers for {} columns", row.size(), columns);
 }
 
-// What is there of a table, for one that goes on from `time`.
+// Content of an existing table that is to be continued from `time`.
 struct Earlier {
-    std::string comments, header;  // with line ends; header: without
+    std::string comments, header;  // comments with newlines, header without
     std::string rows;              // up to that time
-    int badLine = 0;               // the first that is no row; 0: all are
+    int badLine = 0;               // the first line that is not a row; 0: all are rows
 };
 
 Earlier readUntil(const fs::path& path, double time) {
@@ -91,7 +91,7 @@ Earlier readUntil(const fs::path& path, double time) {
     return found;
 }
 
-// Which columns came and went, for people.
+// Message about the columns that were added and removed.
 std::string columnChanges(const std::string& before, const std::string& now) {
     const std::vector<std::string> had = words(before), has = words(now);
     const auto only = [](const std::vector<std::string>& all, const std::vector<std::string>& others) {
@@ -108,7 +108,7 @@ std::string columnChanges(const std::string& before, const std::string& now) {
     return text;
 }
 
-// A name beside the table that does not end with .csv, so that nothing takes it for one.
+// A free name in the folder of the table that does not end with .csv, so that nothing takes the file for a table.
 fs::path nameAside(const fs::path& path, double time) {
     const std::string base = fmt::format("{}.until_{:.9g}", path.string(), time);
     fs::path aside = base;
@@ -136,7 +136,7 @@ std::string firstLineOf(const fs::path& path) {
     return line;
 }
 
-// Whether the first line names this place as that of a table of this kind.
+// Whether the first line says that this is the place of a table of this kind.
 bool isOwn(const fs::path& path, const std::string& kind) {
     const std::string place = path.parent_path().filename().string() + "/" + path.filename().string();
     return firstLineOf(path).starts_with(fmt::format("# {}{}{} ", place, signature, kind));
@@ -164,7 +164,7 @@ void removeFile(const fs::path& path) {
                       fmt::format("cannot remove {}, a table of an earlier run: {}", path.string(), error.message()));
 }
 
-// Folders that hold something stay.
+// Folders that are not empty stay.
 void removeIfEmpty(const fs::path& folder) {
     std::error_code notEmpty;
     fs::remove(folder, notEmpty);

@@ -1,5 +1,5 @@
-// Tables of numbers in time: postProcessing/<observer>/<file>.csv, one for a whole history, however often it was
-// continued
+// Tables of numbers over time: postProcessing/<observer>/<file>.csv. One table holds a whole history, however often the
+// run was continued:
 //
 //     # deformation/rbc.csv of Corpuscle, observer shape: deformation, orientation, tumbling and tank-treading of each
 //         cell
@@ -8,14 +8,14 @@
 //     time_s,D12_extent
 //     0,0.58100000000000002
 //
-// The head is comment lines, of which the first names the table and the others each column with meaning and unit, and
-// one header row of name_unit. Rows follow in full double precision (%.17g), flushed one by one, so that a running case
-// can be watched.
+// The head consists of comment lines and one header row of name_unit. The first comment line names the table (it is one
+// line in the file), each of the others gives meaning and unit of a column. Rows follow in full double precision
+// (%.17g), flushed one by one, so that a running case can be watched.
 //
-// A run that starts afresh writes its tables anew and removes what runs before it left (clearTables). A restart takes
-// out the rows after its time, and a last row that was not written to its end, and goes on in the same file. Every such
-// change is a whole new file that takes the name by a rename, so that a program killed at any moment leaves a table
-// that can be read, with all rows up to the last checkpoint.
+// A run that starts anew writes new tables and removes what earlier runs left (clearTables). A restart removes the rows
+// after its start time and an incomplete last row, and continues the same file. Every such change writes a complete new
+// file, which then replaces the table by a rename, so that a program killed at any moment leaves a readable table with
+// all rows up to the last checkpoint.
 #pragma once
 #include <mpi.h>
 
@@ -34,8 +34,8 @@ struct Column {
     std::string unit;     // "m2"; empty: dimensionless
     std::string meaning;  // "of the whole triangles"
     std::string header() const { return unit.empty() ? name : name + "_" + unit; }
-    std::string unitText()
-        const;  // as people write it: "m^2" for m2, "kg/m^3" for kg_m3, "N m" for Nm; empty: dimensionless
+    // The unit as people write it: "m^2" for m2, "kg/m^3" for kg_m3, "N m" for Nm; empty: dimensionless.
+    std::string unitText() const;
 };
 
 struct CsvHead {
@@ -47,7 +47,7 @@ struct CsvHead {
 
 class CsvSeries {
   public:
-    // Collective in `comm`. restart: the time, the first column, up to which earlier rows are kept; none: the table is
+    // Collective in `comm`. restart: time (the first column) up to which earlier rows are kept; none: the table is
     // written anew. Throws Failure(ExitCode::io).
     CsvSeries(MPI_Comm comm, const std::filesystem::path& caseDir, const CsvHead& head,
               std::optional<double> restart = std::nullopt);
@@ -55,10 +55,10 @@ class CsvSeries {
     // Rank 0 writes, the others do nothing. Throws Failure(ExitCode::io) on rank 0, std::invalid_argument for a row of
     // the wrong length.
     void row(std::span<const double> values);
-    // Takes out the rows whose first number, the time, is greater. Throws as row().
+    // Removes the rows whose first number, the time, is greater. Throws as row().
     void cutAfter(double time);
     const std::filesystem::path& path() const { return path_; }
-    // On rank 0, why the table of an earlier run was kept under another name; empty: it was not.
+    // On rank 0, why the table of an earlier run was kept under another name; empty if it was not.
     const std::string& note() const { return note_; }
 
   private:
@@ -72,26 +72,26 @@ class CsvSeries {
     std::string note_;
 };
 
-// Collective. Tables of this kind ("observer") that earlier runs have left anywhere under postProcessing, by the first
-// line of each, which has its own place in it: a copy that somebody has made under another name stays. restart: of
-// these tables too, also of observers that the case no longer has, only rows up to this time stay; none: they are
-// removed, with those of versions before 2026-11 in folders named by the time of the start, and folders that are then
-// empty.
+// Collective. Clears the tables of this kind ("observer") that earlier runs have left anywhere under postProcessing. A
+// table is recognised by its first line, which names its own place, so that a copy that somebody has made under another
+// name stays. restart: only rows up to this time stay, also in tables of observers that the case no longer has; none:
+// the tables are removed, together with those of versions before 2026-11, in folders named by the start time, and with
+// folders that are empty afterwards.
 void clearTables(MPI_Comm comm, const std::filesystem::path& caseDir, const std::string& kind,
                  std::optional<double> restart = std::nullopt);
 
 struct CsvTable {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    // Throws Failure(ExitCode::io) naming the columns there are.
+    // Throws Failure(ExitCode::io) naming the existing columns.
     std::vector<double> column(const std::string& name) const;
 };
 
-// Lines that open with # are left out, and a last row without its line end (being written). Throws
-// Failure(ExitCode::io) with the line when a row has another length than the header or holds no number.
+// Skips lines that start with #, and a last row without its newline, which is still being written. Throws
+// Failure(ExitCode::io) with the line when a row has another length than the header or holds what is not a number.
 CsvTable readCsv(const std::filesystem::path& path);
 
-// postProcessing/<observer>/<file>.csv. Throws Failure(ExitCode::io), naming the tables there are.
+// postProcessing/<observer>/<file>.csv. Throws Failure(ExitCode::io), naming the existing tables.
 CsvTable readCsvSeries(const std::filesystem::path& caseDir, const std::string& observer, const std::string& file);
 
 }  // namespace corpuscle::io

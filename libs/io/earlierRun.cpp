@@ -18,7 +18,7 @@ namespace corpuscle::io {
 
 namespace {
 
-constexpr double slack = 1e-8;  // of the start: the entry at that time is the earlier run's, and stays
+constexpr double slack = 1e-8;  // relative to the start: the entry at that time is the earlier run's, and stays
 
 // "<stream>_000012", as a stream names its entries.
 bool isEntryOf(const std::string& stem, const std::string& stream) {
@@ -35,7 +35,8 @@ std::vector<std::filesystem::path> entriesOf(const std::filesystem::path& folder
     return paths;
 }
 
-// All numbered entries of a stream's folder but those named: pieces of a write that was killed are in no index.
+// Removes all numbered entries of a stream's folder except `kept`, also the pieces of an interrupted write, which are
+// in no index.
 void removeAllBut(const std::set<std::string>& kept, const std::filesystem::path& folder, const std::string& stream) {
     std::error_code ignored;
     for (const std::filesystem::path& path : entriesOf(folder)) {
@@ -56,7 +57,7 @@ void clearStream(const std::filesystem::path& index, double last, bool all, Clea
     const auto isOwn = [&](const SeriesEntry& entry) {
         return entry.file.parent_path().filename() == stream && isEntryOf(entry.file.stem().string(), stream);
     };
-    if (!std::all_of(entries.begin(), entries.end(), isOwn)) return;  // somebody else's collection
+    if (!std::all_of(entries.begin(), entries.end(), isOwn)) return;  // a collection not written by Corpuscle
     std::vector<SeriesEntry> kept;
     if (!all)
         std::copy_if(entries.begin(), entries.end(), std::back_inserter(kept),

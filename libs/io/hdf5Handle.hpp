@@ -11,7 +11,7 @@
 
 namespace corpuscle::io {
 
-// HDF5's answer, or a Failure with what was being done and the innermost of HDF5's own reasons.
+// Returns HDF5's answer, or throws a Failure with what was being done and the innermost of HDF5's own reasons.
 template <class Answer>
 Answer checked(Answer answer, const std::string& what) {
     if (answer >= 0) return answer;
@@ -63,7 +63,7 @@ hid_t memoryType() {
 
 namespace checkpoint {
 inline constexpr const char* dataGroup = "data";  // datasets, rows x components
-inline constexpr const char* rowsGroup = "rows";  // of every distributed dataset: rows of each rank
+inline constexpr const char* rowsGroup = "rows";  // number of rows of each rank, for every distributed dataset
 inline constexpr const char* checksumName = "checksum";
 inline constexpr const char* ranksName = "ranks";
 inline constexpr const char* attributeGroup = "attributes";

@@ -1,6 +1,6 @@
-// What a CheckpointWriter puts into a file, kept in the memory of each rank, and read as from a CheckpointReader: a
-// state to go back to within a run. Nothing is collective, and the number of ranks is the same; what is replicated must
-// be the same on all of them.
+// Counterpart of CheckpointWriter and CheckpointReader in the memory of each rank: a state for rollback within a run.
+// No function is collective. The number of ranks is the same at writing and reading, and replicated data must be the
+// same on all ranks.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -13,7 +13,7 @@ namespace corpuscle::io {
 
 class MemoryCheckpoint {
   public:
-    // The number of components is for files.
+    // The number of components matters for files only.
     void writeDistributed(const std::string& name, std::span<const double> values, int = 1) { keep(name, values); }
     void writeDistributed(const std::string& name, std::span<const std::int64_t> values, int = 1) {
         keep(name, values);
@@ -50,7 +50,7 @@ class MemoryCheckpoint {
         using Vector = std::vector<T>;
         auto& kept = values_[name];
         if (!std::holds_alternative<Vector>(kept)) kept = Vector();
-        std::get<Vector>(kept).assign(values.begin(), values.end());  // into the memory of the last time
+        std::get<Vector>(kept).assign(values.begin(), values.end());  // reuses the memory of the last call
     }
     std::map<std::string, std::variant<std::vector<double>, std::vector<std::int64_t>>> values_;
 };

@@ -81,8 +81,8 @@ std::size_t cellCount(const PolyData& data, Cells kind) {
     return kind == Cells::triangles ? data.triangles.size() : kind == Cells::lines ? data.lines.size() : 0;
 }
 
-// 32-bit cells: a piece never has 2^31 points, and its connectivity is half as large. cornersOf(i): the points of cell
-// i.
+// 32-bit cells: a piece never has 2^31 points, and the connectivity takes half the space. cornersOf(i): the points of
+// cell i.
 template <class F>
 vtkSmartPointer<vtkCellArray> makeCells(std::size_t count, std::size_t pointCount, F&& cornersOf) {
     vtkNew<vtkTypeInt32Array> offsets, corners;

@@ -40,7 +40,7 @@ void append(Arrays& all, const Arrays& piece, const std::string& where) {
     all.where = where;
 }
 
-// One piece; fail(text) makes the exception.
+// Converts one piece; fail(text) makes the exception to throw.
 template <class F>
 PolyData toPolyData(VtpPiece& piece, const std::string& where, F&& fail) {
     PolyData data;

@@ -1,5 +1,5 @@
-// Files that are there complete or not at all: written under a hidden temporary name beside their place, then renamed.
-// Text files: core/atomicFile.hpp.
+// Files that are complete or do not exist: they are written under a hidden temporary name in the same folder, then
+// renamed. For text files see core/atomicFile.hpp.
 #pragma once
 #include <cstdint>
 #include <filesystem>

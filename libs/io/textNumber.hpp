@@ -1,4 +1,4 @@
-// Numbers in files of text, independent of the locale.
+// Numbers in text files, independent of the locale.
 #pragma once
 #include <charconv>
 #include <cstdlib>

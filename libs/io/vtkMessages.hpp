@@ -1,4 +1,4 @@
-// VTK prints what goes wrong; here it is caught, to become part of the exception's text.
+// Catches the messages that VTK would print about errors, to make them part of the exception's text.
 #pragma once
 #include <vtkLogger.h>
 #include <vtkNew.h>

@@ -19,7 +19,7 @@
 namespace corpuscle::io {
 namespace {
 
-constexpr double slack = 1e-9;  // of a time
+constexpr double slack = 1e-9;  // relative to a time
 
 constexpr const char* headerText =
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
@@ -151,7 +151,7 @@ void VtkSeries::write(double time, std::optional<double> strain, const PolyData&
     try {
         together(comm_, [&] { writeVtp(folder / name / fmt::format("{}_{}.vtp", name, rank_), piece, cells, field); });
     } catch (const Failure&) {
-        // Nothing names the pieces, and a full disk needs the room.
+        // No index names these pieces, and on a full disk their space is needed.
         std::error_code ignored;
         if (rank_ == 0) std::filesystem::remove_all(folder / name, ignored);
         throw;

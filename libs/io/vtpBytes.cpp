@@ -24,13 +24,13 @@ constexpr std::array<int, 256> base64Values() {
     return values;
 }
 
-// Bytes one after the other, from raw bytes or from base64. A header may be encoded by itself, so padding within base64
-// is nothing special.
+// Reads bytes one after the other, from raw bytes or from base64. A header may be encoded separately, so padding can
+// occur within the base64 text.
 class ByteSource {
   public:
     ByteSource(std::string_view source, bool base64) : source_(source), base64_(base64) {}
 
-    // The most that can still come.
+    // Upper bound of the bytes still to come.
     std::uint64_t left() const {
         return base64_ ? held_.size() + (source_.size() - at_) / 4 * 3 : source_.size() - at_;
     }
@@ -85,7 +85,7 @@ std::uint64_t headerNumber(const std::string& bytes, std::size_t index, const Vt
     return value;
 }
 
-// The most bytes that one compressed byte can become.
+// The most bytes that one compressed byte can expand to.
 std::uint64_t largestRatio(VtpCompressor compressor) {
     return compressor == VtpCompressor::lz4 ? 256 : compressor == VtpCompressor::zlib ? 1100 : 20000;
 }

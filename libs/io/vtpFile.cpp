@@ -43,7 +43,7 @@ VtpArray::Kind kindOf(Number type) {
                                                                 : VtpArray::Kind::integer;
 }
 
-// The numbers of a file's byte order.
+// Copies numbers from the byte order of the file to that of the machine.
 template <class T, class Target>
 void copyNumbers(const std::string& bytes, bool littleEndian, std::vector<Target>& target) {
     const std::size_t n = bytes.size() / sizeof(T);
@@ -61,7 +61,7 @@ void copyNumbers(const std::string& bytes, bool littleEndian, std::vector<Target
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// The next word of `text` behind `at`; empty at the end.
+// The next word of `text` after `at`; empty at the end.
 std::string_view nextWord(std::string_view text, std::size_t& at) {
     while (at < text.size() && isBlank(text[at])) ++at;
     const std::size_t begin = at;
@@ -114,7 +114,7 @@ class VtpReader {
         return value ? *value : otherwise;
     }
 
-    // A number of points, cells, tuples or components. One tuple takes half a byte at least, however it is compressed.
+    // A number of points, cells, tuples or components.
     std::size_t countOf(const XmlElement& e, const std::string& name, std::size_t otherwise) const {
         const std::string* value = e.attribute(name);
         if (!value) return otherwise;
@@ -137,7 +137,7 @@ class VtpReader {
         throw VtpFault(fmt::format("its type '{}' is not known", *type));
     }
 
-    // The array's bytes wherever they stand; `values`: how many numbers it must have.
+    // The bytes of an array, wherever the file holds them; `values`: how many numbers it must have.
     std::string bytesOf(const XmlElement& e, Number type, std::optional<std::size_t> values) const {
         const std::optional<std::uint64_t> expected =
             values ? std::optional<std::uint64_t>(*values * widthOf(type)) : std::nullopt;
@@ -377,7 +377,7 @@ std::string readWholeVtkFile(const std::filesystem::path& path) {
     if (file && !error) bytes.resize(size);
     if (!file || error || !file.read(bytes.data(), static_cast<std::streamsize>(size)))
         throw Failure(ExitCode::io, fmt::format("{}: the file cannot be read; check its permissions.", path.string()));
-    // The closing tag says for every file that it is whole.
+    // The closing tag shows that the file is complete.
     if (bytes.find("</VTKFile>", bytes.size() < 64 ? 0 : bytes.size() - 64) == std::string::npos)
         throw Failure(ExitCode::io, fmt::format("{}: the file is cut off or no VTK XML file ({} bytes, without its "
                                                 "closing </VTKFile>); write it again.",

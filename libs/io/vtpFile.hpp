@@ -1,12 +1,13 @@
 // VTK's XML PolyData as it stands in a file (.vtp): pieces with points, four kinds of cells, and arrays.
 //
-// Read by our own code, since VTK's reader believes what a file says of itself: a wrong index or length there ends in a
-// fault of memory. Here every length is compared with the bytes that are there before memory is taken for it, every
-// cell's corners lie within the points, and every array has as many tuples as there are points or cells.
+// Files are read by our own code, since VTK's reader trusts what a file says about itself: with it a wrong index or
+// length ends in a memory error. Here every length is compared with the bytes that are present before memory is
+// allocated, the corners of every cell must be points of the piece, and every array must have as many tuples as there
+// are points or cells.
 //
-// Read are format ascii, binary (base64) and appended (raw or base64), either byte order, headers of 32 and 64 bits,
-// uncompressed or by vtkZLibDataCompressor, vtkLZ4DataCompressor or vtkLZMADataCompressor. Of arrays with several time
-// steps the first is read.
+// Formats that are read: ascii, binary (base64) and appended (raw or base64), either byte order, headers of 32 and 64
+// bits, uncompressed or by vtkZLibDataCompressor, vtkLZ4DataCompressor or vtkLZMADataCompressor. Of arrays with several
+// time steps the first is read.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -44,7 +44,7 @@ class XmlReader {
         if (found == std::string_view::npos) fault(fmt::format("{} does not end", what));
         at_ = found + end.size();
     }
-    // Blanks, comments and processing instructions.
+    // Skips blanks, comments and processing instructions.
     void skipMisc() {
         while (true) {
             skipBlanks();
@@ -170,7 +170,7 @@ class XmlReader {
         }
     }
 
-    // Counted onwards from the last place that was asked for.
+    // Line of the current position, counted onwards from the position of the previous call.
     int lineHere() {
         line_ += static_cast<int>(
             std::count(bytes_.begin() + static_cast<long>(counted_), bytes_.begin() + static_cast<long>(at_), '\n'));

@@ -1,5 +1,6 @@
-// Family of three-point angle laws: energy E(theta, theta0) of each corner of each triangle, theta its angle, theta0
-// the angle in the stress-free mesh. They resist in-plane shear; bending is the business of bendingLaw.hpp.
+// Family of three-point angle laws: the energy E(theta, theta0) of each corner of each triangle, with its angle theta
+// and its angle theta0 in the stress-free mesh. These laws resist in-plane shear; those of bendingLaw.hpp resist
+// bending.
 //
 // A law is a struct that derives from AngleLawOf<itself> and has its coefficients, schema(), energy [J], derivative
 // [J/rad] and secondDerivative [J/rad^2]; harmonicAngle.hpp is the pattern.

@@ -14,9 +14,9 @@ std::array<Vec3, 3> places(std::span<const Vec3> x, const Index3& node) { return
 
 double total(const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); }
 
-// Of slope d2A/dx2 what resists displacements along the normal n, where the slope is a tension: slope (e_i . e_j)/(4 A)
-// n n^T with e_i the edge opposite corner i. On a flat sheet nothing else remains, as the parts within the plane cancel
-// around each node.
+// Adds the part of slope d2A/dx2 that resists displacements along the normal n, if the slope is a tension:
+// slope (e_i . e_j)/(4 A) n n^T with e_i the edge opposite corner i. On a flat sheet nothing else remains, as the parts
+// within the plane cancel around each node.
 void addTension(const std::array<Vec3, 3>& x, double area, double slope, Eigen::Matrix<double, 9, 9>& matrix) {
     if (!(slope > 0) || !(area > 0)) {
         return;
@@ -31,7 +31,7 @@ void addTension(const std::array<Vec3, 3>& x, double area, double slope, Eigen::
     }
 }
 
-// slope d2A/dx2 + curvature (dA/dx)(dA/dx)^T of one triangle.
+// Adds slope d2A/dx2 + curvature (dA/dx)(dA/dx)^T of one triangle.
 void addTriangle(std::span<const Vec3> x, const Index3& node, double slope, double curvature, Definiteness definiteness,
                  Stiffness& stiffness) {
     const auto corners = places(x, node);

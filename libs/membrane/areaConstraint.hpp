@@ -1,13 +1,14 @@
-// Area of the membrane held near a target, triangle by triangle and as a whole (spring-network convention: on any
-// network they add local + global to Ks and nothing to Gs)
+// Penalty energy that holds the area of the membrane near a target, triangle by triangle and as a whole. In the
+// convention of spring networks, the two moduli add local + global to Ks and nothing to Gs, on any network:
 //     E = local/2 sum_t (A_t - A_t0)^2/A_t0  +  global/2 (A - A_0)^2/A_0
 // symbol  | meaning                                                                                              | unit
 // local   | K_l, modulus of each triangle's area                                                                 | N/m
 // global  | K_g, modulus of the whole area                                                                       | N/m
-// A_0     | key rest: the area wanted; the stress-free mesh's own when absent                                    | m^2
-// A_t0    | the triangle's stress-free area times A_0 over the stress-free mesh's area                           | m^2
-// Open cells: a broken triangle leaves the local term; the global term is let go for good when the first triangle of
-// the membrane breaks (a torn sheet has no pressure of lipids to hold). A mesh made with a border has both.
+// A_0     | target area (key rest); default: the area of the stress-free mesh                                    | m^2
+// A_t0    | stress-free area of the triangle times A_0/(area of the stress-free mesh)                            | m^2
+// Open cells: a broken triangle no longer contributes to the local term. The global term is switched off permanently
+// when the first triangle of the membrane breaks (a torn sheet has no lipid pressure to sustain). A mesh that was made
+// with a border has both terms.
 #pragma once
 #include <memory>
 #include <optional>
@@ -24,11 +25,11 @@ struct AreaConstraint {
     std::optional<double> rest{};             // A_0, m^2
 
     double restArea(const Network& network) const;                         // A_0
-    std::vector<std::unique_ptr<Term>> makeTerms(Network& network) const;  // of what is named
+    std::vector<std::unique_ptr<Term>> makeTerms(Network& network) const;  // one for each modulus that is given
     static const Schema<AreaConstraint>& schema();
 };
 
-// With n the unit normal: dA/dx_0 = n x (x_2 - x_1)/2, and so around.
+// Area of a triangle with the unit normal n: dA/dx_0 = n x (x_2 - x_1)/2; dA/dx_1 and dA/dx_2 by cyclic permutation.
 struct TriangleArea {
     static constexpr int nodes = 3;
     template <class Scalar = double>

@@ -1,4 +1,4 @@
-// Rupture by areal strain: the sheet gives way where the area of a triangle exceeds its stress-free one too far,
+// Rupture by areal strain: the sheet breaks where the area A of a triangle exceeds its stress-free area A0 too much,
 //     A/A0 - 1 > limit.
 // symbol | meaning               | unit
 // limit  | greatest areal strain | -

@@ -1,15 +1,16 @@
-// Micropipette aspiration: a pipette along z is set on top of the membrane, and sucks in stages (pipette.hpp: glass and
-// suction).
+// Micropipette aspiration: a pipette along z stands on top of the membrane and aspirates it in stages (the energies of
+// glass and suction are in pipette.hpp).
 //
 // symbol  | key       | meaning                                             | unit
 // P       | pressures | suction of each stage                               | Pa
 // R       | radius    | inner radius of the pipette                         | m
-// w       | wall      | thickness of its wall; the end is round, w/2        | m
-// c       | softness  | how deep nodes lie in the glass at the largest P    | m
-// The mouth stands where the stress-free shape touches the glass. No friction. Cells are to hold their volume (volume,
-// area); the border of a flat sheet stays in its plane.
-// Read off: L, from the mouth to the tip of the tongue, and L/R.
-// For a flat sheet that keeps its area, W = Gs/2 (l^2 + l^-2 - 2), a tongue with a hemispherical cap, and no bending
+// w       | wall      | wall thickness; the end is round with radius w/2    | m
+// c       | softness  | depth of nodes in the glass at the largest P        | m
+// The mouth stands where the stress-free shape touches the glass. There is no friction. Cells need laws that hold their
+// volume and area (keys volume, area); the border of a flat sheet stays in its plane.
+// Measured: L, the length from the mouth to the tip of the tongue (the aspirated part), and L/R.
+// For a flat sheet that keeps its area, with W = Gs/2 (l^2 + l^-2 - 2), no bending, and a tongue with a hemispherical
+// cap,
 //     P R/Gs = 2 L/R - 1 + ln(2 L/R)           (Evans, Biophys. J. 13, 941 (1973); Chien and others, Biophys. J. 24,
 //                                              463 (1978))
 // and for a surface of constant tension T on a sphere of radius Rc, P = 2 T (1/R - 1/Rc) at L = R.

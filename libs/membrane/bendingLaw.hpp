@@ -1,5 +1,5 @@
-// Family of bending laws. A law derives from BendingLaw and makes its Term; dihedralBending.hpp is the pattern. Laws
-// may give their constant relative to the membrane (Eb = kappa/(Gs a^2)), so they are handed its scale.
+// Family of bending laws. A law derives from BendingLaw and makes its Term; dihedralBending.hpp is the pattern. A law
+// may define its constant relative to the membrane (Eb = kappa/(Gs a^2)); for this it is given the membrane's scale.
 #pragma once
 #include <memory>
 

@@ -1,6 +1,7 @@
-// Stiffness of one membrane for many products with vectors: blocks of 3 x 3 in rows, and low-rank parts. It is
-// symmetric, and products are bound by memory: only blocks on the diagonal and right of it are kept. Which blocks there
-// are is kept from one filling to the next, so that filling again needs no memory.
+// Stiffness matrix of one membrane, stored for many products with vectors: rows of 3 x 3 blocks, and low-rank parts.
+// Since the matrix is symmetric and its products are limited by memory bandwidth, only blocks on the diagonal and to
+// the right of it are stored. The sparsity pattern is kept from one filling to the next, so that filling the matrix
+// again allocates no blocks.
 #pragma once
 #include "membrane/stiffness.hpp"
 
@@ -25,7 +26,7 @@ class BlockStiffness : public Stiffness {
         double factor;
         std::vector<Vec3> gradient;
     };
-    std::vector<std::vector<Block>> rows_;  // by columns: sums do not depend on which element came first
+    std::vector<std::vector<Block>> rows_;  // sorted by column, so that sums do not depend on which element came first
     std::vector<RankOne> rankOne_;
 };
 

@@ -1,19 +1,21 @@
-// Family of the laws of a bond: energy E(l, l0) of a bond of length l with rest length l0.
+// Family of bond laws: the energy E(l, l0) of a bond of length l with rest length l0.
 //
 // A law is a struct that derives from BondLawOf<itself> and has its coefficients, schema(), constants(l0), and
 //     energy(l, l0) [J], derivative(l, l0) = dE/dl, the tension [N], secondDerivative(l, l0) [N/m].
-// The rest (loop, closed-form moduli, tensions for output) follows from these three; harmonicBond.hpp is the pattern.
+// Everything else (loop, closed-form moduli, tensions for output) follows from these three; harmonicBond.hpp is the
+// pattern.
 //
 // Closed form for a hexagonal network of bonds that are free of force at rest:
 //     Gs = sqrt(3)/4 E''(l0, l0),   Ks = sqrt(3)/2 E''(l0, l0)
-// A real mesh is not hexagonal: moduli.hpp measures what it has.
+// A real mesh is not hexagonal: moduli.hpp measures its actual moduli.
 //
-// Key `scaled` of every law: each bond's energy times its share of the surface,
-//     w = 2/sqrt(3) (A_left + A_right)/l0^2              (1 on a hexagonal network; a border has one triangle)
-// The affine energy of a strain eps is 1/2 sum_b w_b E''_b l0^2 (n.eps.n)^2; averaged over directions it gives
-// Gs = 1/(8 A) sum_b w_b E''_b l0^2, and with E'' = 4 Gs/sqrt(3) the sum is 8/3 Gs sum_b (A_left + A_right) = 8 Gs A,
-// since each triangle has three bonds: the closed-form moduli on any mesh, as means over the directions. Large
-// and small triangles are then equally stiff; the anisotropy of a neighbourhood stays.
+// With the key `scaled`, which every law has, the energy of each bond is multiplied by its share w of the surface,
+//     w = 2/sqrt(3) (A_left + A_right)/l0^2              (1 on a hexagonal network; at a border, one triangle)
+// In an affine strain eps, bonds of direction n have the energy 1/2 sum_b w_b E''_b l0^2 (n.eps.n)^2. Averaged over
+// directions it gives Gs = 1/(8 A) sum_b w_b E''_b l0^2, and with E'' = 4 Gs/sqrt(3) the sum is
+// 8/3 Gs sum_b (A_left + A_right) = 8 Gs A, since each triangle has three bonds. So any mesh has the closed-form
+// moduli, as means over the directions: large and small triangles are equally stiff, but the anisotropy of a
+// neighbourhood stays.
 #pragma once
 #include <cmath>
 #include <memory>
@@ -31,9 +33,9 @@ class BondLaw {
 
     virtual ~BondLaw() = default;
     virtual std::unique_ptr<Term> makeTerm(Network& network) const = 0;
-    virtual double tension(double l, double l0) const = 0;          // dE/dl, N; without the weight
-    virtual double stiffness(double l, double l0) const = 0;        // d2E/dl2, N/m; without the weight
-    virtual std::string constants(double l0) const = 0;             // of a bond of this rest length, for people
+    virtual double tension(double l, double l0) const = 0;    // dE/dl, N; without the weight
+    virtual double stiffness(double l, double l0) const = 0;  // d2E/dl2, N/m; without the weight
+    virtual std::string constants(double l0) const = 0;       // of a bond of this rest length, as text for the user
     double weight(const Network& network, const Bond& bond) const;  // w; 1 unless scaled
 
     SurfaceModuli hexagonalModuli(double l0) const {
@@ -42,7 +44,7 @@ class BondLaw {
     }
 
   protected:
-    // Spring: energy, derivative, secondDerivative.
+    // Spring provides energy, derivative and secondDerivative.
     template <class Spring>
     std::unique_ptr<Term> termOf(const Network& network, const Spring& spring) const {
         if (!scaled) {

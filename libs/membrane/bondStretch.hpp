@@ -1,5 +1,5 @@
-// Rupture by bond stretch (paper, section 2: bonds are removed past 1.05 of their rest length): a bond breaks for
-// good when
+// Rupture by bond stretch (paper, section 2: bonds are removed beyond 1.05 times their rest length): a bond breaks
+// permanently when
 //     l/l0 > limit.
 // symbol | meaning                  | unit
 // limit  | greatest stretch of bond | -

@@ -1,5 +1,5 @@
-// What bonds of finite extent have in common: an attraction that grows without bound towards the contour length
-// lm = l0/x0, and a repulsion of power m that balances it at the bond's own rest length l0. With s = l/l0, x = x0 s:
+// Common part of bonds of finite extent: an attraction that grows without bound towards the contour length lm = l0/x0,
+// and a repulsion of power m that balances it at the bond's own rest length l0. With s = l/l0, x = x0 s:
 //     E   = a l0 ( (U(x) - U(x0))/x0 + g(x0) (s^(1-m) - 1)/(m-1) )           zero at rest
 //     E'  = a ( g(x) - g(x0) s^-m ),     kp = a g(x0) l0^m                    exactly zero at rest
 //     E'' = a/l0 ( x0 g'(x) + m g(x0) s^-(m+1) )
@@ -8,12 +8,12 @@
 // U, g   | Chain's energy and force over a, of x = l/lm; g = U'           | -
 // x0     | l0/lm                                                          | -
 // m      | exponent of the repulsion, above 1                             | -
-// kp     | its constant                                                   | N m^m
+// kp     | constant of the repulsion                                      | N m^m
 // On a hexagonal network Gs = sqrt(3)/4 E''(l0) = sqrt(3)/4 a/l0 S,  S = x0 g'(x0) + m g(x0); Ks = 2 Gs.
 //
-// At its contour length and beyond, a bond's energy is infinite, so that a line search turns back; its force and
-// stiffness throw Failure(numerics), which ends a run with the last checkpoint on disk. Rupture by bond stretch comes
-// first where its limit is below 1/x0.
+// At its contour length and beyond, a bond has infinite energy, so that a line search rejects such a step; its force
+// and stiffness throw Failure(numerics), which ends a run with the last checkpoint on disk. Rupture by bond stretch
+// comes first where its limit is below 1/x0.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -60,7 +60,8 @@ struct ContourSpring {
     double power(double s) const { return m == 2 ? 1 / (s * s) : std::pow(s, -m); }  // s^-m
 };
 
-// The law around it: Gs, or constants that Law puts into the spring by setStrength(spring).
+// Bond law of this spring. The strength follows from Gs, or from constants that Law puts into the spring by
+// setStrength(spring).
 template <class Law, class Chain>
 class ContourBondOf : public BondLaw {
   public:

@@ -1,5 +1,5 @@
-// Internal coordinates of a membrane: scalars of a few node positions, with their gradients. A law of one scalar
-// (harmonic, ...) takes its force from them: F_n = -E'(q) dq/dx_n.
+// Internal coordinates of a membrane: scalar functions q of a few node positions, with their gradients. A law E(q) of
+// one scalar (harmonic, ...) obtains its forces from them: F_n = -E'(q) dq/dx_n.
 //
 // coordinate    | nodes                                      | value
 // BondLength    | a, b                                       | l = |x_b - x_a| [m]
@@ -7,9 +7,10 @@
 // DihedralAngle | edge a, b; c left of a->b, d right of it   | angle between the normals of (a,b,c) and (b,a,d),
 //               | (seen from outside)                        | -pi .. pi, positive where convex [rad]
 //
-// Angles come from atan2(|sin|, cos), so their gradients hold their accuracy near 0 and pi (no division by sin).
-// addTension adds of slope d2q/dx2 what is positive semi-definite in closed form: a bond under tension resists being
-// turned. Where an angle's plane is undefined (corner angle exactly 0 or pi, triangle of no area) the gradient is zero.
+// Angles are computed as atan2(|sin|, cos), so that their gradients stay accurate near 0 and pi (no division by sin).
+// With slope = E'(q), addTension adds the part of slope d2q/dx2 that is positive semi-definite in closed form: the
+// resistance of a bond under tension to being turned (none for angles). Where an angle's plane is undefined (corner
+// angle exactly 0 or pi, triangle without area) the gradient is zero.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>

@@ -4,7 +4,7 @@
 
 namespace corpuscle::membrane {
 
-// Derivative of the area by the nodes.
+// Derivative of the area with respect to the node positions.
 inline std::vector<Vec3> areaGradient(std::span<const Vec3> x, std::span<const Index3> triangles) {
     std::vector<Vec3> sum(x.size(), Vec3::Zero());
     for (const Index3& t : triangles) {
@@ -16,8 +16,8 @@ inline std::vector<Vec3> areaGradient(std::span<const Vec3> x, std::span<const I
     return sum;
 }
 
-// Sum of the principal curvatures at the nodes of a closed surface with outward normals [1/m], 2/R on a sphere: where a
-// surface moves by u along its normal, its area grows by (k1 + k2) u of it. 0 at a node without area.
+// Sum of the principal curvatures at the nodes of a closed surface with outward normals [1/m], 2/R on a sphere: the
+// area of a surface that moves by u along its normal grows by the fraction (k1 + k2) u. 0 at a node without area.
 inline std::vector<double> curvatures(std::span<const Vec3> x, std::span<const Index3> triangles) {
     const std::vector<Vec3> ofArea = areaGradient(x, triangles), ofVolume = volumeGradient(x, triangles);
     std::vector<double> sum(x.size(), 0.0);

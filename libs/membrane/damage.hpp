@@ -1,24 +1,24 @@
-// Rupture by damage that gathers with strain and time. Each whole triangle has a damage D, 0 at the start; its areal
-// strain e = A/A0 - 1 adds to it, it never heals, and the sheet gives way where D reaches 1:
+// Rupture by damage that accumulates with strain and time. Each whole triangle has a damage D, 0 at the start, to which
+// its areal strain e = A/A0 - 1 adds and which never decreases. The sheet breaks where D reaches 1:
 //
 //     dD/dt = 1/tau (<e - e0>/ec)^n,      <y> = max(y, 0)
 //
 // symbol | key      | meaning                                                      | unit
-// e0     | onset    | areal strain that the sheet bears for ever                   | -
-// ec     | scale    | strain beyond the onset under which the sheet lasts tau      | -
+// e0     | onset    | areal strain that the sheet bears indefinitely               | -
+// ec     | scale    | strain beyond the onset at which the sheet lasts for tau     | -
 // tau    | time     | time to failure at e0 + ec                                   | s
 // n      | exponent | how steeply damage grows with strain                         | -
-// At constant strain the time to failure is tau (ec/<e - e0>)^n. Two limits are the threshold of arealStrain.hpp: tau
-// -> 0, at e0; n -> infinity, at e0 + ec. Each step adds its dt times the rate at its end, so that in these limits the
-// same bonds break at the same step as by the threshold; otherwise the time to failure is late by up to a step at
-// constant strain.
+// At constant strain the time to failure is tau (ec/<e - e0>)^n. In two limits the law becomes the threshold of
+// arealStrain.hpp: at e0 for tau -> 0, and at e0 + ec for n -> infinity. Each step adds its dt times the rate at its
+// end, so that in these limits the same bonds break at the same step as with the threshold; otherwise, at constant
+// strain, failure comes late by up to one step.
 //
-// Areal strain drives, since lysis is the bilayer's: the bilayer bears shear as a liquid does, and gives way to
-// dilation, sooner the greater it is. Red cells lyse at an areal strain of 2 to 4 % (Evans, Waugh and Melnik, Biophys.
-// J. 16:585, 1976; recalled); models that open pores by areal strain meet measured haemolysis of devices better than
-// power laws of stress (Dirkes and Behr, arXiv:2601.19994; abstract read). The form is the accumulation of damage that
-// fatigue and power laws of haemolysis share; tau and n of a red cell's membrane have not been measured in a way that
-// we know: they are the case's assumption.
+// Areal strain drives the damage, since lysis is a failure of the bilayer: the bilayer responds to shear like a liquid,
+// and fails under dilation, the sooner the greater the dilation. Red cells lyse at an areal strain of 2 to 4 % (Evans,
+// Waugh and Melnik, Biophys. J. 16:585, 1976; cited from memory); models in which areal strain opens pores agree better
+// with the haemolysis measured in devices than power laws of stress do (Dirkes and Behr, arXiv:2601.19994; only the
+// abstract was read). The accumulation of damage has the form that models of fatigue and power laws of haemolysis
+// share. We know of no measurement of tau and n for the membrane of a red cell: they are assumptions of the case.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/ruptureLaw.hpp"

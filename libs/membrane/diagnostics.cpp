@@ -16,8 +16,8 @@ double stretchOf(const Bond& bond, std::span<const Vec3> x) {
     return (x[bond.node[1]] - x[bond.node[0]]).norm() / bond.rest;
 }
 
-// A triangle laid into a plane, its edge from corner 0 to 1 along the first axis, with area times tension in that
-// plane.
+// A triangle in its plane, with the edge from corner 0 to 1 along the first axis, and the tension in this plane times
+// the area.
 struct InPlane {
     Eigen::Vector2d a, b;  // edges from corner 0 to 1 and to 2, m
     double xx = 0, xy = 0, yy = 0;

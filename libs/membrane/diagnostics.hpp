@@ -1,13 +1,13 @@
-// What observers and writers read off a membrane. Nothing here is computed unless it is asked for.
+// Quantities of a membrane for observers and writers. Nothing here is computed unless it is requested.
 //
 // areaStrain         | A/A0 - 1 of each triangle
 // tension1, tension2 | principal values of the triangle's tension, tension1 >= tension2, N/m: the virial of its bonds,
-//                    | T = 1/A sum over its three bonds of (1/2) E'(l) l e e^T; the other half is the next triangle's,
-//                    | or the hole's; plus that of the triangle law, T = A0/A sum of t_ij over edge pairs
-//                    | (triangleTerm.hpp); angle, area and bending laws are not in it
-// stretch            | mean l/l0 of the living bonds of each node
-// hole               | number of the rim, from 1 in the order of Network::rims(), that each node stands on; 0: none
-// Arrays have one value per triangle or node of the mesh as made; broken triangles and nodes without bonds have 0.
+//                    | T = 1/A sum over its three bonds of (1/2) E'(l) l e e^T, where the other half belongs to the
+//                    | adjacent triangle or to the hole; plus the tension of the triangle law, T = A0/A sum of t_ij
+//                    | over edge pairs (triangleTerm.hpp); angle, area and bending laws are not included
+// stretch            | mean l/l0 of the unbroken bonds of each node
+// hole               | number of the rim on which each node lies, from 1 in the order of Network::rims(); 0: none
+// Arrays have one value per triangle or node of the original mesh; broken triangles and nodes without bonds have 0.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -22,7 +22,8 @@ struct PrincipalTensions {
     std::vector<double> tension1, tension2;  // N/m
 };
 
-// Of one triangle, broken or not: (tension1, tension2), (0, 0) when it has no area.
+// Values of one triangle, broken or not. principalTensions returns (tension1, tension2), or (0, 0) if the triangle has
+// no area.
 double arealStrain(const Network& network, int triangle, std::span<const Vec3> x);
 std::pair<double, double> principalTensions(const Network& network, const MembraneSettings& laws, int triangle,
                                             std::span<const Vec3> x);
@@ -31,10 +32,11 @@ std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x);
 PrincipalTensions principalTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);
 std::vector<double> nodeStretch(const Network& network, std::span<const Vec3> x);
 std::vector<double> vertexAreas(const Network& network,
-                                std::span<const Vec3> x);  // a third of each whole triangle, m^2
+                                std::span<const Vec3> x);  // a third of each whole triangle at the node, m^2
 std::vector<std::int64_t> holeOfNodes(const Network& network);
 double maxBondStrain(const Network& network, std::span<const Vec3> x);   // largest l/l0 - 1; 0 without bonds
-double maxArealStrain(const Network& network, std::span<const Vec3> x);  // of the whole triangles; 0 without any
-double maxTension(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);  // N/m, as these
+double maxArealStrain(const Network& network, std::span<const Vec3> x);  // of the whole triangles; 0 if there are none
+// Largest tension1 of the whole triangles, N/m; 0 if there are none.
+double maxTension(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);
 
 }  // namespace corpuscle::membrane

@@ -2,20 +2,21 @@
 //     E = kb/2 sum (theta - theta0)^2,     kb = 2/sqrt(3) kappa
 // symbol | meaning                                                | unit
 // theta  | angle between the normals of the edge's two triangles  | rad
-// theta0 | the same in the stress-free mesh                       | rad
+// theta0 | the same angle in the stress-free mesh                 | rad
 // kb     | spring constant (key k)                                | J
 // kappa  | bending modulus, E = kappa/2 Int (c1 + c2)^2 dA        | J
 // Eb     | kappa/(Gs a^2)                                         | -
 // Exactly one of Eb, kappa, k is given.
 //
-// Where kb <-> kappa comes from (Kantor and Nelson 1987, Seung and Nelson 1988; checked numerically on lattices
-// wrapped on cylinder, sphere and saddle): on a hexagonal lattice with theta0 = 0
+// Derivation of the relation between kb and kappa (Kantor and Nelson 1987, Seung and Nelson 1988; checked numerically
+// on lattices wrapped on cylinder, sphere and saddle): on a hexagonal lattice with theta0 = 0
 //     E/A = kappa/2 (c1 + c2)^2 + kappaG c1 c2,   kappa = sqrt(3)/2 kb,   kappaG = -4/3 kappa.
-// The cylinder gives this kappa; the Gaussian term comes unasked. A sphere therefore has 8 pi kappa + 4 pi kappaG = 8
-// pi kappa/3 and not 8 pi kappa. That part is a constant of the topology (no force) on a closed surface of a regular
-// lattice; on an icosphere the energy is 3.4 % above the limit, and does not converge, because its edges are unequal.
-// Codes that calibrate on the sphere have kb = sqrt(3) kappa. theta jumps by 2 pi where two triangles fold onto each
-// other (theta = +-pi): a membrane that reaches this is beyond the law.
+// The cylinder gives this kappa; the springs also produce the Gaussian term. A sphere therefore has the energy
+// 8 pi kappa + 4 pi kappaG = 8 pi kappa/3 and not 8 pi kappa. On a closed surface of a regular lattice, the Gaussian
+// part is a constant of the topology (no force); on an icosphere the energy is 3.4 % above the limit, and does not
+// converge, because its edges are unequal. Codes that calibrate on the sphere have kb = sqrt(3) kappa. theta jumps by
+// 2 pi where two triangles fold onto each other (theta = +-pi): the law does not cover a membrane that reaches this
+// state.
 #pragma once
 #include <cmath>
 #include <optional>

@@ -2,11 +2,11 @@
 //
 //     E = sum over elements of w E(q, q0),   F_n = -w E'(q, q0) dq/dx_n
 //
-// with a weight w of each element, 1 unless a law asks for others.
+// with a weight w for each element, which is 1 unless the law provides weights.
 // Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
-// Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without its geometric part, the second, it has the one
-// eigenvalue E'' |dq/dx|^2; the largest eigenvalue of the sum is at most the largest sum of these over the elements of
-// a node.
+// Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without the second, geometric part, its only non-zero
+// eigenvalue is E'' |dq/dx|^2. The largest eigenvalue of the whole stiffness is at most the largest sum of these
+// eigenvalues over the elements of a node.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -23,11 +23,11 @@ inline const std::vector<Bond>& elementsOf(const Network& network, BondLength) {
 inline const std::vector<Corner>& elementsOf(const Network& network, CornerAngle) { return network.corners(); }
 inline const std::vector<Hinge>& elementsOf(const Network& network, DihedralAngle) { return network.hinges(); }
 
-// Nothing stored, nothing done.
+// All weights are 1; takes neither memory nor time.
 struct Unweighted {
     static constexpr double of(int) { return 1; }
 };
-// One an element, by its number in the network as made.
+// One weight per element, by the element's number in the original network.
 struct Weights {
     std::vector<double> values;
     double of(int number) const { return values[number]; }

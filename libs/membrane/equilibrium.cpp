@@ -76,7 +76,8 @@ class Equilibrium {
     }
 
   private:
-    // Pi; a volume's origin moves with the first node, which does not matter to closed surfaces.
+    // Pi. The reference point of the volume is the first node and moves with it, which does not matter for closed
+    // surfaces.
     double work() const {
         double sum = membrane_.energy();
         for (std::size_t n = 0; n < loads_.force.size(); ++n) {
@@ -150,7 +151,7 @@ class Equilibrium {
         solver_.analyzePattern(matrix_);
     }
 
-    // (K + R R^T + s I)^-1 r by Woodbury; nothing where K + s I is not positive definite.
+    // (K + R R^T + s I)^-1 r by Woodbury; empty where K + s I is not positive definite.
     std::optional<Eigen::VectorXd> solve(double shift, const Eigen::VectorXd& residual) {
         solver_.setShift(shift * diagonal_);
         solver_.factorize(matrix_);
@@ -167,8 +168,8 @@ class Equilibrium {
         return step;
     }
 
-    // A step with the least shift from the given one on that makes the matrix positive definite and Pi fall; the next
-    // one starts lower.
+    // Makes a step with the smallest shift, from the given one upwards, that makes the matrix positive definite and Pi
+    // fall; the next call starts lower.
     bool descend(Definiteness definiteness, double& shift, double greatest, const Eigen::VectorXd& residual,
                  double& potential) {
         assemble(definiteness);
@@ -210,7 +211,7 @@ class Equilibrium {
     const Loads& loads_;
     EquilibriumOptions options_;
     std::size_t nodes_;
-    std::vector<int> number_;  // of each coordinate among the free ones, -1: held
+    std::vector<int> number_;  // number of each coordinate among the free ones; -1: held
     int free_ = 0;
     double scale_ = 0, diagonal_ = 0;
     Eigen::SparseMatrix<double> matrix_;

@@ -5,7 +5,7 @@
 // symbol | meaning                                                      | unit
 // lm     | contour length l0/x0 (key x0)                                | m
 // ks     | spring constant at small extension                           | N/m
-// kp     | from zero force at each bond's own l0                        | N m^m
+// kp     | constant of the repulsion: zero force at each bond's own l0  | N m^m
 // m      | exponent of the repulsion                                    | -
 // Gs     | sqrt(3)/4 E''(l0), on a hexagonal network; Ks = 2 Gs         | N/m
 // Exactly one of Gs and ks is given; either way all bonds have the same E''(l0). Beyond the contour length:

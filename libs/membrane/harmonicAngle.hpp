@@ -4,7 +4,7 @@
 // k      | angle constant                       | J (N m/rad)
 // theta0 | corner angle in the stress-free mesh | rad
 // On a hexagonal network of edge l it adds 3 sqrt(3)/2 k/l^2 to Gs and nothing to Ks (a dilation keeps all angles).
-// The paper's 1e-20 J is about 1e-7 N/m at l = 0.4 um: next to nothing beside its bonds, and no resistance to
+// The paper's 1e-20 J is about 1e-7 N/m at l = 0.4 um: negligible beside the paper's bonds. Angles do not resist
 // bending.
 #pragma once
 #include "core/settings.hpp"

@@ -10,28 +10,30 @@
 // l,theta | length of an edge, its dihedral angle (coordinates.hpp)                                    | m, rad
 // M_v     | Int H dA over the node's share of the surface, H = (c1 + c2)/2 = 1/R on a sphere           | m
 // A_v     | Voronoi area of the node (helfrichTerm.hpp); the sum is the mesh's area                    | m^2
-// alpha   | ratio: modulus of the area difference over kappa; 2/pi in Lim and others 2002 (recalled)   | -
+// alpha   | ratio: modulus of the area difference over kappa; 2/pi in Lim et al. 2002 (from memory)    | -
 // D       | distance of the layers' neutral surfaces (key thickness; only where DeltaA0 is absolute:   | m
 //         | else it cancels)                                                                           |
-// DeltaA0 | rest area difference, outer less inner layer. absolute: DeltaA0 itself.                    | m^2
+// DeltaA0 | rest area difference, outer minus inner layer. absolute: DeltaA0 itself.                   | m^2
 //         | reduced: DeltaA0/(8 pi D R0), relative to the sphere of the stress-free mesh's area        | -
 //         | A0 = 4 pi R0^2; the term is then 8 pi^2 alpha kappa (m - m0)^2, m = sum M_v/(4 pi R0)      |
-// There is no rest state of the mesh in it: without c0 a flat sheet is at rest, and every closed cell pulls towards
-// round. The Gaussian part is a constant of the topology and left out.
+// This energy contains no rest state of the mesh: without c0 a flat sheet is at rest, and every closed cell is driven
+// towards a sphere. The Gaussian part is a constant of the topology and is left out.
 //
 // Sources: Juelicher, J. Phys. II France 6, 1797 (1996) (energy from edges); Meyer, Desbrun, Schroeder, Barr, VisMath
 // 2002 (Voronoi areas); Seifert, Adv. Phys. 46, 13 (1997) and Lim, Wortis, Mukhopadhyay, PNAS 99, 16766 (2002) (ADE).
 //
-// Why Voronoi shares and not a third of each triangle: with the nodes on a sphere M_v = (Voronoi area of v)/R, up to
-// the square of the edge, on every Delaunay mesh, so that 2 M_v/A_v is right node by node; thirds leave an error that
-// does not shrink where triangles are unequal. In obtuse triangles the shares are limited, smoothly. Where c1 != c2, a
-// ring of one edge's reach on a disordered mesh also sees (c1 - c2) times its own lopsidedness; this does not shrink
-// with the edge, and its square adds to the energy. docs/theory/membrane.md has the errors: below 0.2 % on meshes of
-// membraneMesh, 2 % in the limit on a mesh with two triangles in five obtuse.
+// Reason for Voronoi areas instead of a third of each triangle: with the nodes on a sphere, M_v = (Voronoi area of v)/R
+// up to the square of the edge length, on every Delaunay mesh, so that 2 M_v/A_v is correct at each node; with thirds,
+// an error remains that does not shrink where triangles are unequal. In obtuse triangles the Voronoi shares are
+// limited, smoothly. Where c1 != c2, the ring of neighbours of a node on a disordered mesh also contributes (c1 - c2)
+// times its asymmetry; this does not shrink with the edge, and its square adds to the energy. docs/theory/membrane.md
+// has the errors: below 0.2 % on meshes of membraneMesh, 2 % in the limit on a mesh in which two triangles in five are
+// obtuse.
 //
-// Open cells: a node counts when each of its edges has two whole triangles. Nodes of a rim (border of the mesh, hole)
-// have no energy of their own: a rim bears no moment. Lipids cross from layer to layer over a rim, so the area
-// difference is refused on a mesh with a border and let go for good when the cell ruptures.
+// Open cells: a node contributes if each of its edges has two whole triangles. Nodes of a rim (border of the mesh,
+// hole) have no energy of their own, since a rim bears no moment. Lipids cross from layer to layer over a rim;
+// therefore the area difference is rejected on a mesh with a border and switched off permanently when the cell
+// ruptures.
 #pragma once
 #include <optional>
 

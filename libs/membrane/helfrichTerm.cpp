@@ -29,16 +29,16 @@ struct HelfrichTerm::State {
     std::vector<double> area;                          // A_v
     std::vector<double> curvature;                     // C_v
     std::vector<double> byM, byA;                      // dE/dM_v, dE/dA_v
-    std::vector<char> counts;                          // the node has its whole ring
+    std::vector<char> counts;                          // whether the node has its complete ring
     double energy = 0;
     bool hasDifference = false;
 };
 
 struct HelfrichTerm::Ring {
     int centre;
-    std::vector<int> hinges, triangles;  // of the node, places in the lists of living elements
+    std::vector<int> hinges, triangles;  // of the node, as indices in the lists of living elements
     std::vector<int> nodes;              // centre first
-    Eigen::VectorXd w;                   // three rows a node
+    Eigen::VectorXd w;                   // three rows for each node
 
     Eigen::Index place(int node) const { return 3 * (std::find(nodes.begin(), nodes.end(), node) - nodes.begin()); }
 };

@@ -1,11 +1,11 @@
-// The term of helfrichBending.hpp. With C_v = 2 M_v/A_v, M = sum_v M_v and the area difference as k/2 (M - M0)^2, k = 4
-// pi alpha kappa/A0:
+// The term of helfrichBending.hpp. With C_v = 2 M_v/A_v, M = sum_v M_v, and the energy of the area difference written
+// as k/2 (M - M0)^2 with k = 4 pi alpha kappa/A0:
 //     dE/dM_v = 2 kappa (C_v - c0) + k (M - M0),     dE/dA_v = kappa/2 (c0^2 - C_v^2)
 //     F = -sum_v (dE/dM_v grad M_v + dE/dA_v grad A_v)
-// The node's energy is convex in (M_v, A_v), of rank one:
+// The energy of a node is convex in (M_v, A_v), and its second derivative in these has rank one:
 //     E'' = sum_v [4 kappa/A_v w_v w_v^T + dE/dM_v grad^2 M_v + dE/dA_v grad^2 A_v] + k grad M grad M^T,
 //         w_v = grad M_v - C_v/2 grad A_v
-// An element of the stiffness is a node with its ring. The bound of maxStiffness is that of the parts of rank one,
+// An element of the stiffness is a node with its ring of neighbours. maxStiffness bounds the parts of rank one only, by
 //     |w_n| sum_m |w_m| summed over the elements of a node n, which is at least the eigenvalue since (w.u)^2 <= sum
 //         |w_m| sum |w_n||u_n|^2.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace corpuscle::membrane {
 
-// l theta of a hinge [m].
+// Edge length times dihedral angle of a hinge, l theta [m].
 struct EdgeCurvature {
     static constexpr int nodes = 4;
     template <class Scalar = double>
@@ -43,21 +43,22 @@ struct EdgeCurvature {
 // Share of a triangle of area A that belongs to its first node [m^2]. With the squared lengths L_k of the edges
 // opposite to nodes k and S their sum,
 //     share = A/2 (1 - r_0/(r_0 + r_1 + r_2)),   r_k = (p_k + sqrt(p_k^2 + eps^2))/2,   p_k = L_k (S - 2 L_k)/S^2
-// r_k = p_k would be the Voronoi share, bounded by the middles of the edges and the circumcentre (p_k: its barycentric
-// coordinates up to a factor, 1/9 in an equilateral triangle), which is negative in obtuse triangles. r_k is a smooth
-// max(p_k, 0): the circumcentre is kept inside, shares are positive, and the force has derivatives of every order,
-// which Newton's method needs. The three shares sum to A. Here: of the first Count nodes.
+// r_k = p_k would give the Voronoi share, bounded by the midpoints of the edges and the circumcentre (p_k: its
+// barycentric coordinates up to a factor, 1/9 in an equilateral triangle), which is negative in obtuse triangles. r_k
+// is a smooth max(p_k, 0): it keeps the circumcentre inside and the shares positive, and the force has derivatives of
+// every order, which Newton's method needs. The three shares sum to A. The function returns those of the first Count
+// nodes.
 template <int Count, class Scalar>
 std::array<Coordinate<3, Scalar>, Count> nodeAreas(const std::array<Vec3Of<Scalar>, 3>& x) {
     using Vec = Vec3Of<Scalar>;
     using std::sqrt;
     constexpr double eps = 0.03;
     const Coordinate<3, Scalar> area = TriangleArea::at<Scalar>(x);
-    const std::array<Vec, 3> edge{x[2] - x[1], x[0] - x[2], x[1] - x[0]};  // opposite to each node, in one sense
+    const std::array<Vec, 3> edge{x[2] - x[1], x[0] - x[2], x[1] - x[0]};  // opposite to each node, same orientation
     const std::array<Scalar, 3> L{edge[0].squaredNorm(), edge[1].squaredNorm(), edge[2].squaredNorm()};
     const Scalar S = L[0] + L[1] + L[2], over = 1.0 / S, over2 = over * over;
     std::array<Scalar, 3> r;
-    std::array<std::array<Scalar, 3>, 3> dr;  // dr[k][m]: of r_k by L_m
+    std::array<std::array<Scalar, 3>, 3> dr;  // dr[k][m] = dr_k/dL_m
     for (int k = 0; k < 3; ++k) {
         const Scalar p = L[k] * (S - 2.0 * L[k]) * over2, root = sqrt(p * p + eps * eps);
         r[k] = 0.5 * (p + root);
@@ -82,7 +83,7 @@ std::array<Coordinate<3, Scalar>, Count> nodeAreas(const std::array<Vec3Of<Scala
     return shares;
 }
 
-// Of the first node, as a coordinate.
+// Share of the first node, as an internal coordinate.
 struct NodeArea {
     static constexpr int nodes = 3;
     template <class Scalar = double>
@@ -117,7 +118,7 @@ class HelfrichTerm final : public Term {
 
     const Network& network_;
     HelfrichModuli moduli_;
-    std::vector<int> valence_;  // edges of each node in the whole mesh
+    std::vector<int> valence_;  // number of edges of each node in the original mesh
 };
 
 }  // namespace corpuscle::membrane

@@ -1,5 +1,5 @@
-// Second derivatives of internal coordinates (coordinates.hpp): their gradients, computed on numbers that carry first
-// derivatives.
+// Second derivatives of internal coordinates (coordinates.hpp) by automatic differentiation: their gradients are
+// evaluated with numbers that carry first derivatives.
 #pragma once
 #include <unsupported/Eigen/AutoDiff>
 
@@ -7,7 +7,7 @@
 
 namespace corpuscle::membrane {
 
-// Of a coordinate of N nodes by their 3 N positions; exact to rounding.
+// Hessian of a coordinate of N nodes with respect to the 3 N components of their positions; exact to rounding.
 template <class Coordinate>
 Eigen::Matrix<double, 3 * Coordinate::nodes, 3 * Coordinate::nodes> hessian(
     const std::array<Vec3, Coordinate::nodes>& x) {

@@ -1,6 +1,6 @@
-// Inflation of a closed membrane by a pressure difference p, inside over outside, that follows the surface.
-// Read off: mean radius (3 V/(4 pi))^(1/3) and its ratio to that of the stress-free shape.
-// For a sphere of radius a the laws have closed forms, stretch l: neo-Hookean p a/Gs = 2 (1 - l^-6)/l.
+// Inflation of a closed membrane by a pressure difference p, inside minus outside, which acts as a follower load.
+// Measured: mean radius (3 V/(4 pi))^(1/3) and its ratio to that of the stress-free shape.
+// For a sphere of stress-free radius a and stretch l the laws have closed forms; neo-Hookean: p a/Gs = 2 (1 - l^-6)/l.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/protocol.hpp"

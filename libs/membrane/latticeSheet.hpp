@@ -1,13 +1,14 @@
-// The continuum of the hexagonal lattice of harmonic bonds (paper, Eq 8), independent of the mesh: along each of twelve
-// directions n_i of the stress-free triangle, 15 degrees apart, lies a spring that feels the stretch l_i of the sheet
+// Continuum of the hexagonal lattice of harmonic bonds (paper, Eq 8), independent of the mesh: a spring lies along each
+// of twelve directions n_i of the stress-free triangle, 15 degrees apart, and follows the stretch l_i of the sheet,
 //     W = 1/3 Gs sum_i (l_i - 1)^2,     l_i^2 = n_i.C.n_i = 1 + n_i.e.n_i
 // symbol | meaning                                             | unit
 // Gs     | shear modulus                                       | N/m
 // k      | spring constant of the lattice, Gs = sqrt(3)/4 k    | N/m
-// Ks = 2 Gs; small strains agree with Skalak's law of C = 1/2. A lattice has three directions, W = 4/3 Gs sum of 3:
-// twelve are that lattice and those turned by 15, 30 and 45 degrees, a quarter each. W then differs from the mean over
-// all directions by at most 2e-9 of it at l1 = 1.2, l2 = 1/1.2, 1e-5 at 1.6, 1.6e-4 at 2 (six directions: 2e-4, 4e-3,
-// 1e-2; three: 9 %, 16 %, 16 %), so that it does not depend on how triangles lie.
+// Ks = 2 Gs; at small strain the law agrees with Skalak's law of C = 1/2. A lattice has three directions, W = 4/3 Gs
+// times the sum over the three; the twelve directions are this lattice and its copies turned by 15, 30 and 45 degrees,
+// a quarter each. W then differs from the mean over all directions by a fraction of at most 2e-9 at l1 = 1.2,
+// l2 = 1/1.2, 1e-5 at 1.6, 1.6e-4 at 2 (six directions: 2e-4, 4e-3, 1e-2; three: 9 %, 16 %, 16 %), so that it does not
+// depend on the orientation of the triangles.
 #pragma once
 #include <array>
 #include <cmath>
@@ -50,7 +51,7 @@ struct LatticeSheet final : TriangleLawOf<LatticeSheet> {
     static const Schema<LatticeSheet>& schema();
 
   private:
-    // (n1 n1, 2 n1 n2, n2 n2) of 0, 15, ..., 165 degrees, so that n.e.n is a scalar product.
+    // (n1 n1, 2 n1 n2, n2 n2) for n at 0, 15, ..., 165 degrees, so that n.e.n is a scalar product with the triple e.
     static constexpr double h = 0.8660254037844386, high = 0.9330127018922193, low = 0.0669872981077807;
     inline static const std::array<Vec3, 12> directions{
         Vec3(1, 0, 0),        Vec3(high, 0.5, low), Vec3(0.75, h, 0.25),  Vec3(0.5, 1, 0.5),

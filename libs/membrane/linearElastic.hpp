@@ -1,11 +1,11 @@
-// Hooke's law of the plane for small strain, in Green's strain E = e/2 so that it knows no rotation (St Venant and
-// Kirchhoff)
+// Hooke's law of the plane for small strain, in Green's strain E = e/2, which makes it invariant under rotation (St
+// Venant and Kirchhoff)
 //     W = (Ks - Gs)/2 (tr E)^2 + Gs tr(E^2),     tr E = I1/2,   tr(E^2) = (I1^2 + 2 I1 - 2 I2)/4
 // symbol | meaning       | unit
 // Gs     | shear modulus | N/m
 // Ks     | area modulus  | N/m
-// Poisson's ratio (Ks - Gs)/(Ks + Gs). For strains of some per cent: stretched it stiffens, compressed below
-// 1/sqrt(3) of its length it gives way.
+// Poisson's ratio (Ks - Gs)/(Ks + Gs). For strains of a few per cent: the sheet stiffens when stretched, and gives way
+// when compressed below 1/sqrt(3) of its length.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/invariantLaw.hpp"

@@ -54,7 +54,8 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, const std::vector<Vec
                std::make_shared<MembraneType>(stressFree.empty() ? nodes : std::move(stressFree), std::move(triangles),
                                               settings, radius)) {}
 
-// Made anew from what does not change, since some terms read rest values off the living elements.
+// The new type is built from the data that rupture leaves unchanged, since some terms read rest values off the living
+// elements.
 Network& Membrane::ownNetwork() {
     if (type_.use_count() > 1) {
         const std::vector<char> alive = network().aliveBonds();
@@ -132,7 +133,7 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
     if (aliveBonds != network().aliveBonds()) {
         ownNetwork().restore(std::move(aliveBonds));
     }
-    // Between a law that keeps damage and one that does not, the membrane goes on undamaged.
+    // Where only one of the checkpoint and the present law has damage, the membrane continues undamaged.
     if (damage.empty() || damage_.empty()) {
         std::fill(damage_.begin(), damage_.end(), 0.0);
         return;

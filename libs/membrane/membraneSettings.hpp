@@ -1,5 +1,5 @@
-// One entry of constant/membranes.yaml: which laws a membrane has. A law that is not named does not exist: no
-// storage, no pass.
+// One entry of constant/membranes.yaml: the laws of a membrane. A law that the entry does not name takes no storage and
+// no loop.
 #pragma once
 #include "core/registry.hpp"
 #include "membrane/angleLaw.hpp"
@@ -20,8 +20,8 @@ struct InteriorSettings {
 
 struct MembraneSettings {
     InteriorSettings interior;
-    std::optional<std::string> stressFree;  // file of the shape without tension; empty: the mesh's own
-    Choice<BondLaw> bonds;                  // empty: none; at least one of bonds and triangles is there
+    std::optional<std::string> stressFree;  // file of the stress-free shape; empty: that of the mesh
+    Choice<BondLaw> bonds;                  // empty: none; at least one of bonds and triangles is given
     Choice<TriangleLaw> triangles;          // empty: none
     Choice<AngleLaw> angles;                // empty: none
     Choice<BendingLaw> bending;             // empty: none
@@ -29,7 +29,8 @@ struct MembraneSettings {
     std::optional<VolumeConstraint> volume;
     std::optional<SurfaceViscosity> viscosity;
     Choice<RuptureLaw> rupture;  // empty: bonds never break
-    // Of the sheet at small strain, what all laws add: bonds as a hexagonal network of this edge [m], closed form.
+    // Moduli of the sheet at small strain, summed over all laws; bonds count as a hexagonal network of this edge length
+    // [m], in closed form.
     SurfaceModuli moduli(double edge) const;
     static const Schema<MembraneSettings>& schema();
 };

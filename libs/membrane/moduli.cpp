@@ -13,7 +13,7 @@ namespace corpuscle::membrane {
 
 namespace {
 
-// M_0, M_2, M_4 of the header, and what is the same in all directions.
+// M_0, M_2, M_4 of the header, and the moduli that are the same in all directions.
 struct Moments {
     double m0 = 0;
     std::complex<double> m2, m4;

@@ -3,7 +3,8 @@
 //     W = Gs/2 (l1^2 + l2^2 + 1/(l1 l2)^2 - 3) = Gs/2 (I1 - 1 + 1/(I2 + 1))
 // symbol | meaning       | unit
 // Gs     | shear modulus | N/m
-// Ks = 3 Gs, Poisson's ratio 1/2. Softens at large strain. Sphere inflated l times: pressure 2 (1 - l^-6)/l Gs/a.
+// Ks = 3 Gs, Poisson's ratio 1/2. The sheet softens at large strain. A sphere inflated from the radius a to l a has the
+// pressure 2 (1 - l^-6)/l Gs/a.
 #pragma once
 #include "core/settings.hpp"
 #include "membrane/invariantLaw.hpp"

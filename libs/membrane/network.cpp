@@ -95,8 +95,8 @@ void Network::useHinges() {
     compact();
 }
 
-// Made anew from the stress-free mesh and alive_ alone, so that a restored network is the same as the one that broke
-// step by step.
+// Rebuilds the lists from the stress-free mesh and alive_ alone, so that a restored network is identical to one that
+// broke step by step.
 void Network::compact() {
     bonds_.clear();
     corners_.clear();
@@ -189,8 +189,8 @@ std::vector<std::vector<int>> Network::rims() const {
             seen[bond] = 1;
             int edge = edgeOf(triangle, bond);
             loop.push_back(triangles_[triangle][edge]);
-            // Turn about the edge's far node through the hole's triangles until a whole triangle, or the mesh's
-            // border, ends them.
+            // Turn about the end node of the edge, through the triangles of the hole, up to a whole triangle or the
+            // border of the mesh.
             int hole = across(triangle, edge);
             do {
                 edge = (edgeOf(hole, bond) + 2) % 3;

@@ -7,14 +7,13 @@
 // Bonds are ordered by (a, b); corners by triangle; hinges by bond. Rest values are those of the stress-free mesh.
 // Corners and hinges are stored only after useCorners() and useHinges(), which the terms that need them call.
 //
-// Rupture: an element ends when a bond that it is made of breaks, and for good. A broken bond therefore takes with
-// it: itself; its two triangles, which become a hole; the corners that it is a side of; and the hinges of both
-// triangles (a triangle that is gone has no normal, and the rim of a hole bears no moment). The other bonds of a
-// broken triangle go on. The lists below hold the living elements only, in order, so that loops over them test
-// nothing.
+// Rupture: an element is removed permanently when a bond that is part of it breaks. A broken bond therefore removes:
+// itself; its two triangles, which become a hole; the corners of which it is a side; and the hinges of both triangles
+// (a broken triangle has no normal, and the rim of a hole bears no moment). The other bonds of a broken triangle stay.
+// The lists below hold the remaining ("living") elements only, in order, so that loops over them need no test.
 //
-// The network of one cell is held whole by each rank that the cell touches, and every function here gives the same
-// bits on all.
+// Each rank that holds a cell holds its whole network, and every function here gives bitwise the same result on all of
+// these ranks.
 #pragma once
 #include <array>
 #include <span>
@@ -36,8 +35,9 @@ using Hinge = Element<4>;
 
 class Network {
   public:
-    // Throws Failure(invalidCase) where two triangles run the same way along an edge (turned triangle, more than two at
-    // an edge), or where a triangle has no area or names no node; the message says which.
+    // Throws Failure(invalidCase) where two triangles run in the same direction along an edge (inverted triangle, more
+    // than two triangles at an edge), or where a triangle has no area or refers to a node that does not exist; the
+    // message names them.
     Network(std::vector<Vec3> stressFree, std::vector<Index3> triangles);
     void useCorners();
     void useHinges();
@@ -48,32 +48,33 @@ class Network {
     const std::vector<Hinge>& hinges() const { return hinges_; }
     const std::vector<int>& wholeTriangles() const { return wholeTriangles_; }  // numbers, ascending
 
-    // The network as made, broken elements included.
+    // The original network, including broken elements.
     std::size_t nodeCount() const { return stressFree_.size(); }
     const std::vector<Vec3>& stressFree() const { return stressFree_; }
     const std::vector<Index3>& triangles() const { return triangles_; }
     const std::vector<Bond>& allBonds() const { return allBonds_; }
     const std::vector<double>& restAreas() const { return restAreas_; }  // m^2, per triangle
-    // Edge k goes from corner k to k + 1.
+    // Bonds of a triangle; bond k is the edge from corner k to corner k + 1.
     const Index3& triangleBonds(int triangle) const { return triangleBonds_[triangle]; }
-    // Left and right of a->b; -1: the mesh's border.
+    // Triangles left and right of a->b; -1: none (border of the mesh).
     const std::array<int, 2>& bondTriangles(int bond) const { return bondTriangles_[bond]; }
     double meanBondLength() const;  // at rest, m
 
-    void breakBonds(std::span<const int> numbers);  // those broken already are passed over
+    void breakBonds(std::span<const int> numbers);  // bonds already broken are ignored
     bool isBroken(int triangle) const { return brokenTriangle_[triangle] != 0; }
     int brokenBonds() const { return static_cast<int>(allBonds_.size() - bonds_.size()); }
     int brokenTriangles() const { return static_cast<int>(triangles_.size() - wholeTriangles_.size()); }
     bool isOpen() const { return hasBorder_ || brokenTriangles() > 0; }
 
-    // Rims of the holes: closed loops of nodes along the whole triangles' edges, in those triangles' sense. Each loop
-    // begins at its lowest bond, so their order is fixed. Borders of the mesh as made are not rims.
+    // Rims of the holes: closed loops of nodes along edges of whole triangles, in the orientation of these triangles.
+    // Each loop begins at its bond of lowest number, so that the order is fixed. Borders of the original mesh are not
+    // rims.
     std::vector<std::vector<int>> rims() const;
     double holeRestArea() const;                     // stress-free area of the broken triangles, m^2
-    double holeArea(std::span<const Vec3> x) const;  // fans about the rims' mean points now, m^2
+    double holeArea(std::span<const Vec3> x) const;  // present area of fans about the rims' mean points, m^2
 
-    // State for a checkpoint, one per bond; restore() gives the same lists, and so the same bits, as the run that
-    // wrote it.
+    // State for a checkpoint, one value per bond. restore() gives the same lists as in the run that wrote it, and so
+    // bitwise the same results.
     const std::vector<char>& aliveBonds() const { return alive_; }
     void restore(std::vector<char> alive);
 

@@ -9,7 +9,7 @@ namespace corpuscle::membrane {
 
 namespace {
 
-// Barycentric coordinates of the middles of the 16 parts of a triangle whose edges are cut in four.
+// Barycentric coordinates of the centroids of the 16 parts of a triangle whose edges are divided into four.
 std::vector<Vec3> partMiddles() {
     constexpr int n = 4;
     std::vector<Vec3> middles;
@@ -77,8 +77,8 @@ class Contact final : public Term {
     }
 
   private:
-    // Depth in the glass, the way out of it (less its gradient) and second derivative of the distance to the wall's
-    // middle.
+    // Depth g in the glass, direction out of the glass (minus the gradient of g), and second derivative of the distance
+    // to the middle of the wall.
     struct Depth {
         double value = 0;
         Vec3 outwards = Vec3::Zero();
@@ -106,7 +106,7 @@ class Contact final : public Term {
         return result;
     }
 
-    // The points of the triangles that lie in the glass, with their share of the stress-free area.
+    // Calls use for each point of the triangles that lies in the glass, with its share of the stress-free area.
     template <class Use>
     void forEach(std::span<const Vec3> x, const Use& use) const {
         for (const int t : network_.wholeTriangles()) {
@@ -173,7 +173,7 @@ class Suction final : public Term {
         });
     }
 
-    double maxStiffness(std::span<const Vec3>) const override { return 0; }  // geometric alone
+    double maxStiffness(std::span<const Vec3>) const override { return 0; }  // the stiffness is geometric only
 
   private:
     struct Field {  // F and its derivatives
@@ -184,7 +184,7 @@ class Suction final : public Term {
 
     Field field(const Vec3& x) const {
         const double width = 0.5 * pipette_.wall, rho = x.head<2>().norm(), z = x[2] - pipette_.mouth;
-        const double h = std::max(0.0, rho - pipette_.radius) / width;  // below 1: forEach
+        const double h = std::max(0.0, rho - pipette_.radius) / width;  // below 1, as forEach ensures
         const double s = 1 - h * h * (3 - 2 * h), ds = -6 * h * (1 - h) / width;
         const double dds = h > 0 ? -6 * (1 - 2 * h) / (width * width) : 0;
         Field f{s * z, Vec3(0, 0, s), Mat3::Zero()};

@@ -1,10 +1,10 @@
-// Rupture by tension: the sheet gives way where the greater principal tension of a triangle exceeds a limit,
+// Rupture by tension: the sheet breaks where the greater principal tension of a triangle exceeds a limit,
 //     T1 > limit.
 // symbol | meaning                                                         | unit
 // limit  | greatest principal tension                                      | N/m
-// T1     | of bonds and sheet laws in the triangle (diagnostics.hpp)       | N/m
-// Red cells lyse at some 10 mN/m of isotropic tension (Rand, Biophys. J. 4:303, 1964), which stands for their area
-// modulus too: a model sheet whose area modulus is smaller than a cell's reaches the strain of lysis at a smaller
+// T1     | tension1 of bond and triangle laws (diagnostics.hpp)            | N/m
+// Red cells lyse at some 10 mN/m of isotropic tension (Rand, Biophys. J. 4:303, 1964). This value presupposes their
+// area modulus: a model sheet whose area modulus is smaller than a cell's reaches the strain of lysis at a smaller
 // tension.
 #pragma once
 #include "core/settings.hpp"

@@ -1,8 +1,8 @@
-// Family of the protocols of membraneRelax: what is done to a membrane without fluid, stage by stage, and what is read
-// off it.
+// Family of the protocols of membraneRelax: what is done to a membrane without fluid, stage by stage, and what is
+// measured.
 //
-// Each stage gives the loads; the equilibrium under them (equilibrium.hpp) is found from that of the stage before. The
-// cell stands as its shape is defined: axis along z, centre at the origin.
+// Each stage defines the loads; the equilibrium under them (equilibrium.hpp) is sought from that of the previous stage.
+// The cell lies as its shape is defined: axis along z, centre at the origin.
 #pragma once
 #include <string>
 #include <vector>
@@ -16,16 +16,17 @@ class Protocol {
     static constexpr const char* familyName = "relaxation protocol";
     virtual ~Protocol() = default;
     virtual int stages() const = 0;
-    // Of stage 0, 1, ...; may displace nodes beforehand. Throws Failure(invalidCase) where the membrane does not suit.
+    // Loads of a stage (0, 1, ...); may displace nodes first. Throws Failure(invalidCase) for an unsuitable membrane.
     virtual Loads apply(int stage, Membrane& membrane) const = 0;
     virtual std::string describe(int stage) const = 0;  // "60 pN"
-    // Columns beside those of every protocol (area, volume, energy), and their values in equilibrium.
+    // Columns in addition to those of every protocol (area, volume, energy); `measure` gives their values in
+    // equilibrium.
     struct Column {
         std::string name, unit, meaning;  // unit: "m2"; empty: dimensionless
         std::string header() const { return unit.empty() ? name : name + "_" + unit; }
     };
     virtual std::vector<Column> columns() const = 0;
-    // Those of every protocol: before and after its own.
+    // Columns of every protocol, before and after its own.
     static std::vector<Column> columnsBefore() { return {{"stage", "", "number of the stage, 0 and up"}}; }
     static std::vector<Column> columnsAfter() {
         return {{"area", "m2", "area of the membrane"},
@@ -39,7 +40,7 @@ class Protocol {
     virtual std::vector<double> measure(int stage, const Membrane& membrane) const = 0;
 };
 
-// Of each node, whether it lies on the border that the mesh was made with.
+// For each node, whether it lies on a border of the original mesh.
 inline std::vector<char> borderNodes(const Network& network) {
     std::vector<char> border(network.nodeCount(), 0);
     for (const Bond& bond : network.allBonds()) {

@@ -1,13 +1,14 @@
-// One triangle of constant strain against its stress-free shape.
+// Strain of one triangle, constant over the triangle, relative to its stress-free shape.
 //
-// With the edges a = x1 - x0, b = x2 - x0 and their products g = (a.a, a.b, b.b) [m^2], G those of the stress-free
-// shape, the Cauchy-Green tensor in an orthonormal frame of the stress-free triangle (first axis along its edge a) is
+// With the edges a = x1 - x0, b = x2 - x0, their products g = (a.a, a.b, b.b) [m^2], and G the products of the
+// stress-free shape, the Cauchy-Green tensor in an orthonormal frame of the stress-free triangle (first axis along its
+// edge a) is
 //     C = 1 + e,   (e11, e12, e22) = L (g - G),   L = | p^2    0     0   |
 //                                                    | p q    p r   0   |
 //                                                    | q^2    2 q r r^2 |
 //     p = 1/|A|,  q = -(A.B)/(2 A0 |A|),  r = |A|/(2 A0),       A, B the stress-free edges, A0 its area
-// e is twice Green's strain; it is zero to the bit at rest. Symmetric tensors of the plane are triples (11, 12, 22); a
-// derivative by e12 counts both of its places.
+// e is twice Green's strain; at rest it is exactly zero. Symmetric tensors of the plane are triples (11, 12, 22); a
+// derivative with respect to e12 counts both off-diagonal entries.
 #pragma once
 #include <cmath>
 

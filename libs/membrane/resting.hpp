@@ -1,10 +1,10 @@
-// The resting shape: no load at all. Nodes are shaken once beforehand, so that a symmetric start does not hide a shape
-// of less energy.
+// The resting shape, without any load. The nodes are first displaced at random, once, so that a symmetric start does
+// not hide a shape of lower energy.
 //
 // symbol | meaning                                              | unit
 // shake  | largest displacement of a node along each axis       | m
-// seed   | of the random numbers                                | -
-// Read off: extents along the three axes and the reduced volume V/(4 pi/3 R^3), R^2 = A/(4 pi): 1 for a sphere, 0.64
+// seed   | seed of the random numbers                           | -
+// Measured: extents along the three axes and the reduced volume V/(4 pi/3 R^3), R^2 = A/(4 pi): 1 for a sphere, 0.64
 // for a red cell.
 #pragma once
 #include "core/settings.hpp"

@@ -17,7 +17,7 @@ Eigen::AlignedBox3d boxOf(const std::vector<Vec3>& x) {
     return box;
 }
 
-// Mean Cauchy tension: what the held nodes take is what their membrane forces leave.
+// Mean Cauchy tension. In equilibrium, the force that holds a node is minus its membrane force.
 Mat3 meanTension(const Membrane& membrane) {
     Mat3 sum = Mat3::Zero();
     for (std::size_t n = 0; n < membrane.position.size(); ++n) {

@@ -1,13 +1,15 @@
-// Tests of a flat sheet in its plane: stretched along x, along both axes, or sheared. z is held, nothing wrinkles.
+// Tests of a flat sheet in its plane: stretched along x, along both axes, or sheared. z is held, so that the sheet
+// cannot wrinkle.
 //
 // protocol    | held                                                              | value of a stage
 // uniaxial    | x of the two ends along x; their nodes slide along y              | stretch l of the length
 // equibiaxial | x of these two ends, y of the other two; nodes slide along them   | stretch l of both lengths
 // shear       | the whole border, at x + g y                                      | amount of shear g
-// Read off: stretches of both lengths and the tension, the mean Cauchy tension of the sheet
-//     T = 1/A sum_n r_n x_n^T       (symmetric; r_n what holds node n, A the area now)                     N/m
-// of all laws together. A triangle law has W(l1, l2) per stress-free area, in pure stretch T_1 = dW/dl1/l2; uniaxial is
-// T_2 = 0. Triangles of constant strain meet it on any mesh; networks of bonds have a border that they meet it but for.
+// Measured: stretches of both lengths and the tension, that is, the mean Cauchy tension of the sheet
+//     T = 1/A sum_n r_n x_n^T       (symmetric part; r_n: force that holds node n, A: present area)        N/m
+// of all laws together. A triangle law with the energy W(l1, l2) per stress-free area has T_1 = dW/dl1/l2 in pure
+// stretch; the uniaxial test has T_2 = 0. Triangles of constant strain satisfy this on any mesh, networks of bonds
+// except near their border.
 // The sheet is a rectangle with sides along x and y (system/relax.yaml: sheet), or any flat border.
 #pragma once
 #include "core/settings.hpp"
@@ -27,7 +29,7 @@ class SheetTest : public Protocol {
 
   protected:
     double value(int stage) const { return values[static_cast<std::size_t>(stage)]; }
-    // Of the stress-free places; `width` is the stretch along y at present.
+    // Deformation of the stress-free positions; `width` is the present stretch along y.
     virtual Mat3 deformation(double value, double width) const = 0;
     struct Edges {
         bool alongX, alongY;  // the node lies on an end of the extent along x, along y

@@ -4,8 +4,9 @@
 // Gs     | shear modulus                                     | N/m
 // C      | resistance to a change of area, Ks = (1 + 2 C) Gs | -
 // Ks     | area modulus, in place of C                       | N/m
-// Poisson's ratio C/(1 + C). Stiffens at large strain. A red cell's own C is 1e4 and more; 10 to 100 hold its area
-// to a few per cent and let the time step live. Sphere inflated l times: pressure 2 (l - 1/l + C l (l^4 - 1)) Gs/a.
+// Poisson's ratio C/(1 + C). The sheet stiffens at large strain. The C of a red cell itself is 1e4 and more; values of
+// 10 to 100 hold its area to a few per cent and still allow a usable time step. A sphere inflated from the radius a to
+// l a has the pressure 2 (l - 1/l + C l (l^4 - 1)) Gs/a.
 #pragma once
 #include <optional>
 

@@ -1,8 +1,8 @@
-// Where terms put their stiffness, the second derivative of the energy [N/m]: element by element.
+// Interface to which terms add their stiffness, the second derivative of the energy [N/m], element by element.
 //
-// An element names its nodes; its matrix has three rows and columns a node, in that order. A term that couples all
-// nodes through one scalar (global area, volume) gives a multiple of the outer product of a gradient instead, which is
-// never written out.
+// An element names its nodes; its matrix has three rows and columns for each node, in that order. A term that couples
+// all nodes through one scalar (global area, volume) instead adds a multiple of the outer product of a gradient with
+// itself, which is never assembled.
 #pragma once
 #include <Eigen/Sparse>
 #include <span>
@@ -19,17 +19,17 @@ class Stiffness {
     virtual void addRankOne(double factor, std::span<const Vec3> gradient) = 0;  // factor gradient gradient^T
 };
 
-// exact: the second derivative, which compressed elements make indefinite. semiDefinite: negative eigenvalues of each
-// element's matrix put to zero, so that the sum is positive semi-definite, as conjugate gradients and Newton's descent
-// need. partwise: semi-definite too, in a tenth of the time: of each element what is so in closed form, the curvature
-// of the law and the stiffness of positive tension; the rest is left out. For the implicit step, which asks for it at
-// every step and whose accuracy does not depend on it.
+// exact: the second derivative, which is indefinite where elements are compressed. semiDefinite: negative eigenvalues
+// of each element's matrix are set to zero, so that the sum is positive semi-definite, as conjugate gradients and
+// Newton's descent need. partwise: also semi-definite, in a tenth of the time: keeps only those parts of each element
+// that are semi-definite in closed form, the curvature of the law and the stiffness of positive tension. This form is
+// for the implicit step, which needs a stiffness at every step and whose accuracy does not depend on it.
 enum class Definiteness { exact, semiDefinite, partwise };
 
-// The matrix nearest to it, in the Frobenius norm, without negative eigenvalues.
+// The matrix without negative eigenvalues that is nearest to `matrix` in the Frobenius norm.
 Eigen::MatrixXd semiDefinite(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
-// All of it for one membrane: a sparse matrix and low-rank parts.
+// The complete stiffness of one membrane: a sparse matrix and low-rank parts.
 class AssembledStiffness : public Stiffness {
   public:
     explicit AssembledStiffness(std::size_t nodes) : size_(3 * static_cast<int>(nodes)) {}

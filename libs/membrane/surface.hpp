@@ -1,5 +1,6 @@
-// Area and volume of triangles and fans. A volume is the signed sum of tetrahedra over a reference point: for a
-// closed surface with outward normals it does not depend on that point; take one near the surface to keep the digits.
+// Area and volume of triangles and fans. A volume is the signed sum of tetrahedra with their apex at a reference point.
+// For a closed surface with outward normals it does not depend on that point; take one near the surface to limit
+// rounding errors.
 #pragma once
 #include <Eigen/Geometry>
 #include <span>
@@ -17,7 +18,7 @@ inline double tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
     return (a - origin).dot((b - origin).cross(c - origin)) / 6;
 }
 
-// Of a closed surface, m^3.
+// Volume of a closed surface, m^3.
 inline double enclosedVolume(std::span<const Vec3> x, std::span<const Index3> triangles) {
     double sum = 0;
     for (const Index3& t : triangles) {
@@ -26,8 +27,8 @@ inline double enclosedVolume(std::span<const Vec3> x, std::span<const Index3> tr
     return sum;
 }
 
-// Its derivative by the nodes: a third of the area vectors of a node's triangles; each from edges, so that no digits go
-// into the distance to the origin.
+// Derivative of the volume with respect to the node positions: a third of the area vectors of a node's triangles. They
+// are computed from edges, so that the distance to the origin costs no accuracy.
 inline std::vector<Vec3> volumeGradient(std::span<const Vec3> x, std::span<const Index3> triangles) {
     std::vector<Vec3> sum(x.size(), Vec3::Zero());
     for (const Index3& t : triangles) {
@@ -55,7 +56,7 @@ inline double loopLength(std::span<const Vec3> x, std::span<const int> loop) {
     return length;
 }
 
-// Surface of triangles from the mean point of a loop to its edges.
+// Area of the triangles between the mean point of a loop and its edges.
 inline double fanArea(std::span<const Vec3> x, std::span<const int> loop) {
     const Vec3 mean = meanPoint(x, loop);
     double area = 0;
@@ -65,7 +66,7 @@ inline double fanArea(std::span<const Vec3> x, std::span<const int> loop) {
     return area;
 }
 
-// What that fan adds to the volume, when the loop runs in the sense of the surface that it closes.
+// Volume that this fan adds, if the loop has the orientation of the surface that the fan closes.
 inline double fanVolume(std::span<const Vec3> x, std::span<const int> loop, const Vec3& origin) {
     const Vec3 mean = meanPoint(x, loop);
     double volume = 0;

@@ -9,7 +9,7 @@ namespace {
 
 using Mat2 = Eigen::Matrix2d;
 
-// Of a triangle: its metric, and the rates of it that velocities make.
+// The metric of a triangle, and its rate of change by given velocities.
 class Patch {
   public:
     Patch(const Index3& node, std::span<const Vec3> x)

@@ -1,30 +1,30 @@
-// Viscosity of the membrane: a Newtonian sheet (Boussinesq 1913; L. E. Scriven, Chem. Eng. Sci. 12 (1960) 98), beside
-// the elastic laws
+// Viscosity of the membrane: a Newtonian sheet (Boussinesq 1913; L. E. Scriven, Chem. Eng. Sci. 12 (1960) 98), in
+// addition to the elastic laws
 //     tau = shear (2 D - tr D P) + dilatation tr D P
 // symbol     | meaning                                                                   | unit
-// tau        | tension by viscosity                                                      | N/m
+// tau        | viscous tension                                                           | N/m
 // D          | rate of deformation within the surface;  P the surface's unit tensor      | 1/s
 // shear      | resists change of shape; of red cells 5e-7 (Hochmuth, Hampel 1979)         | N s/m
 // dilatation | resists change of area                                                    | N s/m
-// On a triangle of constant D, with the edges a = x1 - x0, b = x2 - x0, their metric g (2 x 2) and its rate, D_kl =
-// (dg_kl/dt)/2 and
+// On a triangle of constant D, with the edges a = x1 - x0, b = x2 - x0 and their metric g (2 x 2), D_kl = (dg_kl/dt)/2
+// and
 //     T = 2 shear g^-1 D g^-1 + (dilatation - shear) (g^-1 : D) g^-1
 //     F_1 = -A (T_11 a + T_12 b),  F_2 = -A (T_12 a + T_22 b),  F_0 = -F_1 - F_2.
-// Linear in the velocities, symmetric, without force or torque on the whole, zero for any rigid motion; the power -F.v
-// = A tau:D is what is dissipated: in an orthonormal frame of the triangle
+// The forces are linear in the velocities, with a symmetric matrix; they have no resultant force or torque and vanish
+// for any rigid motion. The power -F.v = A tau:D is dissipated; in an orthonormal frame of the triangle
 //     A tau:D = A (shear ((D_xx - D_yy)^2 + (2 D_xy)^2) + dilatation (D_xx + D_yy)^2),
-// three squares of rates linear in v, whence the damping matrix C of F = -C v. A broken triangle has none. Kelvin's and
-// Voigt's membrane with a sheet law: it creeps back in the time shear/Gs.
+// three squares of rates linear in v, from which the damping matrix C of F = -C v follows. A broken triangle has no
+// viscous forces. With a sheet law this is a Kelvin-Voigt membrane, which recovers its shape in the time shear/Gs.
 //
-// Shear thinning, where it is named (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99; of red cells: Tran-Son-Tay,
-// Sutera, Rao, Biophys. J. 46 (1984) 65, whose viscosity halves from 29 to 57 1/s), with the rate of shear of the
-// triangle, q = sqrt((D_xx - D_yy)^2 + (2 D_xy)^2):
+// Optional shear thinning (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99; for red cells: Tran-Son-Tay, Sutera, Rao,
+// Biophys. J. 46 (1984) 65, whose viscosity halves from 29 to 57 1/s), with the shear rate of the triangle,
+// q = sqrt((D_xx - D_yy)^2 + (2 D_xy)^2):
 //     shear (1 + (q/rate)^2)^((index - 1)/2)          in place of shear; proportional to q^(index - 1) from about 2
 //                                                     rate on
-// rate  | from which the membrane thins                     | 1/s
-// index | of the power law beyond; 1: Newtonian             | 1
-// The rate of shear is that of velocities u of their own, so that what is left is linear in v and C stays as above: u
-// are the velocities with which the nodes came to x.
+// rate  | shear rate from which the membrane thins          | 1/s
+// index | index of the power law beyond; 1: Newtonian       | 1
+// The shear rate is computed from separate velocities u, those with which the nodes came to x, so that the forces stay
+// linear in v and C stays as above.
 #pragma once
 #include <optional>
 
@@ -41,7 +41,7 @@ struct ShearThinning {
     static const Schema<ShearThinning>& schema();
 };
 
-// Nodes and what moves them: positions x [m], and the velocities u [m/s] whose rates of shear set the viscosity.
+// State of the nodes: positions x [m], and the velocities u [m/s] whose shear rates determine the viscosity.
 struct SurfaceMotion {
     std::span<const Vec3> x, u;
 };
@@ -51,7 +51,7 @@ struct SurfaceViscosity {
     std::optional<ShearThinning> thinning = {};
 
     double shearAt(double shearRate) const { return thinning ? shear * thinning->factor(shearRate) : shear; }  // N s/m
-    // Adds to f [N] for the velocities v [m/s].
+    // Adds the forces for the velocities v [m/s] to f [N].
     void addForces(const Network& network, const SurfaceMotion& motion, std::span<const Vec3> v,
                    std::span<Vec3> f) const;
     // Adds C [N s/m], symmetric and positive semi-definite triangle by triangle.

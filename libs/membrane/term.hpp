@@ -1,8 +1,8 @@
 // One contribution to a membrane's energy, chosen once at set-up; the virtual call is made once per membrane and step.
 //
-// A term sees node positions (unwrapped, contiguous) and a Network; it knows nothing of ranks, images or the fluid.
-// It may keep a reference to the Network, whose lists shrink at rupture, and grow again where a run goes back; it keeps
-// no other state.
+// A term sees node positions (unwrapped, contiguous) and a Network; it knows nothing of ranks, images or the fluid. It
+// may keep a reference to the Network, whose lists shrink at rupture and grow again at a rollback, but has no other
+// state.
 #pragma once
 #include <span>
 
@@ -18,7 +18,7 @@ class Term {
     virtual double energy(std::span<const Vec3> x) const = 0;                      // J
     // The second derivative of the energy, element by element.
     virtual void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const = 0;
-    // Bound of the largest eigenvalue of the stiffness matrix [N/m], its geometric part left out: for limits of the
+    // Upper bound of the largest eigenvalue of the stiffness matrix without its geometric part [N/m], for limits of the
     // time step.
     virtual double maxStiffness(std::span<const Vec3> x) const = 0;
 };

@@ -1,14 +1,14 @@
-// Family of the laws of an elastic sheet on triangles of constant strain: energy W(e) per stress-free area, of
-// e = C - 1, twice Green's strain, as a triple (11, 12, 22) in a frame of the stress-free triangle (restTriangle.hpp).
+// Family of laws of an elastic sheet on triangles of constant strain: the energy W(e) per stress-free area. e = C - 1
+// is twice Green's strain, a triple (11, 12, 22) in a frame of the stress-free triangle (restTriangle.hpp).
 //
 // A law is a struct that derives from TriangleLawOf<itself> and has its coefficients, schema(), constants(), and
 //     energy(e) [J/m^2], slope(e) = dW/de [N/m], curvature(e) = d2W/de2 [N/m].
 // A law of the invariants alone derives from InvariantLawOf<itself> (invariantLaw.hpp) and gives W(I1, I2) instead.
-// The rest (loop, moduli, tensions for output) follows; neoHookean.hpp is the pattern.
+// Everything else (loop, moduli, tensions for output) follows; neoHookean.hpp is the pattern.
 //
-// Moduli at small strain eps, e = 2 eps, with M = W''(0):  Gs = M_1111 - 2 M_1122 + M_2222, mean with the other shear
-// M_1212;  Ks = M_1111 + 2 M_1122 + M_2222. Homogeneous strain is exact on any mesh: the moduli of the sheet are the
-// law's.
+// Moduli at small strain eps, e = 2 eps, with M = W''(0):  Gs = M_1111 - 2 M_1122 + M_2222, averaged with the other
+// shear modulus, M_1212;  Ks = M_1111 + 2 M_1122 + M_2222. Homogeneous strain is exact on any mesh, so that the sheet
+// has the moduli of the law.
 #pragma once
 #include <memory>
 #include <string>
@@ -26,7 +26,7 @@ class TriangleLaw {
     virtual double energy(const Vec3& e) const = 0;
     virtual Vec3 slope(const Vec3& e) const = 0;
     virtual Mat3 curvature(const Vec3& e) const = 0;
-    virtual std::string constants() const = 0;  // for people
+    virtual std::string constants() const = 0;  // as text for the user
 
     SurfaceModuli moduli() const {
         const Mat3 m = curvature(Vec3::Zero());

@@ -4,10 +4,10 @@
 //     F_1 = -A0 (2 t11 a + t12 b),   F_2 = -A0 (t12 a + 2 t22 b),   F_0 = -F_1 - F_2
 //
 // Law: double energy(e) [J/m^2], Vec3 slope(e) = dW/de [N/m], Mat3 curvature(e) = d2W/de2 [N/m].
-// Stiffness, in a and b: A0 (J^T L^T W'' L J + t11 2 aa + t12 ab + t22 2 bb), J = dg/d(a, b); the last three, the
-// geometric part, are multiples of the unit matrix. The largest eigenvalue of the sum is at most the largest sum of
-// those of the elements of a node. Rest shapes are kept for the triangles of the mesh as made; the loops go over the
-// whole ones.
+// Stiffness, in a and b: A0 (J^T L^T W'' L J + t11 2 aa + t12 ab + t22 2 bb), J = dg/d(a, b); the last three terms, the
+// geometric part, are multiples of the unit matrix. The largest eigenvalue of the whole stiffness is at most the
+// largest sum of the elements' largest eigenvalues over the elements of a node. Rest shapes are stored for all
+// triangles of the original mesh; the loops run over the whole triangles only.
 #pragma once
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -59,7 +59,7 @@ class TriangleTerm final : public Term {
             const Mat3 curvature = law_.curvature(e);
             Matrix9 matrix =
                 rest.area * byNodes.transpose() * (partwise ? positivePart(curvature) : curvature) * byNodes;
-            // t11 a.a + t12 a.b + t22 b.b by the nodes: a = x1 - x0, b = x2 - x0.
+            // t11 a.a + t12 a.b + t22 b.b as a quadratic form of the nodes: a = x1 - x0, b = x2 - x0.
             Mat3 weights;
             weights << t[0] + t[1] + t[2], -t[0] - 0.5 * t[1], -t[2] - 0.5 * t[1],  //
                 -t[0] - 0.5 * t[1], t[0], 0.5 * t[1],                               //
@@ -96,7 +96,8 @@ class TriangleTerm final : public Term {
         return rest.strain(edgeProducts(x[rest.node[1]] - x[rest.node[0]], x[rest.node[2]] - x[rest.node[0]]));
     }
 
-    // Without the negative eigenvalues: of (t11, t12; t12, t22), where t12 counts both of its places, and of W''.
+    // Positive part (without the negative eigenvalues) of the tensor t, whose t12 counts both off-diagonal entries, and
+    // of W''.
     static Vec3 positivePart(const Vec3& t) {
         Eigen::Matrix2d m{{t[0], 0.5 * t[1]}, {0.5 * t[1], t[2]}};
         m = positivePart(m);
@@ -119,7 +120,8 @@ class TriangleTerm final : public Term {
         return rest.strainByProducts() * products;
     }
 
-    // Of A0 Y^T W'' Y, Y = de/dx: that of D^(1/2) V^T (Y Y^T) V D^(1/2) with W'' = V D V^T, negative D put to zero.
+    // Largest eigenvalue of A0 Y^T W'' Y, Y = de/dx: A0 times that of D^(1/2) V^T (Y Y^T) V D^(1/2) with W'' = V D V^T,
+    // where negative D are set to zero.
     double largestEigenvalue(const RestTriangle& rest, std::span<const Vec3> x) const {
         const Matrix3x9 byNodes = strainByNodes(rest, x);
         const Eigen::SelfAdjointEigenSolver<Mat3> material(law_.curvature(strainOf(rest, x)));

@@ -6,7 +6,7 @@
 // symbol  | meaning                              | unit
 // forces  | F of each stage                      | N
 // contact | diameter of a bead's contact area    | m
-// Dead loads: no coordinate is held, the contact areas may turn.
+// The forces are dead loads: no coordinate is held, and the contact areas may turn.
 // Read off: axial diameter, between the mean places of the contact areas' outermost nodes (extent along x), and
 // transverse diameter, the extent along y, in the plane of the disc.
 // Experiment: Mills, Qie, Dao, Lim, Suresh, Mol. Cell. Biomech. 1 (2004) 169; contact about 2 um across.

@@ -1,7 +1,7 @@
-// A term of one scalar q of the whole surface held near a target, as its area or its volume
+// A term that holds one scalar q of the whole surface, such as its area or volume, near a target
 //     E = modulus/2 (q - rest)^2/rest,     F = -slope dq/dx,     slope = modulus (q/rest - 1)
 //     d2E/dx2 = modulus/rest (dq/dx)(dq/dx)^T + slope d2q/dx2
-// Open cells: let go for good when the first triangle of the membrane breaks.
+// Open cells: the term is switched off permanently when the first triangle of the membrane breaks.
 #pragma once
 #include "membrane/network.hpp"
 #include "membrane/term.hpp"

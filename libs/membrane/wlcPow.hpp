@@ -5,8 +5,8 @@
 // symbol | meaning                                                      | unit
 // lm     | contour length l0/x0 (key x0)                                | m
 // p      | persistence length (key persistenceLength)                   | m
-// kBT    | thermal energy; 4.282e-21 J is that of 310.15 K              | J
-// kp     | from zero force at each bond's own l0                        | N m^m
+// kBT    | thermal energy; 4.282e-21 J at 310.15 K                      | J
+// kp     | constant of the repulsion: zero force at each bond's own l0  | N m^m
 // m      | exponent of the repulsion                                    | -
 // Gs     | sqrt(3)/4 E''(l0), on a hexagonal network; Ks = 2 Gs         | N/m
 // Exactly one of Gs and p is given. With Gs all bonds have the same E''(l0), and p = kBT/a grows with 1/l0; with p the

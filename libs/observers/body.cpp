@@ -1,9 +1,9 @@
-// Observer `body`: motion of each rigid body and what the fluid does to it; one file per body. The force has rho0 b V
-// in it where a body force b stands for a pressure gradient.
+// Observer `body`: motion of each rigid body, and the force and torque of the fluid on it; one file per body. The force
+// includes rho0 b V if a body force b stands for a pressure gradient.
 //
 // Numbers to compare with, in Stokes flow, a the radius, mu the viscosity: drag 6 pi mu a U; torque on a sphere held in
-// the shear rate gammadot 4 pi mu a^3 gammadot; angular velocity of a free sphere gammadot/2, of a free spheroid of
-// axis ratio r = c/a whose axis is in the shear plane at phi from the direction of the gradient
+// a flow with the shear rate gammadot: 4 pi mu a^3 gammadot; angular velocity of a free sphere: gammadot/2, of a free
+// spheroid of axis ratio r = c/a whose axis is in the shear plane at phi from the direction of the gradient:
 //     dphi/dt = gammadot/(r^2 + 1) (r^2 cos^2 phi + sin^2 phi),   period 2 pi (r + 1/r)/gammadot
 //         (Jeffery, Proc. R. Soc. A 102:161, 1922)
 #include "observers/observer.hpp"

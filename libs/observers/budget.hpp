@@ -1,5 +1,5 @@
-// Budget of energy, momentum, mass and volume of a scene since somebody began to look (docs/theory/conservation.md);
-// the columns of budget.csv of the observer `conservation`, and its lines at the end of a run.
+// Budget of energy, momentum, mass and volume of a scene since this object was made (docs/theory/conservation.md); the
+// columns of budget.csv of the observer `conservation`, and its lines at the end of a run.
 #pragma once
 #include <array>
 
@@ -10,7 +10,7 @@ namespace corpuscle::observers {
 
 class BudgetTable {
   public:
-    explicit BudgetTable(const Scene& scene);  // begins now. Collective
+    explicit BudgetTable(const Scene& scene);  // the budget starts now. Collective
 
     static std::vector<io::Column> columns(const SceneParts& parts);
     std::vector<double> row(const Scene& scene) const;  // collective
@@ -20,7 +20,7 @@ class BudgetTable {
     void setState(std::span<const double> saved);
 
   private:
-    // What depends on the state alone.
+    // Quantities that depend on the present state alone.
     struct Content {
         double kinetic = 0, elastic = 0, compression = 0;  // energies [J]; compression: of walls and bodies, too
         double mass = 0, volume = 0;                       // of fluid and nodes [kg], and sum of m/rho [m^3]
@@ -34,19 +34,19 @@ class BudgetTable {
     static Content contentFrom(std::span<const double> numbers);
 
     struct Balance {
-        sph::Budget::Values work;                                // since the beginning, of all ranks
-        double elastic, compression, kinetic;                    // changes of what is stored
+        sph::Budget::Values work;                                // since the start, of all ranks
+        double elastic, compression, kinetic;                    // changes of the stored energies
         double dissipated, residual, share;                      // share: |residual| over the largest of the entries
-        double ofInertia, ofMembranes, ofCompression, ofSolver;  // what the residual is made of
-        Vec3 momentum, drift, angular;  // of momentum: change, and what is not explained by forces; angular: change
-        double driftShare;              // over what walls exchanged and the momentum of all particles
-        double mass, volume;            // changes, relative
+        double ofInertia, ofMembranes, ofCompression, ofSolver;  // parts of the residual
+        Vec3 momentum, drift, angular;  // momentum, angular: changes; drift: change of momentum that no force explains
+        double driftShare;              // drift over the momentum exchanged, or over sum m |u| if that is larger
+        double mass, volume;            // relative changes
     };
     Balance balance(const Scene& scene) const;
 
     SceneParts parts_;
     Content start_;
-    sph::Budget::Values before_;  // what the budget held at the beginning
+    sph::Budget::Values before_;  // values of the scene's budget at the start
 };
 
 }  // namespace corpuscle::observers

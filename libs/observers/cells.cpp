@@ -13,7 +13,7 @@ using coupling::Scene;
 std::vector<std::vector<double>> ofEachCell(const Scene& scene, std::size_t count,
                                             const std::function<void(const Cell&, double* out)>& work) {
     const Communicator ranks(scene.system->comm());
-    std::vector<double> all(count * scene.cells.count(), 0.0);  // the sum adds zeros to each number: exact
+    std::vector<double> all(count * scene.cells.count(), 0.0);  // the sum adds zeros to each number, which is exact
     for (const Cell& cell : scene.cells)
         if (cell.isOwnedBy(ranks.rank()))
             work(cell, all.data() + count * (static_cast<std::size_t>(cell.membrane.cell) - 1));

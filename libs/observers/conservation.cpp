@@ -1,13 +1,14 @@
-// Observer `conservation`: what a run must keep, and how well it does; conservation.csv, a table of area and volume for
-// each type of cell, and the budget of energy and momentum, budget.csv.
+// Observer `conservation`: what a run must conserve, and how well it does; conservation.csv, a table of area and volume
+// for each type of cell, and the budget of energy and momentum, budget.csv.
 //
-// budget.csv has sums and changes since the start (docs/theory/conservation.md), those that a case has. changedSide is
-// by geometry (cells.hpp); leak is changedSide and guardMoves together. A torn cell's volume is that with its holes
-// closed by fans.
+// budget.csv has sums and changes since the start (docs/theory/conservation.md), only those that apply to the case.
+// changedSide is determined by geometry (cells.hpp); leak is changedSide and guardMoves together. The volume of a torn
+// cell is that with its holes closed by fans.
 //
-// Expected: residualShare below 0.01, momentumDrift of rounding by explicit schemes and of the solver's tolerance by
-// the implicit one; density within 1 % (the sound speed is chosen so), changedSide 0 for an intact cell. A red cell's
-// membrane keeps its area within 4 % before it fails (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976: 2-4 %).
+// Expected: residualShare below 0.01; momentumDrift of the size of rounding with explicit schemes, and of the solver's
+// tolerance with the implicit one; density within 1 % (the sound speed is chosen so); changedSide 0 for an intact cell.
+// A red cell's membrane keeps its area within 4 % before it fails (2-4 %: Evans, Waugh, Melnik, Biophys. J. 16:585,
+// 1976).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,7 +89,7 @@ class ConservationObservation : public Observation {
                 sums[6]};
     }
 
-    // Adds what is of all cells; returns area and volume of each.
+    // Adds the figures of all cells together to the row; returns area and volume of each.
     static std::vector<std::vector<double>> addCells(const Scene& scene, std::vector<double>& row) {
         const Communicator ranks(scene.system->comm());
         const particles::ParticleStore& s = scene.store();

@@ -1,10 +1,11 @@
-// What became of the fluid that filled each cell at the start: the fluid particles of its side n.
+// Where the fluid is now that filled each cell at the start: the fluid particles whose side is n, for cell number n.
 //
-// inside   | of all of them, wherever they are: constant in time
-// released | of those outside the surface of a broken cell, its holes closed by fans over their rims: what went out
-//          | through holes (and came not back)
-// leaked   | those outside the surface of a whole cell: particles that squeezed between nodes, until the leakage guard
-//          | puts them back. An error of the numerics and no release; the guard puts them back before a cell opens, too
+// inside   | all of them, wherever they are: constant in time
+// released | those outside the surface of a broken cell, its holes closed by fans over their rims: fluid that has gone
+//          | out through holes and has not come back
+// leaked   | those outside the surface of a whole cell: particles that have slipped between nodes, until the leakage
+//          | guard moves them back to their side. A numerical error, not a release; the guard also moves them back
+//          | before a cell opens
 #pragma once
 #include <vector>
 
@@ -22,7 +23,7 @@ struct Interior {
     double haemolysisIndex() const { return mass > 0 ? 100 * releasedMass / mass : 0; }  // per cent
 };
 
-// Of each cell of the scene, on every rank. Collective.
+// For each cell of the scene, on every rank. Collective.
 std::vector<Interior> interiors(const coupling::Scene& scene);
 Interior total(const std::vector<Interior>& cells);
 

@@ -2,10 +2,10 @@
 //
 //     deformation: {type: shape, every: 0.02 strain}
 //
-// An Observer is what the case says: settings, const and shared, and the tables it writes, each column with unit and
-// meaning. begin() gives an Observation, the running part: rows, and whatever it has to remember between two looks. An
-// Observation never changes the scene, knows no file and no interval (observers.hpp has both), and its rows are the
-// same on every rank.
+// An Observer holds what the case gives: its settings, constant and shared, and the tables that it writes, each column
+// with unit and meaning. begin() gives an Observation, the running part: it returns rows, and keeps what must be
+// remembered from one output to the next. An Observation never changes the scene, knows neither files nor intervals
+// (observers.hpp has both), and its rows are the same on every rank.
 //
 // Adding an observer is adding one .cpp with a struct of the settings (schema() includes ObserverSettings), its
 // Observation and CORPUSCLE_REGISTER; wallStress.cpp is the pattern.
@@ -25,7 +25,7 @@ namespace corpuscle::observers {
 
 using coupling::Scene;
 
-// One file. Its first two columns, time_s and strain, are not listed.
+// One file. Its first two columns, time_s and strain, are not in `columns`.
 struct Table {
     std::string file;  // without .csv
     std::vector<io::Column> columns;
@@ -34,13 +34,14 @@ struct Table {
 // The first two columns of every table.
 const std::vector<io::Column>& timeColumns();
 
-// name_x, name_y, name_z, "x <meaning>" and so on; meaning: "component of the velocity".
+// Adds the columns name_x, name_y, name_z, with the meanings "x <meaning>" and so on; meaning: "component of the
+// velocity".
 void addVector(std::vector<io::Column>& columns, const std::string& name, const std::string& unit,
                const std::string& meaning);
 
-// Of a scene, what decides which tables and columns there are.
+// The properties of a scene that decide which tables and columns there are.
 struct SceneParts {
-    std::vector<std::string> cells, bodies, walls;  // names of the types of cells, and of the others
+    std::vector<std::string> cells, bodies, walls;  // names of types of cells, of bodies and of walls
     bool shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false, rupture = false,
          budget = false, slidingImages = false;
     static SceneParts of(const Scene& scene);
@@ -61,22 +62,22 @@ class Observation {
     virtual ~Observation() = default;
     const std::vector<Table>& tables() const { return tables_; }
 
-    // What is to be seen now. Collective.
+    // Rows for the present state. Collective.
     virtual std::vector<Row> observe(const Scene& scene, const Time& time) = 0;
 
-    // After every step, only where watchesSteps(): for what happens between two looks. Collective.
+    // Called after every step, if watchesSteps(): for what happens between two outputs. Collective.
     virtual bool watchesSteps() const { return false; }
     virtual std::vector<Row> afterStep(const Scene&, const Time&) { return {}; }
 
-    // Whether its rows may have NaN where there is nothing to be seen: a bin without particles, the section of an open
+    // Whether its rows may have NaN where there is nothing to measure: a bin without particles, the section of an open
     // cell.
     virtual bool leavesGaps() const { return false; }
 
-    // At the end of a run; empty: nothing to say. Collective.
+    // The summary at the end of a run; empty: none. Collective.
     virtual std::optional<Summary> summary(const Scene& scene, const Time& time);
 
-    // What a restart needs to go on without a seam; the same on all ranks. restore() throws Failure(ExitCode::io) for a
-    // state of another length.
+    // What a restart needs to continue like an uninterrupted run; the same on all ranks. restore() throws
+    // Failure(ExitCode::io) for a state of another length.
     virtual std::vector<double> state() const { return {}; }
     void restore(std::span<const double> state);
 
@@ -87,11 +88,11 @@ class Observation {
     std::vector<Table> tables_;
 };
 
-// What a case has to look at, known before it runs.
+// What a case has that observers can measure, known before it runs.
 struct Subject {
     bool cells = false, planeWalls = false;
     double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
-    bool bodies = false;   // rigid ones
+    bool bodies = false;   // rigid bodies
 };
 
 struct ObserverSettings {
@@ -103,11 +104,11 @@ class Observer : public ObserverSettings {
   public:
     static constexpr const char* familyName = "observer";
     virtual ~Observer() = default;
-    // Why this subject cannot be observed so, and what to do, in plain words; empty: it can.
+    // Why this observer cannot be used for the subject, and what to do, in plain words; empty: it can.
     virtual std::string whyNot(const Subject&) const { return {}; }
     // Whether the scene is to keep its budget of energy and momentum (sph/budget.hpp).
     virtual bool wantsBudget(bool /*slidingImages*/) const { return false; }
-    // What it writes of a scene with these parts.
+    // The tables that it writes for a scene with these parts.
     virtual std::vector<Table> tables(const SceneParts& parts) const = 0;
     virtual std::unique_ptr<Observation> begin(const Scene& scene) const = 0;
 

@@ -77,7 +77,7 @@ void Observers::openFiles(const Scene& scene) {
 
 namespace {
 
-// Rows are the same on all ranks, and so is this.
+// Rows are the same on all ranks, and so is the result.
 void requireFinite(const std::string& name, const Observation& observation, const Row& row, const Time& time) {
     const Table& table = observation.tables()[row.table];
     for (std::size_t k = 0; k < row.values.size(); ++k) {

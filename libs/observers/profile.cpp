@@ -1,14 +1,15 @@
 // Observer `profile`: mean velocity and density of the fluid's particles in slabs across an axis, and which part of the
-// fluid is inside cells (haematocrit); one file, profile.csv, with one row for each slab at each look. Slabs divide the
-// fluid between the walls evenly. In gnuplot, after `set datafile columnheaders`:
-//     plot 'profile.csv' using 4:3 every ::N*n::N*n+N-1 with linespoints      (look n, N slabs, u over position)
+// fluid is inside cells (haematocrit); one file, profile.csv, with one row for each slab at each output. Slabs divide
+// the fluid between the walls evenly. In gnuplot, after `set datafile columnheaders`:
+//     plot 'profile.csv' using 4:3 every ::N*n::N*n+N-1 with linespoints      (output n, N slabs, u over position)
 //
 // setting | meaning                           | default
 // axis    | across the slabs: x, y or z       | z
 // bins    | number of slabs                   | 32
 //
-// Numbers to compare with, at the middle of a slab: u = gammadot g in plane Couette flow; u = b rho/(2 mu) (g -
-// low)(high - g) in plane Poiseuille flow, less the slab's own b rho/(2 mu) width^2/12 as a mean over it.
+// Numbers to compare with, at the middle of a slab: u = gammadot g in plane Couette flow;
+// u = b rho/(2 mu) (g - low)(high - g) in plane Poiseuille flow, from which b rho/(2 mu) width^2/12 is subtracted for
+// the mean over the slab.
 #include <algorithm>
 #include <cmath>
 #include <limits>

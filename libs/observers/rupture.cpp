@@ -1,17 +1,17 @@
-// Observer `rupture`: when, where and how far the membranes break, and what they let out.
+// Observer `rupture`: when, where and how far the membranes break, and what they release.
 //
-// <cell>.csv, of each type of cell, has a row for each of its cells at each look, case.csv one for all of them.
-// holes.csv has one for each rim at each look; its number is not that of the same hole at the next look when holes come
-// or merge. events.csv has one for each bond, at the step at which it broke.
+// At each output, <cell>.csv, one for each type of cell, has a row for each of its cells, case.csv one for all cells
+// together, and holes.csv one for each rim. The number of a hole may change from one output to the next when holes
+// appear or merge. events.csv has a row for each broken bond, at the step at which it broke.
 //
-// Areas of holes are those of fans over their rims now; released fluid is interior.hpp's, tension diagnostics.hpp's,
-// damage damage.hpp's. The first break is that of the most stretched bond of its step; places on the stress-free cell
-// are in the case's box, where the cell stood at the start.
+// Areas of holes are those of fans over their present rims. Released fluid is that of interior.hpp, tension that of
+// diagnostics.hpp, damage that of damage.hpp. The first break is that of the most stretched bond of its step. Positions
+// on the stress-free cell are given in the box of the case, with the cell where it was at the start.
 //
-// The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, of cells that hold the same
-// concentration and let it out with their fluid. It counts what went out with the fluid through torn membranes; not
-// what diffuses, nor what passes through pores smaller than a triangle, and it is that of this flow at this strain, not
-// of a device.
+// The haemolysis index is that of haemolysis tests, free haemoglobin over all haemoglobin, for cells that have the same
+// concentration and release it with their fluid. It counts what has gone out with the fluid through torn membranes, but
+// neither what diffuses nor what passes through pores smaller than a triangle. It is the index of this flow at this
+// strain, not of a device.
 //
 // Numbers to compare with: bonds break at l/l0 = 1.05 in the DMP literature on red cells; a red cell's membrane bears
 // 2-4 % of area strain (Evans, Waugh, Melnik, Biophys. J. 16:585, 1976).
@@ -44,7 +44,7 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-// Of a cell and of all, whose meanings differ by whose they are.
+// Columns for one cell or for all cells; `whose` says which in their meanings.
 std::vector<io::Column> releaseColumns(const std::string& whose) {
     return {{"released", "", "particles of " + whose + " inside that are outside the surface; 0 until the first break"},
             {"leaked", "", "the same particles while the cell is whole: an error of the numerics"},
@@ -188,7 +188,8 @@ class RuptureObservation : public Observation {
         return most;
     }
 
-    // What broke at this step, by cell and bond, on every rank. One small reduction per step where nothing breaks.
+    // The bonds that broke in this step, by cell and bond, on every rank. Needs one small reduction in a step where
+    // none breaks.
     static std::vector<Row> eventsOf(const Scene& scene) {
         const Communicator ranks(scene.system->comm());
         if (!ranks.anyTrue(!scene.broken.empty())) return {};
@@ -199,7 +200,7 @@ class RuptureObservation : public Observation {
             const membrane::Network& network = cell->membrane.network();
             const coupling::CellType& type = scene.cells.types()[cell->type];
             geometry::Place place = type.places[static_cast<std::size_t>(event.cell - type.firstCell)];
-            place.scale = 1;  // the network has it already
+            place.scale = 1;  // the network is scaled already
             for (const membrane::BrokenBond& bond : event.bonds) {
                 const auto [a, b] = network.allBonds()[static_cast<std::size_t>(bond.bond)].node;
                 const Vec3 rest = place.of({0.5 * (network.stressFree()[static_cast<std::size_t>(a)] +

@@ -1,4 +1,4 @@
-// What the observer rupture knows of each cell, and how it says it.
+// The figures of the observer `rupture` for each cell, and their text.
 #pragma once
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace corpuscle::observers {
 
-// That of the most stretched bond of the step at which the first broke; nan before.
+// The first break of a cell: the most stretched bond of the step in which bonds broke for the first time; nan before.
 struct FirstBreak {
     static constexpr double none = std::numeric_limits<double>::quiet_NaN();
     static constexpr std::size_t count = 9;  // numbers
@@ -21,13 +21,13 @@ struct FirstBreak {
     static FirstBreak of(const double* numbers);
 };
 
-// What a cell's membrane has lost, and the most that is left of it bears.
+// What the membrane of a cell has lost, and the largest strains, tension and damage of the rest.
 struct Losses {
     double bonds, triangles, holes, holeArea, holeRestArea;  // areas in m^2
     double bondStrain, arealStrain, tension, damage;         // tension in N/m
 };
 
-// Of each cell, on every rank. Collective.
+// For each cell, on every rank. Collective.
 std::vector<Losses> losses(const coupling::Scene& scene);
 
 // Of one cell, for run.json and for the log.

@@ -7,7 +7,7 @@
 // quantity    | definition
 // axis        | main axis: longer semi-axis of the ellipse in which the shear plane cuts the ellipsoid that has the
 //             | second moments M = int x x^T dV of the enclosed volume; with B = (M^-1) restricted to the plane, the
-//                 semi-axes are as 1/sqrt(eigenvalue)
+//             | semi-axes are proportional to 1/sqrt(eigenvalue)
 // D12_inertia | (l1 - l2)/(l1 + l2) of those semi-axes
 // length L    | extent along the main axis of the surface's cross-section with the shear plane through the centroid
 // height H    | the same at right angles to the main axis
@@ -15,7 +15,7 @@
 // width       | extent of the whole surface along the vorticity axis
 //
 // The axis of greatest width would jump when the section is nearly round; the main axis of inertia turns fast there,
-// but goes on.
+// but continuously.
 //
 // Undeformed Kuchel-Fackerell cell (d, h, b = 8, 2.12, 1 um), axis in the shear plane: D12_extent = (d - h)/(d + h) =
 // 0.581028 (closed form), D12_inertia = 0.567483 (quadrature of the quartic's moments); the values a rigid cell keeps

@@ -1,13 +1,13 @@
 // Observer `shape`: deformation, orientation and rotation of each cell; one file for each type of cell, with a row for
-// each of its cells at each look (sectionShape.hpp has the definitions).
+// each of its cells at each output (sectionShape.hpp has the definitions).
 //
 // angleTurned grows without jumps: 2 pi is a whole tumble of a rigid cell, or a whole turn of a tank-treading membrane.
 // treadPhase is how far the membrane is ahead of the shape: the angle of one node, which at rest is nearest to the main
 // axis, about the centroid, less that of the main axis; near 0 for a rigid cell, growing by 2 pi with each turn of a
 // tank-treading one. It jumps where a nearly round section changes axis.
 //
-// Angles are followed from one look to the next and so must change by less than half a period between two; material
-// turns by no more than gammadot t, hence at most 1.5 strain between two looks.
+// Angles are followed from one output to the next, and must therefore change by less than half a period between two;
+// the material turns by no more than gammadot t, hence at most 1.5 strain between two outputs.
 //
 // Numbers to compare with: a rigid cell d, h, b = 8, 2.12, 1 um tumbles with the period 20.45/gammadot in unbounded
 // Stokes flow (boundary elements, own computation of the project, three meshes, error below 0.05); spheroid of axis
@@ -71,7 +71,7 @@ class ShapeObservation : public Observation {
             Angles& angles = angles_[c];
             double &turned = measured[c][3], &phase = measured[c][4];
             turned = followed(angles.turned, turned, 2 * std::numbers::pi);
-            phase = followed(angles.phase, phase, std::numbers::pi);  // the main axis has no direction
+            phase = followed(angles.phase, phase, std::numbers::pi);  // the main axis has no sign
             if (std::isfinite(turned)) angles.turned = turned;
             if (std::isfinite(phase)) angles.phase = phase;
         }
@@ -91,7 +91,7 @@ class ShapeObservation : public Observation {
 
   private:
     struct Angles {
-        double turned = 0, phase = 0;  // at the last look
+        double turned = 0, phase = 0;  // at the last output
     };
     ShearPlane plane_;
     std::vector<std::size_t> markers_;  // of each cell of the scene

@@ -1,4 +1,4 @@
-// What an observer has to say at the end of a run: figures for run.json, lines for the log.
+// What an observer reports at the end of a run: figures for run.json, lines for the log.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

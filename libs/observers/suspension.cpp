@@ -1,8 +1,8 @@
-// Observer `suspension`: the stress that cells add to the fluid, as a whole and cell by cell, and how each is turned
-// and stretched. Files: suspension.csv, and <cell>.csv for each type of cell with a row for each of its cells.
+// Observer `suspension`: the stress that cells add to the fluid, as a whole and cell by cell, and orientation and
+// stretch of each cell. Files: suspension.csv, and <cell>.csv for each type of cell with a row for each of its cells.
 //
 // The mean stress of a volume V of fluid and cells, less that of the fluid of viscosity mu (Batchelor, J. Fluid Mech.
-// 41:545, 1970; Pozrikidis, J. Fluid Mech. 297:123, 1995), e the mean rate of strain:
+// 41:545, 1970; Pozrikidis, J. Fluid Mech. 297:123, 1995), with e the mean rate of strain:
 //
 //     sigma + p 1 - 2 mu e = 1/V [ sum over cells S + sum over contacts -x f^T ]
 //     S = -sum_m x_m f_m^T + mu (lambda - 1) oint (u n^T + n u^T) dA
@@ -10,19 +10,20 @@
 // S      | stresslet of a cell                                                              | N m
 // f_m    | force of the membrane, elastic and viscous, on the fluid at its node m           | N
 // u, n   | velocity of the membrane, its normal outwards                                    | m/s
-// x f    | of two membranes in contact, or a membrane and a wall: where and how they push   | N m
-// V      | of fluid and cells: of the box, between its walls where it has some              | m^3
-// Pressure is not in it. Of x along the flow, g along its gradient, v along the vorticity: shear stress sigma_xg, N1 =
-// sigma_xx - sigma_gg, N2 = sigma_gg - sigma_vv. Between moving walls the shear stress is the same on every plane once
-// the fluid's inertia is gone, so that 1 + sigma_xg/(mu gammadot) is then the effective viscosity of `wallStress`,
-// found in another way. Forces are those of the present places, velocities (of the implicit step) those of its middle.
+// x f^T  | of a contact of two membranes, or of a membrane and a wall: position, force      | N m
+// V      | volume of fluid and cells: of the box, between its walls where it has some       | m^3
+// Pressure is not included. With x along the flow, g along its gradient and v along the vorticity, the shear stress is
+// sigma_xg, N1 = sigma_xx - sigma_gg and N2 = sigma_gg - sigma_vv. Between moving walls the shear stress is the same on
+// every plane once the fluid's inertia has decayed, so that 1 + sigma_xg/(mu gammadot) is then the effective viscosity
+// of `wallStress`, obtained in another way. Forces are those at the present positions; velocities of the implicit step
+// are those at its midpoint.
 //
-// Where images slide, their work is a second route (docs/theory/conservation.md): relativeViscosity_images, a mean
-// since the row before.
+// Where images slide, their work is a second route to the viscosity (docs/theory/conservation.md):
+// relativeViscosity_images, a mean since the previous row.
 //
-// The axis of a cell is the one about which its moment of inertia is the largest, in which it is thinnest: of a red
-// cell at rest its axis of symmetry. Semi-axes are those of the ellipsoid with the moments of inertia of the enclosed
-// volume. Of an open cell, volume and moments are those with each hole closed by a fan over its rim.
+// The axis of a cell is that of its largest moment of inertia, along which it is thinnest: for a red cell at rest, its
+// axis of symmetry. Semi-axes are those of the ellipsoid with the moments of inertia of the enclosed volume. For an
+// open cell, volume and moments are those with each hole closed by a fan over its rim.
 //
 // Numbers to compare with: a dilute suspension of nearly spherical drops or capsules of viscosity ratio lambda that
 // hardly deform has the stresslet of rigid spheres, sigma_xg = 5/2 phi mu gammadot, if their membrane does not stretch.
@@ -68,11 +69,11 @@ Mat3 ofVelocities(const coupling::Cell& cell) {
     return sum;
 }
 
-// Mean power of sliding images since the last look.
+// Mean power of sliding images since the last output.
 class ImagePower {
   public:
     explicit ImagePower(const Scene& scene) : work_(workOf(scene)) {}
-    double since(const Scene& scene, double time) {  // W; nan where no time has passed. Collective
+    double since(const Scene& scene, double time) {  // [W]; nan if no time has passed. Collective
         const double work = workOf(scene),
                      power = time > time_ ? (work - work_) / (time - time_) : std::numeric_limits<double>::quiet_NaN();
         work_ = work, time_ = time;
@@ -85,7 +86,7 @@ class ImagePower {
     static double workOf(const Scene& scene) {
         return Communicator(scene.system->comm()).sum(scene.budget.total[sph::Budget::ofImages]);
     }
-    double work_ = 0, time_ = std::numeric_limits<double>::quiet_NaN();  // before the first look
+    double work_ = 0, time_ = std::numeric_limits<double>::quiet_NaN();  // before the first output
 };
 
 class SuspensionObservation : public Observation {
@@ -94,7 +95,7 @@ class SuspensionObservation : public Observation {
         if (SceneParts::of(scene).slidingImages) images_.emplace(scene);
     }
 
-    bool leavesGaps() const override { return true; }  // of a cell torn to the last triangle
+    bool leavesGaps() const override { return true; }  // rows of a cell without whole triangles
     std::vector<Row> observe(const Scene& scene, const Time& time) override {
         const double mu = scene.model().viscosity;
         double volume = 0;  // of cells
@@ -149,7 +150,7 @@ class SuspensionObservation : public Observation {
         scene.system->periodicity().wrap(x, u);
         Vec3::Map(out + place) = x, Vec3::Map(out + velocity) = u;
         const Eigen::SelfAdjointEigenSolver<Mat3> principal(surface.inertia());
-        const Vec3& I = principal.eigenvalues();  // ascending: the first of them about the longest axis
+        const Vec3& I = principal.eigenvalues();  // ascending: the first is that about the longest axis
         Vec3 n = principal.eigenvectors().col(2);
         if (n[scene.flow.gradient] < 0) n = -n;
         Vec3::Map(out + axis) = n;

@@ -1,7 +1,7 @@
-// Observer `wallStress`: what the fluid does to the walls; one file, wallStress.csv.
+// Observer `wallStress`: stress of the fluid on the walls; one file, wallStress.csv.
 //
-// Of a wall of area A and normal n into the fluid, on which the fluid exerts the force F: the pressure is -F.n/A, and
-// the shear stress sigma_xg in the fluid at the wall F_x/A times the sign of n_g, g the axis along which the flow
+// For a wall of area A and normal n into the fluid, on which the fluid exerts the force F, the pressure is -F.n/A. The
+// shear stress sigma_xg in the fluid at the wall is F_x/A times the sign of n_g, with g the axis along which the flow
 // changes: F_x/A at the lower of two planes and -F_x/A at the upper one.
 //
 // Numbers to compare with: plane Couette flow has sigma_xg = mu gammadot at both walls, effectiveViscosity 1; plane
@@ -33,7 +33,7 @@ class WallStressObservation : public Observation {
     }
 
   private:
-    static Vec3 normal(const boundary::Wall& wall) { return wall.normal(Vec3::Zero()); }  // of a plane, everywhere
+    static Vec3 normal(const boundary::Wall& wall) { return wall.normal(Vec3::Zero()); }  // the same all over a plane
 };
 
 struct WallStressObserver : Observer {

@@ -1,4 +1,4 @@
-// All cells of the type have the same axis, and keep it.
+// All cells of a type have the same axis and keep it.
 #pragma once
 #include "packing/orientation.hpp"
 

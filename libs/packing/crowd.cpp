@@ -10,7 +10,8 @@
 namespace corpuscle::packing {
 namespace {
 
-constexpr double spareOfReach = 1;  // by which surfaces may approach each other before lists are made anew
+// Approach of two surfaces, over the reach of the law, after which the lists are made anew.
+constexpr double spareOfReach = 1;
 
 double radiusOf(const geometry::TriangleMesh& mesh) {
     double most = 0;
@@ -18,7 +19,7 @@ double radiusOf(const geometry::TriangleMesh& mesh) {
     return most;
 }
 
-// Two unit vectors across the axis.
+// Two unit vectors normal to the axis and to each other.
 Eigen::Matrix<double, 3, 2> across(const Vec3& axis) {
     Eigen::Matrix<double, 3, 2> both;
     both.col(0) = axis.unitOrthogonal();
@@ -124,7 +125,7 @@ double Crowd::leastGap() const {
     return least;
 }
 
-// For each cell the matrix from the turn of its axis to that of its nodes, over its radius.
+// For each cell, the matrix that maps the rotation of its axis to that of its nodes, divided by its radius [1/m].
 std::vector<Mat3> Crowd::turnsOf(const std::vector<Pose>& poses) const {
     constexpr double leastDivisor = 1e-3;  // near -z, where the shortest rotation is undetermined
     std::vector<Mat3> turns;
@@ -137,7 +138,7 @@ std::vector<Mat3> Crowd::turnsOf(const std::vector<Pose>& poses) const {
     return turns;
 }
 
-// Derivative by the cell's unknowns of direction . x, x one of its nodes.
+// Derivative of direction . x by the unknowns of the cell, where x is one of its nodes.
 Crowd::Row Crowd::rowOf(const Pose& pose, const Mat3& turns, const Vec3& x, const Vec3& direction) const {
     Row row;
     row.head<3>() = direction;
@@ -169,7 +170,7 @@ Eigen::SparseMatrix<double> Crowd::stiffness(const std::vector<Pose>& poses) con
     };
     const std::vector<Mat3> turns = turnsOf(poses);
     for (const contact::Spring& spring : contacts_.springs()) {
-        std::array<int, 2> cell{-1, -1};  // at most two have a part in it
+        std::array<int, 2> cell{-1, -1};  // a spring connects two cells at most
         std::array<Row, 2> rows{Row::Zero(), Row::Zero()};
         for (std::size_t k = 0; k < 4; ++k) {
             const auto n = static_cast<std::size_t>(spring.nodes[k]);
@@ -204,7 +205,7 @@ Eigen::SparseMatrix<double> Crowd::stiffness(const std::vector<Pose>& poses) con
 
 double Crowd::freeTravel(const std::vector<Vec3>& u, double share) {
     double free = contacts_.freeTravel(x_, u, share);
-    if (free < 1) {  // perhaps by the lists, which were made for shorter ways
+    if (free < 1) {  // perhaps limited only by the lists, which were made for a shorter motion
         list(x_, u);
         free = contacts_.freeTravel(x_, u, share);
     }

@@ -1,4 +1,4 @@
-// Family of the ways in which cells that are packed are turned.
+// Family of orientations of packed cells.
 #pragma once
 #include "core/random.hpp"
 #include "core/registry.hpp"
@@ -9,8 +9,8 @@ class Orientation {
   public:
     static constexpr const char* familyName = "orientation";
     virtual ~Orientation() = default;
-    virtual Vec3 draw(Random& random) const = 0;  // direction of the symmetry axis of one cell at first
-    virtual bool mayTurn() const = 0;             // whether others may turn it while cells make room for each other
+    virtual Vec3 draw(Random& random) const = 0;  // initial direction of the symmetry axis of one cell
+    virtual bool mayTurn() const = 0;             // whether contact with other cells may rotate the axis
 };
 
 }  // namespace corpuscle::packing

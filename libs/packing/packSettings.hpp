@@ -1,4 +1,4 @@
-// system/pack.yaml: which cells of a case are put in place by cellPack, and how closely.
+// system/pack.yaml: which cells of a case cellPack places, and how closely.
 //
 //     cells:
 //       - {name: redCell, haematocrit: 0.3}
@@ -15,7 +15,7 @@ namespace corpuscle::packing {
 struct PackedTypeSettings {
     std::string name;
     std::optional<long> number;
-    std::optional<double> haematocrit;  // volume of these cells over that between the walls
+    std::optional<double> haematocrit;  // volume of these cells over the volume between the walls
     Choice<Orientation> orientation;
     static const Schema<PackedTypeSettings>& schema();
 };

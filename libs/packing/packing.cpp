@@ -20,21 +20,21 @@ namespace corpuscle::packing {
 namespace {
 
 constexpr double reachOfRadius = 0.1;           // reach of the barrier, over radiusOf the smallest cell
-constexpr double firstFraction = 0.25;          // of the fluid that balls around the cells take at first
-constexpr double leastScale = 0.02;             // at which cells are scattered
-constexpr int triesOfOne = 2000;                // to put a ball somewhere
-constexpr double mostGrowth = 0.05;             // of the scale in one stage
-constexpr double keptOfGaps = 0.3, kept = 0.1;  // by growth, by a step of Newton's method
+constexpr double firstFraction = 0.25;          // of the fluid's volume that balls around the cells take at first
+constexpr double leastScale = 0.02;             // least scale at which cells are scattered
+constexpr int triesOfOne = 2000;                // attempts to place one ball
+constexpr double mostGrowth = 0.05;             // largest relative growth of the scale in one stage
+constexpr double keptOfGaps = 0.3, kept = 0.1;  // fraction of each gap left by growth, by a step of Newton's method
 constexpr int iterationsOfStage = 8, iterationsAtEnd = 50;
-constexpr double gapsOfStage = 0.7, gapsAtEnd = 0.9;  // over the reach, from which on nothing presses
-constexpr double weakest = 1e-4;                      // stiffness of cells that nothing holds, over the largest
-constexpr double restOfReach = 0.01;                  // largest motion of a node in a step at which cells are at rest
-constexpr double longestStep = 1;                     // of a node, over the reach
-constexpr int patience = 12;                          // stages in which the scale has to grow by
-constexpr double leastProgress = 0.003;               // this much of itself
-constexpr double edgeOfRadius = 0.35;                 // of rough surfaces, over radiusOf the cell
+constexpr double gapsOfStage = 0.7, gapsAtEnd = 0.9;  // least gap, over the reach, at which Newton's method ends
+constexpr double weakest = 1e-4;         // stiffness added to each unknown, over the largest: holds free cells
+constexpr double restOfReach = 0.01;     // largest motion of a node in a step, over the reach, for rest
+constexpr double longestStep = 1;        // largest motion of a node in a step, over the reach
+constexpr int patience = 12;             // number of stages in which the scale must grow, or cells are stuck;
+constexpr double leastProgress = 0.003;  // by this fraction of itself
+constexpr double edgeOfRadius = 0.35;    // edge of rough surfaces, over radiusOf the cell
 
-// Of the ball of equal volume.
+// Radius of the ball of equal volume.
 double radiusOf(const geometry::TriangleMesh& mesh) { return std::cbrt(0.75 / std::numbers::pi * mesh.volume()); }
 
 double smallestRadius(const std::vector<Packing::Type>& types) {
@@ -43,7 +43,7 @@ double smallestRadius(const std::vector<Packing::Type>& types) {
     return least;
 }
 
-// The most by which surfaces of two cells are nearer to each other than the rough ones.
+// The most by which the surfaces of two cells can be nearer to each other than their rough surfaces.
 double nearerOf(const std::vector<Packing::Type>& types) {
     double most = 0;
     for (const Packing::Type& type : types) most = std::max(most, type.surface.outside);
@@ -54,7 +54,7 @@ std::shared_ptr<const contact::ContactLaw> lawOf(const std::vector<Packing::Type
     const auto law = std::make_shared<contact::Barrier>();
     law->thickness = gap + nearerOf(types);
     law->length = reachOfRadius * smallestRadius(types);
-    law->strength = 1e-6;  // any value: only the places of least energy count
+    law->strength = 1e-6;  // any value: only the positions of least energy matter
     return law;
 }
 
@@ -65,7 +65,8 @@ std::vector<Kind> kindsOf(const std::vector<Packing::Type>& types) {
     return kinds;
 }
 
-// The most by which nodes lie outside of a surface, whose own nodes `push` is raised at to as much as lies above them.
+// Largest distance by which `nodes` lie outside of the mesh. push: for each node of the mesh, raised to the largest
+// distance of the nodes outside of its triangles.
 double outsideOf(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& nodes, double reach,
                  std::vector<double>& push) {
     const geometry::TriangleTree tree(mesh, reach);
@@ -94,9 +95,9 @@ std::vector<Vec3> normalsOf(const geometry::TriangleMesh& mesh) {
     return normals;
 }
 
-// Whether half a turn about x leaves the shape what it is.
+// Whether half a turn about x maps the shape onto itself.
 bool isSameUpsideDown(const geometry::Shape& shape, const std::vector<Vec3>& nodes) {
-    constexpr double little = 1e-3;  // of the radius: nodes of a mesh that encloses a volume lie off the surface
+    constexpr double little = 1e-3;  // of the radius: mesh nodes lie off the surface to enclose its volume
     return std::all_of(nodes.begin(), nodes.end(), [&](const Vec3& x) {
         const auto off = [&](const Vec3& at) { return shape.implicit(at) / shape.gradient(at).norm(); };
         return std::abs(off(x) - off(Vec3(x[0], -x[1], -x[2]))) < little * shape.radius();
@@ -105,20 +106,20 @@ bool isSameUpsideDown(const geometry::Shape& shape, const std::vector<Vec3>& nod
 
 RoughSurface around(const geometry::Shape& shape, const geometry::TriangleMesh& mesh) {
     constexpr int rounds = 30;
-    constexpr double enough = 0.01;  // of an edge that fine nodes lie outside
+    constexpr double enough = 0.01;  // tolerated distance of fine nodes outside, over the edge
     const double edge = edgeOfRadius * radiusOf(mesh);
     if (geometry::meshQuality(mesh, nullptr).edgeMean > 0.8 * edge) return {mesh, 0};
     RoughSurface rough;
     try {
         rough.mesh = geometry::meshSurface(shape, edge);
-    } catch (const Failure&) {  // a shape with finer details
+    } catch (const Failure&) {  // the shape has details finer than this edge
         return {mesh, 0};
     }
     const std::vector<Vec3> normals = normalsOf(rough.mesh);
     for (int round = 0; round < rounds; ++round) {
         std::vector<double> push(rough.mesh.nodes.size(), 0);
         rough.outside = outsideOf(rough.mesh, mesh.nodes, edge, push);
-        if (!std::isfinite(rough.outside)) return {mesh, 0};  // too far from it to stand for it
+        if (!std::isfinite(rough.outside)) return {mesh, 0};  // the rough surface is too far from the mesh
         if (rough.outside < enough * edge) return rough;
         for (std::size_t n = 0; n < push.size(); ++n) rough.mesh.nodes[n] += push[n] * normals[n];
     }
@@ -251,11 +252,11 @@ void Packing::relax(int iterations, double gapsOfReach) {
     for (int n = 0; n < iterations && crowd_.leastGap() < gapsOfReach * crowd_.law().reach(); ++n)
         if (!step()) break;
     progress_.contacts = crowd_.contacts();
-    progress_.leastGap = crowd_.leastGap() + gap_;  // of the cells' own surfaces, at least
+    progress_.leastGap = crowd_.leastGap() + gap_;  // a lower bound of the gap between the cells' own surfaces
 }
 
-// Cells that would move further than a step allows: those that little holds, and those whose axis is near -z, where the
-// shortest rotation from z turns fast.
+// Shortens the steps of cells that would move further than longestStep allows: cells that hardly anything holds, and
+// cells whose axis is near -z, where the shortest rotation from z changes fast.
 void Packing::shorten(Eigen::VectorXd& q) const {
     const double longest = longestStep * crowd_.law().reach();
     const std::vector<Vec3> y = crowd_.nodes(crowd_.moved(poses_, q), progress_.scale);
@@ -269,7 +270,7 @@ void Packing::shorten(Eigen::VectorXd& q) const {
     }
 }
 
-// One step of Newton's method; false: cells are at rest.
+// Makes one step of Newton's method; false: cells are at rest, or no step lowers the energy.
 bool Packing::step() {
     const contact::ContactLaw& law = crowd_.law();
     const Eigen::VectorXd g = crowd_.gradient(poses_);

@@ -1,5 +1,5 @@
-// Cells begin with axes uniform on the sphere, and turn as their neighbours push them. Flat cells that are packed
-// closely lie more in parallel than they began; cellPack reports the order parameter that is left.
+// Axes start in directions uniform on the sphere, and turn as neighbouring cells push. Flat cells that are packed
+// closely end up more parallel than they started; cellPack reports the order parameter of the result.
 #pragma once
 #include "packing/orientation.hpp"
 

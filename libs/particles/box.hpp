@@ -16,7 +16,7 @@ struct Box {
     double volume() const { return size().prod(); }
 
     Periodicity periodicity() const { return {low, high, periodic}; }
-    // A coordinate inside the box, as if the box were periodic along this axis.
+    // The coordinate p along axis k, moved into the box by whole periods, as if the box were periodic along this axis.
     double wrap(double p, int k) const {
         const double length = high[k] - low[k];
         if (p >= low[k] && p < high[k]) return p;

@@ -28,7 +28,8 @@ std::vector<int> Columns::sort(const double* x, const double* y, const double* z
     std::vector<int> next(start_.begin(), start_.end() - 1);
     for (int i = 0; i < n; ++i) order[next[key[i]]++] = i;
 
-    // Nearly sorted after the first time: insertion sort, with std::stable_sort where a column is far from order.
+    // After the first call particles are nearly sorted already: insertion sort, and std::stable_sort for a column that
+    // is far from sorted.
     for (int c = 0; c < columnCount(); ++c) {
         int* first = order.data() + begin(c);
         const int m = end(c) - begin(c);

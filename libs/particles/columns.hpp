@@ -1,6 +1,7 @@
-// Order of particles in space: columns of square cross-section along z, visited in a snake (neighbouring columns are
-// neighbours in memory), the particles of every second column sorted downwards, so that any few consecutive particles
-// are close together and none need be padded.
+// Order of particles in space and memory. Space is divided into columns along z of square cross-section, which are
+// numbered along a serpentine path, so that consecutive columns are neighbours. Particles are sorted by z within a
+// column, downwards in every second one. Any few consecutive particles are therefore close together, across the end of
+// a column too, and no column needs padding.
 #pragma once
 #include <algorithm>
 #include <vector>
@@ -17,9 +18,9 @@ class Columns {
 
     int columnCount() const { return nx_ * ny_; }
 
-    // The order that sorts the particles: order[k] is the particle that comes k-th. Equal particles keep their order.
+    // The order that sorts the particles: order[k] is the particle that comes k-th. The sort is stable.
     std::vector<int> sort(const double* x, const double* y, const double* z, int n);
-    // After the particles have been put into that order:
+    // First particle of a column, and one past its last, once the particles have been put into that order.
     int begin(int column) const { return start_[static_cast<std::size_t>(column)]; }
     int end(int column) const { return start_[static_cast<std::size_t>(column) + 1]; }
 
@@ -32,8 +33,9 @@ class Columns {
     double gapX(int cx, double a, double b) const { return gap(cx, nx_, xLow_, widthX_, a, b); }
     double gapY(int cy, double a, double b) const { return gap(cy, ny_, yLow_, widthY_, a, b); }
 
-    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. Walks there from
-    // `near`, the answer to a similar question: any range is right, a close one is fast.
+    // The particles of a column with z in [zLow, zHigh], as an index range; z is the sorted array. The search starts
+    // from `near`, the result for a neighbouring query: the result is right for any `near`, and found fast for a close
+    // one.
     struct Span {
         int begin = 0, end = 0;
     };
@@ -55,8 +57,8 @@ class Columns {
         return {a, b};
     }
 
-    // f(i) for all particles in a square column of half width `radius` about x, and as far along z; z is the sorted
-    // array.
+    // f(i) for all particles of the columns within `radius` of x along x and y whose z is within `radius` of x[2]; z is
+    // the sorted array.
     template <class F>
     void forNear(const double* z, const Vec3& x, double radius, F&& f) const {
         const int x0 = cellX(x[0] - radius), x1 = cellX(x[0] + radius), y0 = cellY(x[1] - radius),

@@ -70,7 +70,7 @@ void Decomposition::balance(const ParticleStore& particles) {
         void operator()(Zoltan_Struct* z) const { Zoltan_Destroy(&z); }
     };
     const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(comm_));
-    // The debug level first: every later setting would be told on the standard output.
+    // The debug level is set first: otherwise Zoltan would print each later setting on the standard output.
     for (auto [key, value] : {std::pair{"DEBUG_LEVEL", "0"},
                               {"LB_METHOD", "RCB"},
                               {"NUM_GID_ENTRIES", "1"},

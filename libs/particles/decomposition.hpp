@@ -26,9 +26,9 @@ class Decomposition {
     const Brick& brick(int rank) const { return bricks_[static_cast<std::size_t>(rank)]; }
     const Brick& own() const { return brick(rank_); }
 
-    // Cuts anew by the positions of all particles (x, y, z wrapped into the box). Collective.
+    // Cuts the box anew by the positions of all particles, which must be wrapped into the box. Collective.
     void balance(const ParticleStore& particles);
-    // The bricks of an earlier run on as many ranks (checkpoint), six numbers each.
+    // Sets the bricks from a checkpoint on the same number of ranks; six numbers each (low, high), as from state().
     void restore(const std::vector<double>& bricks);
     std::vector<double> state() const;
 
@@ -46,8 +46,8 @@ class Decomposition {
     std::vector<Brick> bricks_;
 };
 
-// Sends every particle to the rank that owns its position. Collective; the order of particles is kept within each
-// sender, and senders follow in the order of their ranks.
+// Sends every particle to the rank that owns its position. Collective. Particles that stay come first; those that
+// arrive follow in the order of the sending ranks. Particles from one rank keep their order.
 void migrate(ParticleStore& particles, const Decomposition& decomposition);
 
 }  // namespace corpuscle::particles

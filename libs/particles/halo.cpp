@@ -27,7 +27,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
     comm_ = decomposition.comm();
     const int size = decomposition.size(), self = decomposition.rank();
     const auto position = [&](int i) { return Vec3(x[i], y[i], z[i]); };
-    constexpr int group = 64;  // consecutive particles are close together: tested first by their bounds
+    constexpr int group = 64;  // consecutive particles, which are close together, are first tested as a group by bounds
     std::vector<Bounds> bounds(static_cast<std::size_t>((n + group - 1) / group));
     Bounds all;
     for (int i = 0; i < n; ++i) bounds[static_cast<std::size_t>(i / group)].include(position(i));
@@ -37,7 +37,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
     int images[3];
     for (int k = 0; k < 3; ++k)
         images[k] = periodicity.isAlong(k) ? static_cast<int>(std::ceil(reach / periodicity.lengths()[k])) : 0;
-    if (periodicity.slides())  // images lie off by half a period at most for each period across
+    if (periodicity.slides())  // per period across the faces, images are offset by at most half a period along them
         for (int k = 0; k < 3; ++k) {
             if (!periodicity.isAlong(k) || k == periodicity.slidingAxis()) continue;
             const double length = periodicity.lengths()[k], off = 0.5 * images[periodicity.slidingAxis()] * length;
@@ -51,7 +51,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
             for (int c = -images[2]; c <= images[2]; ++c) images_.push_back(periodicity.image({a, b, c}));
     if (images_.size() > std::numeric_limits<std::uint16_t>::max())
         throw std::logic_error("the box is far too small for the reach of the halo");
-    const auto number = [&](const Index3& n) {  // in images_
+    const auto number = [&](const Index3& n) {  // index into images_
         return static_cast<std::uint16_t>(
             ((n[0] + images[0]) * (2 * images[1] + 1) + n[1] + images[1]) * (2 * images[2] + 1) + n[2] + images[2]);
     };
@@ -98,7 +98,7 @@ void Halo::plan(const double* x, const double* y, const double* z, int n, const 
     std::iota(slot_.begin(), slot_.end(), 0);
 }
 
-// pack(k, to): entry k of the send list as it is to arrive.
+// pack(k, to) writes entry k of the send list to `to`, in the form in which the receiver needs it.
 template <class Real, class Pack>
 void Halo::post(Real* records, int owned, int fields, Part part, Pack&& pack) {
     const auto width = static_cast<std::size_t>(part.last - part.first), bytes = width * sizeof(Real);

@@ -5,7 +5,7 @@ namespace corpuscle::particles::CORPUSCLE_ISA_NAMESPACE {
 
 namespace {
 
-// append: writes first + l at `out` for every lane l of the mask, without a branch, and says how many.
+// append: writes first + l to `out` for every lane l set in the mask, without a branch, and returns how many there are.
 #if defined(__AVX512F__)
 typedef float Lanes __attribute__((vector_size(64)));
 CORPUSCLE_INLINE Lanes least(Lanes a, Lanes b) { return Lanes(_mm512_min_ps(__m512(a), __m512(b))); }
@@ -19,7 +19,7 @@ CORPUSCLE_INLINE int append(unsigned mask, int first, int* out) {
     return __builtin_popcount(mask);
 }
 #elif defined(__AVX2__)
-// For each mask of eight lanes the numbers of those that are set, in order.
+// For each mask of eight lanes: the numbers of the lanes that are set, in ascending order.
 struct Compression {
     unsigned char lane[256][8];
     constexpr Compression() : lane{} {

@@ -17,8 +17,8 @@ struct Bounds {
 
 bool isSet(unsigned char flag) { return flag != 0; }
 
-// Every span of candidates of one set of columns, from particle `from` on, that may lie within reach of the bounds.
-// `spans` holds the last answer for each column: the next block is close by.
+// Calls f for every span of candidates in one set of columns, from particle `from` on, that may lie within reach of the
+// bounds. `spans` holds the last result for each column, from which the search starts, as the next block is close by.
 template <class F>
 void forSpans(const Columns& columns, int from, const double* z, const Bounds& bounds, double reach,
               std::vector<Columns::Span>& spans, F&& f) {
@@ -44,8 +44,8 @@ void forSpans(const Columns& columns, int from, const double* z, const Bounds& b
 
 }  // namespace
 
-// Of as many blocks as share their candidates, from particle `start` on. found_ holds what was found: near and far, of
-// each block; out points behind the last entry, later behind the last that is no ghost.
+// State of the search for the blocks that share their candidates: 2h and 2h + 1 stand for the near and far candidates
+// of block h, stored in found_. out points past the last entry; later is the number of entries before the first ghost.
 struct PairList::Candidates {
     int* out[4];
     std::ptrdiff_t later[4];
@@ -61,7 +61,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     for (auto& group : blocks_) group.clear();
     const double *x = position[0], *y = position[1], *z = position[2];
 
-    // Reach grows by what rounding may take away.
+    // The reach is increased by the largest possible rounding error of single precision.
     const double extent = findRelative(position, owned + ghosts, 0.5 * (brick.low + brick.high));
     const auto wide = static_cast<float>(reach + 4 * std::numeric_limits<float>::epsilon() * (extent + reach));
     const ListKernel::Gather gather = together == 2 ? listKernel().twoBlocks : listKernel().oneBlock;
@@ -71,7 +71,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     Candidates c;
     float point[3 * points];
     const auto find = [&](Columns::Span span, int offset) {
-        for (int k = 0; k < 2 * together; ++k) {  // room for all of the span
+        for (int k = 0; k < 2 * together; ++k) {  // makes room for all candidates of the span
             const auto used = static_cast<std::size_t>(c.out[k] - found_[k].data());
             const std::size_t room = used + static_cast<std::size_t>(span.end - span.begin) + ListKernel::padding;
             if (found_[k].size() < room) found_[k].resize(2 * room), c.out[k] = found_[k].data() + used;
@@ -89,7 +89,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
             bounds.low = bounds.low.cwiseMin(p), bounds.high = bounds.high.cwiseMax(p);
             for (int k = 0; k < 3; ++k) point[k * points + l] = relative_[k][i];
         }
-        // The particles of later blocks: those of the second block are met by the first alone.
+        // Particles of later blocks. Those of the second of two blocks are candidates of the first block alone.
         for (int k = 0; k < 2 * together; ++k) c.out[k] = found_[k].data();
         if (start + lanes_ < stop) {
             find({start + lanes_, stop}, 0);
@@ -97,7 +97,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
         }
         forSpans(ownedColumns, stop, z, bounds, reach, ownedSpans, [&](Columns::Span span) { find(span, 0); });
         for (int k = 0; k < 2 * together; ++k) c.later[k] = c.out[k] - found_[k].data();
-        // Ghosts lie outside the brick.
+        // A block that is further than the reach from all faces of the brick has no ghosts, since these lie outside.
         const bool inside =
             ((bounds.low - brick.low).array() > reach).all() && ((brick.high - bounds.high).array() > reach).all();
         if (ghosts > 0 && !inside)
@@ -109,7 +109,7 @@ void PairList::build(const Columns& ownedColumns, int owned, const Columns& ghos
     if (used > 0) j_[used] = 0;
 }
 
-// Positions relative to the middle in single precision; the largest of their coordinates.
+// Fills relative_ with positions relative to `middle` in single precision; returns the largest absolute coordinate.
 double PairList::findRelative(const double* const position[3], int count, const Vec3& middle) {
     double extent = 0;
     for (int k = 0; k < 3; ++k) {
@@ -123,8 +123,8 @@ double PairList::findRelative(const double* const position[3], int count, const 
     return extent;
 }
 
-// The list of the block that begins at particle `slot`, number h of those that share c, behind the `used` entries that
-// there are; how many there are then.
+// Appends to j_, after its first `used` entries, the list of the block that begins at particle `slot` and is number h
+// of those that share c. Returns the new number of entries.
 std::size_t PairList::list(int slot, int stop, int h, const Candidates& c, std::size_t used,
                            const std::vector<unsigned char>& wall, const std::vector<int>& imageOf) {
     const int b = slot / lanes_, last = std::min(slot + lanes_, stop);
@@ -132,7 +132,8 @@ std::size_t PairList::list(int slot, int stop, int h, const Candidates& c, std::
     for (const int k : {2 * h, 2 * h + 1}) room += static_cast<std::size_t>(c.out[k] - found_[k].data());
     if (j_.size() < room) j_.resize(std::max(room, j_.size() + j_.size() / 2 + 1024));
     const bool allWall = !wall.empty() && std::all_of(wall.begin() + slot, wall.begin() + last, isSet);
-    // A block and one image of another meet twice, once across either face: the earlier block takes them.
+    // Two blocks that meet across a periodic face do so twice, each with images of the other: the earlier block lists
+    // these pairs.
     const auto blockOf = [&](int ghost) {
         const int own = imageOf[ghost - owned_];
         return own < 0 ? -1 : own / lanes_;

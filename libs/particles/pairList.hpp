@@ -1,14 +1,19 @@
 // The neighbour list: one flat array of j for every block of consecutive particles i (as many as the pair loop has
 // lanes).
 //
-// j is in the list of a block when it lies within reach = support + skin of any of its particles at the time of the
-// build; the list holds as long as no particle has moved more than skin/2 since. Two blocks of owned particles meet
-// once: the earlier one lists the particles of the later, and their images across periodic faces. Ghosts of other ranks
-// are listed by every block that meets them. Last come images of the block's own particles, which get no reaction. The
-// block's own particles are not listed: they meet anyway. A block of nothing but wall particles lists no wall
-// particles: walls do not act on walls. What lies within the support at the time of the build comes first, what only
-// the skin adds after it. Blocks are grouped by what they need: those without ghosts can be processed while the halo is
-// under way, and those that meet a wall need the wall's form of a law.
+// A particle j is in the list of a block if it lies within reach = support + skin of any particle of the block at the
+// time of the build; the list is valid as long as no particle has moved more than skin/2 since.
+//
+// What a block lists:
+// - particles of later blocks of this rank and their periodic images: the earlier of two blocks lists their pairs;
+// - ghosts owned by other ranks, in every block that has them within reach;
+// - last, images of the block's own particles, which get no reaction.
+// The block's own particles are not listed, as the pair loop covers all pairs within a block. A block that consists of
+// wall particles alone lists no wall particles: walls do not act on walls. Particles within the support at the time of
+// the build come first, those that only the skin adds after them.
+//
+// Blocks are grouped by what they need: those without ghosts can be processed while the halo exchange is under way, and
+// those with wall particles in the block or its list need the form of a law at walls.
 #pragma once
 #include <vector>
 
@@ -28,9 +33,9 @@ class PairList {
     enum Group { interior = 0, interiorAtWall = 1, boundary = 2, boundaryAtWall = 3, groups = 4 };
     static constexpr bool isAtWall(Group group) { return group == interiorAtWall || group == boundaryAtWall; }
 
-    // owned particles sorted by `ownedColumns`, then ghosts sorted by `ghostColumns`: positions[3] of all of them,
-    // wall[k] != 0 for wall particles (empty: there are none); imageOf[g]: the owned particle that ghost g is an image
-    // of, or -1. No ghost lies in the brick.
+    // position[3]: coordinates of the owned particles, sorted by `ownedColumns`, then of the ghosts, sorted by
+    // `ghostColumns`. wall[k] != 0 for wall particles; empty if there are none. imageOf[g]: the owned particle that
+    // ghost g is an image of, or -1. No ghost lies in the brick.
     void build(const Columns& ownedColumns, int owned, const Columns& ghostColumns, int ghosts,
                const double* const position[3], const std::vector<unsigned char>& wall, const std::vector<int>& imageOf,
                const Brick& brick, double support, double reach);
@@ -50,9 +55,10 @@ class PairList {
     int lanes_, owned_ = 0;
     std::vector<int> first_{0};
     AlignedVector<int> j_;
-    AlignedVector<float> relative_[3];  // positions relative to the brick's middle, kept for their memory
+    AlignedVector<float> relative_[3];  // positions relative to the brick's middle; kept to reuse the memory
     std::vector<int> blocks_[groups];
-    std::vector<int> found_[4];  // near and far, of the blocks that share their candidates; kept for their memory
+    // near and far candidates of each of the blocks that share their candidates; kept to reuse the memory
+    std::vector<int> found_[4];
 };
 
 }  // namespace corpuscle::particles

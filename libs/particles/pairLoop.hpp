@@ -1,4 +1,5 @@
-// The one pair loop. Every law between particles goes through it, and every pair of owned particles is computed once:
+// The one pair loop. Every law between particles goes through it, and every pair of owned particles is computed once (a
+// few within a block twice):
 //
 //     sum_j += p(i, j),   sum_i += (-p0, -p1, -p2, +p3)(i, j)            (Newton's third law)
 //
@@ -7,42 +8,46 @@
 //     template <class V, class J> void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4])
 //         const;
 //     template <class V> void finish(const V (&i)[fields], V (&sum)[4]) const;   // common factors, once per particle
-// with d = x_j - x_i and q = |d|; p is what i does to j; p0..p2 are odd under exchange of i and j, p3 is even. J is V
-// or a number, the same for all lanes. A law of more sums says `static constexpr int sums` (a multiple of four; the
-// first three odd, the others even). One whose p3 differs for i and j says `static constexpr bool distinct = true` and
-// gives what i gets in p[sums].
-// What a particle does to itself is left to finish. Fields 0..2 of a record are the position in
-// units of the support radius from the middle of the box (RecordFrame): small numbers near one, so that records, pair
-// terms and the sums over one block may be float (Real) while state and sums stay double. Records (array of structures:
-// one cache line for eight doubles) are packed by the integrator for owned particles and come over the halo for ghosts.
+// with d = x_j - x_i and q = |d|. p is the contribution of i to the sums of j; p0..p2 are odd under exchange of i and
+// j, p3 is even. J is V, or a scalar that is the same for all lanes. A law with more than four sums declares
+// `static constexpr int sums` (a multiple of four; the first three odd, the others even). A law whose p3 differs for i
+// and j declares `static constexpr bool distinct = true` and returns the contribution to sum 3 of i in p[sums]. The
+// contribution of a particle to its own sums is added in `finish`.
 //
-// A block of `lanes` particles i meets its list one j at a time: a row. The square root takes as long as half of the
-// rest: that of the next row is computed while this row's law is. Within the block every particle meets those r lanes
-// on, r = 1 .. lanes/2. Lanes beyond the support vanish by arithmetic (max(0, 1 - q)): there are no masks.
+// Fields 0..2 of a record are the position in units of the support radius from the middle of the box (RecordFrame):
+// small numbers near one, so that records, pair terms and the sums over one block may be float (Real) while state and
+// sums stay double. Records (array of structures: one cache line for eight doubles) are packed by the integrator for
+// owned particles and received through the halo for ghosts.
+//
+// A block of `lanes` particles i is paired with one particle j of its list at a time: a row. The square root takes as
+// long as half of the rest, so that of the next row is computed during the law of this row. Within the block, each
+// particle is paired with the one r lanes further on, r = 1 .. lanes/2. The contribution of lanes beyond the support
+// vanishes by arithmetic (max(0, 1 - q)): there are no masks.
 #pragma once
 #include "particles/simd.hpp"
 
 namespace corpuscle::particles {
 
-// What the loop needs of a PairList: plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1]. Until
-// alone(b) the particles j get the reaction; from there on the block alone gets the action: images of its own
-// particles. Ghosts gather what acts on them in sums of their own: those of images belong to the owned particles, those
-// of other ranks' particles are what this rank does to them (sharedParticles.hpp). A block's own particles are not
-// listed. Either half has particles within the support at the time of the build first, then those of the skin: four
-// parts, where part k is j[first[4b + k]] .. j[first[4b + k + 1] - 1].
+// What the loop needs of a PairList, as plain pointers. The list of block b is j[begin(b)] .. j[end(b) - 1], without
+// the block's own particles. Entries before alone(b) also get the reaction; entries from alone(b) on are images of the
+// block's own particles, and for these only the block itself gets a contribution. Ghosts have sums of their own: those
+// of images are added to the owned particles (Halo::foldImages), those of particles owned by other ranks are this
+// rank's contribution to these particles (sharedParticles.hpp). In each half of the list, particles within the support
+// at the time of the build come first, then those within the skin: four parts, where part k is j[first[4b + k]] ..
+// j[first[4b + k + 1] - 1].
 struct PairView {
     static constexpr int parts = 4;
     int owned = 0;  // particles with results
     const int* first = nullptr;
-    const int* j = nullptr;  // record numbers, owned before ghosts; one valid number behind the last
+    const int* j = nullptr;  // record numbers, owned before ghosts; the list is followed by one more valid number
 
     int begin(int block) const { return first[parts * block]; }
     int alone(int block) const { return first[parts * block + 2]; }
     int end(int block) const { return first[parts * block + parts]; }
 };
 
-// Sums stand particle by particle, ghosts behind the owned, four doubles each unless the law has more, until they are
-// finished.
+// Number of sums of a law. Until `finish`, sums are stored particle by particle, ghosts after the owned particles, four
+// doubles each unless the law has more.
 template <class Law>
 constexpr int sumsOf() {
     if constexpr (requires { Law::sums; })
@@ -75,7 +80,7 @@ class PairLoop {
         for (int k = 0; k < blockCount; ++k) {
             const int slot = blocks[k] * lanes;
             const int* first = list.first + PairView::parts * blocks[k];
-            alignas(64) Real block[fields][2 * lanes];  // twice: lane l + r is found r numbers on
+            alignas(64) Real block[fields][2 * lanes];  // stored twice: a load from r on has lane (l + r) % lanes at l
             load(records, slot, list.owned, block);
             V i[fields], sum[pairSums];
             for (int f = 0; f < fields; ++f) i[f] = V::load(block[f]), i[f].store(block[f] + lanes);
@@ -121,15 +126,15 @@ class PairLoop {
 
     static CORPUSCLE_INLINE int inBlock(int slot, int owned) { return owned - slot < lanes ? owned - slot : lanes; }
 
-    // What i gets of a pair.
+    // Adds the contribution of a pair to the sums of i.
     static CORPUSCLE_INLINE void take(const V (&p)[terms], V (&sum)[pairSums]) {
         for (int s = 0; s < 3; ++s) sum[s] -= p[s];
         sum[3] += p[isDistinct<Law>() ? pairSums : 3];
         for (int s = 4; s < pairSums; ++s) sum[s] += p[s];
     }
 
-    // Records of a block, field by field. The last block is filled up with copies of its last particle, out of reach of
-    // everything.
+    // Records of a block, field by field. The last block is filled up with copies of its last particle, placed out of
+    // reach of everything.
     template <class To, int room>
     static CORPUSCLE_INLINE void load(const Real* records, int slot, int owned, To (&block)[fields][room]) {
         const int used = inBlock(slot, owned);
@@ -140,8 +145,8 @@ class PairLoop {
         }
     }
 
-    // Every pair within the block: lane l with lane l + r. The last r meets each pair from both ends; before it the
-    // other lane gets the reaction, in `other` at l + r.
+    // Every pair within the block: lane l with lane l + r. At the last r each pair is computed twice, once from either
+    // particle; at smaller r the other lane gets the reaction, in `other` at l + r.
     static CORPUSCLE_INLINE void within(const Law& law, const V (&i)[fields], const Real (&block)[fields][2 * lanes],
                                         V (&sum)[pairSums], Real (&other)[pairSums][2 * lanes]) {
         for (V& s : sum) s = V(0.0);
@@ -156,8 +161,8 @@ class PairLoop {
         }
     }
 
-    // The first of two parts of the list as it is, the second after a look at the distance: few of them are within the
-    // support. mutual: the particles j get the reaction.
+    // Two parts of the list: the first without a test of distances, the second with one, as few of its particles are
+    // within the support. mutual: the particles j get the reaction.
     template <bool mutual>
     static CORPUSCLE_INLINE void meet(const Law& law, const V (&i)[fields], const int* list, const int* part,
                                       const Real* records, V (&sum)[pairSums], double* sums) {
@@ -178,7 +183,7 @@ class PairLoop {
         }
     }
 
-    // One entry behind the last is read.
+    // Pairs of the block with the particles j to end - 1; the entry at `end` is read too, for the square root ahead.
     template <bool mutual>
     static CORPUSCLE_INLINE void rows(const Law& law, const V (&i)[fields], const int* j, const int* end,
                                       const Real* records, V (&sum)[pairSums], double* sums) {

@@ -1,8 +1,8 @@
-// The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (pairList.hpp).
+// The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (columns.hpp).
 //
 // What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there
-// are cells, node only where there are membranes, member only where there are rigid bodies. Whoever reorders, sends or
-// saves particles goes through forEachField, so a new field needs one line here.
+// are cells, node only where there are membranes, member only where there are rigid bodies. Code that reorders, sends
+// or saves particles uses forEachField, so that a new field only has to be listed in `visit`.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -15,9 +15,9 @@
 
 namespace corpuscle::particles {
 
-// 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would put them all
-// at the same place of a page, and a loop over a dozen arrays would then find all of them in the same few lines of the
-// cache.
+// 64-byte aligned storage for vector loads. Large arrays begin at staggered cache lines: the system would place them
+// all at the same offset within a page, and in a loop over a dozen arrays they would then compete for the same few
+// cache lines.
 template <class T>
 struct AlignedAllocator {
     using value_type = T;
@@ -29,7 +29,7 @@ struct AlignedAllocator {
         static std::size_t next = 0;
         const std::size_t skipped = line * (1 + (n * sizeof(T) < large ? 0 : next++ * 5 % lines));
         char* const whole = static_cast<char*>(::operator new(n * sizeof(T) + skipped, std::align_val_t(line)));
-        std::memcpy(whole + skipped - sizeof whole, &whole, sizeof whole);  // where it began, for deallocate
+        std::memcpy(whole + skipped - sizeof whole, &whole, sizeof whole);  // start of the allocation, for deallocate
         return reinterpret_cast<T*>(whole + skipped);
     }
     void deallocate(T* p, std::size_t) {
@@ -46,8 +46,8 @@ using IntegerArray = AlignedVector<std::int64_t>;
 
 enum class Kind : std::int64_t { fluid = 0, membrane = 1, wall = 2, body = 3 };
 
-// Particles that the fluid meets but that do not move as fluid: two of them do not act on each other, unless
-// the lists are made to hold pairs within bodies (ParticleSystem::pairWithinBodies).
+// Particles that act on the fluid but do not move as fluid. Two of them do not act on each other, unless the lists are
+// made to hold pairs within bodies (ParticleSystem::pairWithinBodies).
 constexpr bool isBoundary(Kind kind) { return kind == Kind::wall || kind == Kind::body; }
 
 class ParticleStore {
@@ -68,7 +68,7 @@ class ParticleStore {
     IntegerArray id;                   // unique, stable
     IntegerArray kind;                 // Kind
     IntegerArray side;                 // 0 outside, n inside cell n
-    IntegerArray node;                 // global number of the membrane node that the particle is, -1 for others
+    IntegerArray node;                 // global number of the membrane node that is this particle, -1 for others
     IntegerArray member;               // number among the particles of all rigid bodies, -1 for others
 
     ParticleStore() = default;
@@ -116,7 +116,7 @@ class ParticleStore {
         if (s.optional_.member) f("member", s.member);
     }
     Optional optional_;
-    RealArray spareReals_;  // memory for reorder: swapped in turn with every array
+    RealArray spareReals_;  // memory for reorder, swapped with each array in turn
     IntegerArray spareIntegers_;
 };
 

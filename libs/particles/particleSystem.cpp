@@ -56,7 +56,7 @@ void ParticleSystem::resume(const std::vector<double>& bricks, long rebuilds) {
     decomposition_.restore(bricks);
     const Brick& brick = decomposition_.own();
     columns_ = Columns(brick.low[0], brick.high[0], brick.low[1], brick.high[1], 2 * spacing_);
-    // Sorting is stable, so particles that were saved in sorted order stay as they are.
+    // The sort is stable, so particles that were saved in sorted order keep this order.
     const std::vector<int> order =
         columns_.sort(store_.xBuilt.data(), store_.yBuilt.data(), store_.zBuilt.data(), owned());
     store_.reorder(order);

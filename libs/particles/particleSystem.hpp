@@ -22,8 +22,8 @@ namespace corpuscle::particles {
 
 class ParticleSystem {
   public:
-    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (width of columns);
-    // precision of the laws between pairs that are to run on its list.
+    // support: support radius of the kernel H_s [m]; skin [m]; spacing: particle spacing [m] (columns are two wide);
+    // precision: that of the pair laws that will run on the list.
     ParticleSystem(MPI_Comm comm, const Box& box, ParticleStore::Optional fields, double support, double skin,
                    double spacing, Precision precision = Precision::full);
 
@@ -43,26 +43,27 @@ class ParticleSystem {
     double spacing() const { return spacing_; }
     Precision precision() const { return precision_; }
     long rebuilds() const { return rebuilds_; }
-    long builds() const { return builds_; }  // of the lists, by this object
+    long builds() const { return builds_; }  // how often this object has built its lists
     std::size_t bytes() const;
 
-    // Images across the faces of this axis move at this velocity [m/s], without a component along the axis; they lie
-    // off by nothing now. Before the first particles.
+    // Makes images across the faces of this axis slide at this velocity [m/s], which has no component along the axis;
+    // their offset is 0 at first. To be called before the store has particles.
     void slideImages(int axis, const Vec3& velocity);
-    // They move on for so long, or back; lists and ghosts are those of before until the next rebuild.
+    // Moves the images by this time, backwards if negative; lists and ghosts keep the former offset until the next
+    // rebuild.
     void moveImages(double seconds) {
         if (periodicity_.slides()) setOffset(periodicity_.offset() + seconds * slide_);
     }
-    // Images as they were so long ago.
+    // The images as they were this time ago.
     Periodicity imagesAgo(double seconds) const {
         Periodicity images = periodicity_;
         if (images.slides() && seconds != 0)
             images.slide(images.slidingAxis(), images.offset() - seconds * slide_, slide_);
         return images;
     }
-    // The offset of the next image [m] (core/periodicity.hpp), at least within half a period.
+    // Sets the offset of the next image [m] (core/periodicity.hpp), reduced by whole periods to at most half a period.
     void setOffset(const Vec3& offset);
-    // All of this rank's particles in the box, with the velocities of there.
+    // Replaces each particle of this rank by its image inside the box, with the velocity of that image.
     void wrapAll() {
         for (std::size_t i = 0; i < store_.size(); ++i) wrap(i);
     }
@@ -72,23 +73,23 @@ class ParticleSystem {
 
     // Fills the store for the first time: cuts bricks, sends every particle to its owner, builds lists. Collective.
     void start();
-    // Takes up a checkpoint on the same number of ranks: the store holds this rank's particles in their saved order.
-    // Lists are built from xBuilt, yBuilt, zBuilt, so that the run goes on bit for bit.
-    // rebuilds: how many there had been (it times the rebalancing).
+    // Continues from a checkpoint on the same number of ranks, once the store holds this rank's particles in their
+    // saved order. Lists are built from xBuilt, yBuilt, zBuilt, so that the run continues bit for bit. rebuilds: their
+    // number up to the checkpoint, which determines when bricks are rebalanced.
     void resume(const std::vector<double>& bricks, long rebuilds);
 
     // Whether some particle of any rank has moved more than skin/2 since the last build. Collective.
     bool mustRebuild() const;
-    // The same from a square of displacement that the caller has at hand; NaN or infinity where a position is not
-    // finite: the rebuild then reports the particle.
+    // The same from the largest squared displacement of this rank's particles, which the caller has computed: NaN or
+    // infinity if a position is not finite, so that the rebuild reports that particle.
     bool mustRebuild(double largestDisplacement2) const;
     double largestDisplacement2() const;
     // Wraps, migrates, sorts, plans the halo, builds the list; rebalances bricks when they are uneven. Collective.
     void rebuild();
 
-    // Runs work(group) on the four groups of blocks: those without ghosts while the halo is under way. `records` holds
-    // `fields` numbers per particle, owned ones filled, room for ghosts behind them; scale: positions in them per
-    // metre. Collective.
+    // Runs work(group) on the four groups of blocks: on those without ghosts while the halo exchange is under way.
+    // `records` holds `fields` numbers per particle: those of owned particles filled in, then room for those of ghosts.
+    // scale: as in Halo::begin. Collective.
     template <class Real, class Work>
     void forEachPair(Real* records, int fields, double scale, Work&& work) {
         halo_.begin(records, owned(), fields, scale);
@@ -96,7 +97,7 @@ class ParticleSystem {
         halo_.finish(records, owned(), fields);
         work(PairList::boundary), work(PairList::boundaryAtWall);
     }
-    // The same when only `part` of the ghosts' records has changed since the last time, and that is no position.
+    // The same if only `part` of the ghosts' records, which excludes the position, has changed since the last call.
     template <class Real, class Work>
     void forEachPair(Real* records, int fields, Halo::Part part, Work&& work) {
         halo_.begin(records, owned(), fields, part);
@@ -105,8 +106,8 @@ class ParticleSystem {
         work(PairList::boundary), work(PairList::boundaryAtWall);
     }
 
-    // f(i) for the owned particles that lay within `radius` of x, or more, when lists were built; x in the box. No
-    // image of x is taken.
+    // f(i) for all owned particles that lay within `radius` of x when lists were built, and for some further away; x is
+    // in the box. Periodic images of x are not considered.
     template <class F>
     void forOwnedNear(const Vec3& x, double radius, F&& f) const {
         columns_.forNear(store_.zBuilt.data(), x, radius, f);
@@ -133,8 +134,8 @@ class ParticleSystem {
     PairList list_;
     Columns columns_, ghostColumns_;
     long rebuilds_ = 0, builds_ = 0;
-    RealArray buildRecords_;      // kept for its memory
-    RealArray buildPosition_[3];  // of the last build, ghosts behind the owned
+    RealArray buildRecords_;      // kept to reuse the memory
+    RealArray buildPosition_[3];  // positions at the last build, owned particles before ghosts
 };
 
 }  // namespace corpuscle::particles

@@ -43,8 +43,8 @@ void SharedParticles::plan(ParticleSystem& system) {
 
 void SharedParticles::findMessages(const ParticleSystem& system, const std::vector<Origin>& others,
                                    const std::vector<Origin>& copies) {
-    // A particle on three ranks or more: each of them hears from its owner who else has it, in pairs of particle and
-    // rank.
+    // For a particle that three ranks or more know, its owner tells each of the others who else knows it, as pairs of
+    // particle and rank.
     std::vector<Origin> byParticle = copies;
     std::stable_sort(byParticle.begin(), byParticle.end(),
                      [](const Origin& a, const Origin& b) { return a.particle < b.particle; });
@@ -59,7 +59,7 @@ void SharedParticles::findMessages(const ParticleSystem& system, const std::vect
     }
 
     using Element =
-        std::tuple<int, Origin, std::size_t>;  // rank to which the message goes, in the order of both sides, entry
+        std::tuple<int, Origin, std::size_t>;  // other rank; origin, by which both sides sort the message; entry
     std::vector<Element> elements;
     elements.reserve(copies.size() + others.size());
     for (const Origin& c : copies)

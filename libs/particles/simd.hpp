@@ -2,8 +2,8 @@
 // intrinsic.
 //
 // The type carries the instruction set as a tag, so that the baseline, AVX2 and AVX-512 builds of one law are different
-// types with different symbols: the linker can never mix them. Its lanes are those of the block (lanes.hpp), in one
-// register or more.
+// types with different symbols: the linker can never mix them. The type has as many lanes as a block has particles
+// (lanes.hpp), in one register or more.
 #pragma once
 #include <cmath>
 #if defined(__SSE2__)
@@ -106,7 +106,7 @@ CORPUSCLE_INLINE int below(D8 a, D8 s) { return _mm512_cmp_pd_mask(__m512d(a), _
 
 // to[0..3] += sums over the lanes of a, b, c and d.
 #if defined(__AVX__)
-CORPUSCLE_INLINE __m256d interleavedSums(D4 a, D4 b) {  // (a, b, a, b) in parts
+CORPUSCLE_INLINE __m256d interleavedSums(D4 a, D4 b) {  // partial sums of (a, b, a, b)
     return _mm256_add_pd(_mm256_unpacklo_pd(__m256d(a), __m256d(b)), _mm256_unpackhi_pd(__m256d(a), __m256d(b)));
 }
 CORPUSCLE_INLINE void addSums(double* to, __m256d ab, __m256d cd) {
@@ -243,7 +243,7 @@ CORPUSCLE_INLINE bool anyNegative(const Simd<Isa, Real, lanes>& a) {
     return anyBelow(a, Real(0));
 }
 
-// The same for a number that all lanes share.
+// The same for a scalar that is the same for all lanes.
 CORPUSCLE_INLINE double max(double a, double b) { return a > b ? a : b; }
 CORPUSCLE_INLINE float max(float a, float b) { return a > b ? a : b; }
 CORPUSCLE_INLINE bool anyNegative(double a) { return a < 0; }

@@ -1,10 +1,10 @@
-// A pair law over all particles of a rank, the halo under way behind the blocks that need no ghosts.
+// Sums a pair law over all particles of a rank; blocks that need no ghosts are processed during the halo exchange.
 #pragma once
 #include "particles/particleSystem.hpp"
 
 namespace corpuscle::particles {
 
-// Positions in the records of pairLoop.hpp.
+// Computes positions as records have them (pairLoop.hpp): relative to the middle of the box, in units of the support.
 class RecordFrame {
   public:
     explicit RecordFrame(const ParticleSystem& system)
@@ -29,9 +29,9 @@ void addPairs(const PairKernel<Constants, Real>& kernel, const Constants& consta
     kernel.run(constants, list.view(), blocks.data(), static_cast<int>(blocks.size()), records.data(), sums.data());
 }
 
-// results[0 .. count) of the owned particles, count the law's sums. `records` holds `fields` doubles per particle,
-// those of owned ones filled, with room for ghosts behind them; `sums` is memory to work in. atWall: the form of the
-// law for blocks that meet a wall. Collective.
+// Computes results[0 .. count) for the owned particles, where count is the law's number of sums. `records` holds
+// `fields` doubles per particle: those of owned particles filled in, then room for those of ghosts. `sums` is working
+// memory. atWall: the form of the law for blocks with wall particles in the block or its list. Collective.
 template <class Constants, class Real>
 void sumOverPairs(ParticleSystem& system, const PairKernel<Constants, Real>& kernel,
                   const PairKernel<Constants, Real>& atWall, const Constants& constants, AlignedVector<Real>& records,

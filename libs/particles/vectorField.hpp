@@ -1,4 +1,4 @@
-// Fields of vectors have four numbers an entry, so that an entry is one load of the processor; the fourth is 0.
+// Fields of vectors have four numbers per entry, the fourth of them 0, so that the processor loads an entry at once.
 #pragma once
 #include <cstddef>
 

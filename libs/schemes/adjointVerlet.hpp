@@ -1,5 +1,5 @@
-// Velocity Verlet on operators that are adjoint to each other, membranes immersed in the fluid
-// (coupling/adjointVerlet.hpp): what velocityVerlet steps with where operators are corrected or membranes immersed.
+// Velocity Verlet on operators that are adjoint to each other, with membranes immersed in the fluid
+// (coupling/adjointVerlet.hpp): the variant of velocityVerlet where operators are corrected or membranes immersed.
 #pragma once
 #include "schemes/scheme.hpp"
 

@@ -10,7 +10,7 @@ namespace corpuscle::schemes {
 
 namespace {
 
-// Steps and passes of the whole run. Steps grow at first where the flow settles, and are then as long as at its end.
+// Steps and passes of the whole run. If the flow settles, steps grow at first, and are then as long as at the end.
 void countPasses(const CaseFacts& facts, const NumericsSettings& numerics, IntegratorCost& cost) {
     const Scheme& scheme = *numerics.scheme;
     const auto stepAt = [&](double t) { return scheme.limits(facts, numerics, t).binding().seconds; };

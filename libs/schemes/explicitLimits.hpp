@@ -1,4 +1,4 @@
-// The limits of an explicit step (sph/stepLimits.hpp), of rates that are measured in a run or predicted for a case.
+// The limits of an explicit step (sph/stepLimits.hpp), from rates that are measured in a run or predicted for a case.
 #pragma once
 #include "core/vec.hpp"
 #include "sph/stepLimits.hpp"
@@ -7,11 +7,11 @@ namespace corpuscle::schemes {
 
 struct ExplicitRates {
     double viscous = 0;   // largest rate of the viscous operator [1/s]
-    double membrane = 0;  // of the membranes' own viscosity [1/s]
+    double membrane = 0;  // of the viscosity of the membranes themselves [1/s]
     double spring2 = 0;   // of the membranes' stiffness [1/s^2]
 };
 
-// What else limits a step.
+// Other quantities that limit a step.
 struct ExplicitMedium {
     double h = 0;                   // smoothing length: half of the kernel's support [m]
     double soundAndFlow = 0;        // speed of sound + the largest speed [m/s]
@@ -20,7 +20,7 @@ struct ExplicitMedium {
 };
 
 void addViscousLimit(const ExplicitRates& rates, double safety, sph::StepLimits& limits);
-// Sound, body force and springs. reach: acoustic limit of the scheme over that of velocity Verlet.
+// Limits by sound, body force and membranes. reach: acoustic limit of the scheme over that of velocity Verlet.
 void addOtherLimits(const ExplicitRates& rates, const ExplicitMedium& medium, double reach, sph::StepLimits& limits);
 
 }  // namespace corpuscle::schemes

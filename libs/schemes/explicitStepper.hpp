@@ -1,5 +1,5 @@
-// What the steppers of explicit schemes have in common: rates by power iterations, kept with the checkpoint, and the
-// limits that follow from them. Limits are found anew when lists are rebuilt, rates every `stepsPerEstimate` steps.
+// What the steppers of explicit schemes have in common: rates by power iterations, which a checkpoint keeps, and the
+// limits that follow from them. Limits are recomputed when lists are rebuilt, rates every `stepsPerEstimate` steps.
 #pragma once
 #include "coupling/scene.hpp"
 #include "schemes/explicitLimits.hpp"
@@ -11,7 +11,7 @@ namespace corpuscle::schemes {
 class ExplicitStepper : public Stepper {
   public:
     void start() override;
-    // The rates, and one number of the scheme's own.
+    // The three rates, and one number of the scheme itself.
     std::vector<double> state() const override;
     std::size_t stateSize() const override { return 4; }
     void resume(const std::vector<double>& state) override;
@@ -26,7 +26,7 @@ class ExplicitStepper : public Stepper {
 
     virtual void startScheme() = 0;
     virtual void resumeScheme(long count) = 0;
-    virtual long count() const = 0;  // the scheme's own number
+    virtual long count() const = 0;  // the number of the scheme itself in state()
     virtual ExplicitRates estimate() = 0;
     virtual void setRates(const ExplicitRates&) {}
     virtual void addLimits(const ExplicitMedium& medium, double t, sph::StepLimits& limits) const;
@@ -39,7 +39,7 @@ class ExplicitStepper : public Stepper {
   private:
     void setNewRates(const ExplicitRates& rates);
     long stepsPerEstimate_;
-    long rebuilds_ = -1;  // when the limits were found
+    long rebuilds_ = -1;  // number of rebuilds when the limits were computed
 };
 
 }  // namespace corpuscle::schemes

@@ -1,4 +1,4 @@
-// One symmetric positive-definite system for the velocity in the middle of the step (implicit/implicitStep.hpp).
+// One symmetric positive-definite system for the velocity at the midpoint of the step (implicit/implicitStep.hpp).
 #include <fmt/format.h>
 
 #include "implicit/implicitStep.hpp"
@@ -32,7 +32,7 @@ class ImplicitStepper final : public Stepper {
     void resume(const std::vector<double>& state) override {
         step_->resume({state.at(0), state.at(1), state.at(2), std::lround(state.at(3))}, scene_.movedBack);
     }
-    // The limit follows from the case, which may have another shear rate now.
+    // The limit follows from the case, whose shear rate may have been changed for the restart.
     double resumedStep(double kept, double allowed) const override { return std::min(kept, allowed); }
 
     void advance(double dt, double planned) override {

@@ -1,4 +1,4 @@
-// A fluid alone, its viscosity by super-time-stepping (sph/rkl2.hpp).
+// For a fluid alone, with viscosity by super-time-stepping (sph/rkl2.hpp).
 #include "sph/rkl2.hpp"
 
 #include "schemes/explicitStepper.hpp"

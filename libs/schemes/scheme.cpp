@@ -10,7 +10,8 @@ std::string Scheme::usualCoupling(const CaseFacts& facts) const {
 
 std::string Scheme::usualOperators(const CaseFacts&, const NumericsSettings&) const { return "plain"; }
 
-// Vortices that decay stir their particles, on which plain operators do not tend to the flow as the spacing falls.
+// Decaying vortices stir the particles, and on stirred particles plain operators do not converge as the spacing
+// decreases.
 std::string Scheme::unfit(const CaseFacts& facts, const NumericsSettings& numerics) const {
     const bool stirs = facts.flow.transient > 0 && !facts.flow.settles;
     const Node* const operators = facts.find("operators");

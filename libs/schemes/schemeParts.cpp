@@ -6,7 +6,7 @@ namespace corpuscle::schemes {
 
 namespace {
 constexpr double wallRate = 1.3;            // largest viscous rate beside walls over that of a lattice
-constexpr double furthestViscosities = 20;  // largest over least: sph/operators.hpp
+constexpr double furthestViscosities = 20;  // largest ratio of viscosities (sph/operators.hpp)
 }  // namespace
 
 ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& numerics) {

@@ -8,22 +8,23 @@ namespace corpuscle::schemes {
 
 inline const Mark numericsFile{"system/numerics.yaml", 0, 0};
 
-// The rates of a case: the viscous one of a lattice, beside walls up to 1.3 times as large.
+// Predicted rates of a case. The viscous rate is that of a lattice; with walls 1.3 times as large, its upper bound
+// there.
 ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& numerics);
 ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed);
 
-// Those of velocity Verlet, of these.
+// Predicted limits of a velocity Verlet step, from these rates.
 sph::StepLimits verletLimits(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed);
 
-// The volume and density that density is balanced against (coupling/densityBalance.hpp).
+// The volume and the density against which densities are balanced (coupling/densityBalance.hpp).
 coupling::DensityBalance densityBalance(const coupling::Scene& scene);
 coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene);
 
-// What corrected operators and jumps of viscosity ask for where operators are adjoint.
+// Checks what corrected operators and jumps of viscosity require of schemes with adjoint operators.
 void checkShifting(const NumericsSettings& numerics, Problems& problems);
 void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Problems& problems);
 
-// The guard looks at nothing where nodes are no particles.
+// The leakage guard has nothing to do where membrane nodes are not particles.
 Scheme::UnusedKey unusedGuard();
 
 }  // namespace corpuscle::schemes

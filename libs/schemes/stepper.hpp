@@ -1,4 +1,4 @@
-// Steps one scene by one scheme. All of it is collective but what only returns a number.
+// Advances one scene by one scheme. All functions are collective, except those that only return a number.
 #pragma once
 #include <vector>
 
@@ -12,36 +12,38 @@ class Stepper {
   public:
     virtual ~Stepper() = default;
 
-    // At the initial state: forces and rates.
+    // Forces and rates at the initial state.
     virtual void start() = 0;
-    // What a checkpoint keeps beside the scene, and how it goes on from there.
+    // What a checkpoint keeps in addition to the scene; resume() continues from it.
     virtual std::vector<double> state() const = 0;
     virtual std::size_t stateSize() const = 0;
     virtual void resume(const std::vector<double>& state) = 0;
-    // The step to go on with: `kept` by the checkpoint, `allowed` by the limits now [s].
+    // The step with which a restart continues. kept: that of the checkpoint; allowed: by the present limits [s].
     virtual double resumedStep(double kept, double /*allowed*/) const { return kept; }
 
-    // One step of dt, planned to be longer where an event has shortened it [s]; what broke and how many particles were
-    // moved back is then in the scene. Throws Failure(numerics), on all ranks, where it cannot be made.
+    // Makes one step of dt; planned: its length without an event that has shortened it [s]. What broke and how many
+    // particles were moved back is then in the scene. Throws Failure(numerics), on all ranks, if the step cannot be
+    // made.
     virtual void advance(double dt, double planned) = 0;
-    // From the next step on by backward Euler, where the scheme knows it.
+    // Sets whether the next steps are made by backward Euler, if the scheme has it.
     virtual void damp(bool /*damped*/) {}
-    // Steps and parts of steps that it has made or tried since it was made; 0: it counts none.
+    // Steps and parts of steps that this stepper has made or tried so far; 0: it does not count them.
     virtual long tries() const { return 0; }
 
-    // Whether limits have to be found anew after a step, the number of which is given.
+    // Whether limits must be recomputed after the step with this number.
     virtual bool limitsChange(long step) = 0;
-    // Of the next step, at the time t [s].
+    // Limits of the next step, at the time t [s].
     virtual sph::StepLimits limits(double t) = 0;
     virtual int stages(double /*dt*/) const {
         return 0;
     }  // evaluations of viscosity in a step of dt; 0: it has no stages
 
     virtual double largestDensityBalance() const { return 0; }
-    virtual long mostFallbacks() const { return 0; }  // nodes of immersed membranes with Shepard's weights at once
-    // What the one that it takes the place of, of the same scheme, has counted.
+    // Largest number at one time of nodes of immersed membranes with Shepard's weights.
+    virtual long mostFallbacks() const { return 0; }
+    // Takes over the counts of `before`, a stepper of the same scheme that this one replaces.
     virtual void takeOver(const Stepper& /*before*/) {}
-    // Figures of so many steps, at the end of a run.
+    // Reports figures of this many steps, at the end of a run.
     virtual void report(RunRecord&, Log&, long /*steps*/) const {}
 };
 

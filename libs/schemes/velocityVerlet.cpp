@@ -1,5 +1,6 @@
-// Velocity Verlet of the paper (sph/velocityVerlet.hpp) with the dual identity of nodes and rigid bodies as its loads.
-// Where operators are corrected or membranes immersed it is that on adjoint operators (adjointVerlet.hpp).
+// Velocity Verlet of the paper (sph/velocityVerlet.hpp), whose loads are rigid bodies and the dual identity of nodes.
+// With corrected operators or immersed membranes, velocity Verlet on adjoint operators takes its place
+// (adjointVerlet.hpp).
 #include "sph/velocityVerlet.hpp"
 
 #include "schemes/adjointVerlet.hpp"

@@ -34,7 +34,7 @@ T readFile(const Application& app, const std::string& file, Case& result, Proble
     return readNode<T>(file, result, problems);
 }
 
-// A cell without a shape is named here, and read with another one, so that all else is read too.
+// Reports each cell without a shape and gives it a dummy shape, so that everything else is read too.
 void requireShapes(Node& mesh, Problems& problems) {
     Node* const cells = mesh.find("cells");
     if (!cells) return;
@@ -54,7 +54,7 @@ void requireShapes(Node& mesh, Problems& problems) {
     }
 }
 
-// What the cells are, and their membranes: of two files, since a ready cell has its part in both.
+// Reads the cells and their membranes: two files together, since a ready cell contributes to both.
 void readCells(const Application& app, const std::set<std::string>& misnamed, Case& c, Problems& problems) {
     if (misnamed.contains("system/mesh.yaml")) return;
     const std::size_t before = problems.count();
@@ -70,14 +70,14 @@ void readCells(const Application& app, const std::set<std::string>& misnamed, Ca
     if (inMesh + inReady == 0) c.mesh = readNode<MeshSettings>("system/mesh.yaml", c, problems);
     if (!hasLaws && !areReady) {
         if (!c.mesh.cells.empty() && !misnamed.contains("constant/membranes.yaml"))
-            app.dictionary("constant/membranes.yaml", problems);  // which says that it is missing
+            app.dictionary("constant/membranes.yaml", problems);  // adds the problem that it is missing
         return;
     }
     c.files["constant/membranes.yaml"] = std::move(laws);
     if (inLaws + inReady == 0) c.membranes = readNode<MembranesSettings>("constant/membranes.yaml", c, problems);
 }
 
-// Place of a key, or of the innermost table around it that was written.
+// Location of a key in its file, or of the innermost table around it that the file contains.
 const Mark& placeOf(const Node& node, const std::string& key) {
     const auto holds = [&](const Node& child) {
         const std::size_t n = child.path.size();
@@ -92,7 +92,7 @@ const Mark& placeOf(const Node& node, const std::string& key) {
 
 constexpr double adjointBulk = 500;  // bulk modulus of adjoint operators in units of mu gammadot
 
-// Volumes are kept exactly: the membrane's stiffness does not count.
+// Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter.
 double adjointSoundSpeed(const Case& c) {
     const sph::FlowState& flow = c.flow;
     const double nu = c.viscosities().largest / flow.density;
@@ -119,8 +119,9 @@ double plainSoundSpeed(const Case& c) {
     return 10 * std::sqrt(square);
 }
 
-// Of M^-1 K for a hexagonal network of nodes on the membrane [1/s^2]: 6 k/m, its bonds of stiffness k = (Gs + Ks) 4/(3
-// sqrt(3)), the mass of a node that of its hexagon, one spacing thick. Bending is left out.
+// M^-1 K (a rate squared) of a hexagonal network of nodes on the stiffest membrane [1/s^2]: 6 k/m, with bonds of
+// stiffness k = (Gs + Ks) 4/(3 sqrt(3)) and, as mass m of a node, that of its hexagon, one spacing thick. Bending is
+// neglected.
 double springRate2(const Case& c) {
     double most = 0;
     for (const CellSettings& cell : c.mesh.cells) {
@@ -132,10 +133,10 @@ double springRate2(const Case& c) {
     return most;
 }
 
-// Absent: 0.1 with immersed membranes, in flows of three dimensions and with rigid bodies where images slide (spheres
-// that pass each other draw the fluid between them out), 0 otherwise. Where the flow draws a perfect lattice out its
-// planes part: all neighbours of a particle come to lie in one plane, and shifting, which follows gradients, does not
-// see it because every particle has its mirror image.
+// If the key is absent: 0.1 with immersed membranes, in three-dimensional flows, and with rigid bodies if images slide
+// (spheres that pass each other stretch the fluid between them); 0 otherwise. Reason: where the flow stretches a
+// perfect lattice, its planes separate until all neighbours of a particle lie in one plane. Shifting, which follows
+// gradients, does not detect this, because every particle has its mirror image.
 double jitterOf(const Case& c) {
     constexpr double usual = 0.1;
     const bool disordered = c.flowModel->isThreeDimensional() || (c.numerics.isImmersed() && !c.mesh.cells.empty()) ||
@@ -145,7 +146,7 @@ double jitterOf(const Case& c) {
 
 }  // namespace
 
-// Rules between files know a file and a key; the line and column follow from the dictionary.
+// Rules between files give only a file and a key; line and column are found here, in the dictionary.
 void Case::throwIfAny(const Problems& problems) const {
     try {
         problems.throwIfAny();
@@ -163,7 +164,7 @@ void Case::throwIfAny(const Problems& problems) const {
 
 namespace {
 
-// All files, by their own declarations; throws with every problem found.
+// Reads all files by their declared settings; throws all problems together.
 void readFiles(const Application& app, Case& c, Problems& problems) {
     const std::set<std::string> misnamed = checkFiles(app, problems);
     const auto readInto = [&]<class T>(T& settings, const std::string& file) {
@@ -187,7 +188,7 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
     throwWithKeysInstead(problems);
 }
 
-// Where the cells of each type are put.
+// Finds the places of the cells of each type.
 void findPlaces(Case& c, const std::set<std::string>& unplaced, Problems& problems) {
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
         CellTypeSettings& cell = c.mesh.cells[i];
@@ -240,7 +241,7 @@ void resolveFlow(Case& c, Problems& problems) {
         problems.add({"system/control.yaml", 0, 0}, "write.strain", noShear + "write.time");
 }
 
-// What automatic keys stand for now that the flow is known.
+// Resolves automatic keys, now that the flow is known.
 void settle(Case& c) {
     const schemes::CaseFacts facts = c.facts();
     c.integratorChosen = c.written.isAutomatic();

@@ -20,7 +20,8 @@ std::string lowered(std::string text) {
     return text;
 }
 
-// In upper case with any ending: README.md, LICENSE, NOTES.txt. Or hidden, or an editor's copy.
+// Whether a file is ignored: its name is in upper case with any ending (README.md, LICENSE, NOTES.txt), or it is
+// hidden, or an editor's copy.
 bool isPassedOver(const std::string& name) {
     static const std::vector<std::string> copies{".swp", ".swo", ".bak", ".orig", ".rej", ".old", ".tmp", ".save"};
     if (name.front() == '.' || name.front() == '#' || name.back() == '~') return true;
@@ -39,7 +40,7 @@ std::string stemOf(const std::string& file) {
     return name.string();
 }
 
-// What a file that is none of the dictionaries was meant to be, and what is wrong with it. Nothing for other files.
+// For a file that seems to be meant as a dictionary but is none: which one, and a message. Empty for other files.
 struct Finding {
     std::string meant;  // "system/observers.yaml"; may be ""
     std::string message;
@@ -56,7 +57,7 @@ Finding find(const std::string& file, const std::vector<std::string>& absent) {
             return {d, fmt::format("this dictionary belongs in {0}; move it to {1}", folderOf(d), d)};
     }
     if (folder.empty()) return {};
-    // Tables and surfaces have names of their own; without an ending a file is meant as a dictionary.
+    // Tables and surfaces may have any name; a file without an ending is taken for a dictionary.
     const bool isLike = isYaml || isOneOf(ending, {"", ".json", ".txt", ".dict", ".in"});
     if (!isLike) return {};
     if (isOneOf(stem, here)) {

@@ -1,8 +1,8 @@
-// Which files a case may hold in system/ and constant/. A dictionary that no program reads is a fault: a misspelt
-// observers.yaml would be passed over without a word.
+// Checks which files a case has in system/ and constant/. A dictionary that no program reads is an error: otherwise a
+// misspelt observers.yaml would be ignored silently.
 //
-// Passed over are hidden files, backups of editors (x~, #x#, .bak, .orig, .swp, ...), README and the like, folders, and
-// files of other kinds (surfaces, pictures, tables): a dictionary names those that it needs.
+// Ignored are hidden files, backups of editors (x~, #x#, .bak, .orig, .swp, ...), README and similar files, folders,
+// and files of other kinds (surfaces, pictures, tables), which are read only if a dictionary names them.
 #pragma once
 #include <set>
 #include <string>
@@ -12,14 +12,14 @@
 
 namespace corpuscle::simulation {
 
-// "system/control.yaml", ...: all that any program reads.
+// All dictionaries that programs read: "system/control.yaml", ...
 const std::vector<std::string>& dictionaryFiles();
 
-// Adds a problem for each file that looks like a dictionary and is none. Returns the missing dictionaries that these
-// seem to be meant for: it need not be said as well that they are missing. Collective.
+// Adds a problem for each file that looks like a dictionary but is none. Returns the missing dictionaries that these
+// files seem to be meant as, so that the caller need not report them as missing as well. Collective.
 std::set<std::string> checkFiles(const Application& app, Problems& problems);
 
-// The same for a list of files as they stand in the case, folders with a '/' at the end.
+// The same for a given list of the files of a case, by their paths in it; folders end with '/'.
 std::set<std::string> checkFiles(const std::vector<std::string>& files, Problems& problems);
 
 }  // namespace corpuscle::simulation

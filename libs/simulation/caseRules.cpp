@@ -25,12 +25,13 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh) {
 namespace {
 
 constexpr double leastBodyInSpacings = 3;
-constexpr double largestEdgeInSpacings = 2;                // immersed
+constexpr double largestEdgeInSpacings = 2;                // of immersed membranes
 constexpr double leastSupport = 1.2, largestSupport = 10;  // in spacings
 
 const char* axisName(int k) { return k == 0 ? "x" : k == 1 ? "y" : "z"; }
 
-// A surface whose size fits neither box nor edge, where another unit of its file would.
+// Message about a surface whose size does not fit the box or the edge, but would in another unit of its file; else
+// empty.
 std::string wrongScale(const Case& c, const SurfaceSettings& surface) {
     const double longest = surface.shape->box().sizes().maxCoeff(), room = c.mesh.domain.size.maxCoeff();
     if (longest <= room && surface.edge <= 0.5 * surface.shape->radius()) return {};
@@ -77,13 +78,13 @@ void checkSurface(const Case& c, const PlacedSurface& surface, Problems& problem
         }
 }
 
-// Whether walls of another shape are crossed the nodes tell (stateCheck.hpp).
+// Plane walls only; walls of other shapes are tested with the nodes of the mesh (stateCheck.hpp).
 void checkBetweenPlanes(const Case& c, const geometry::Shape& shape, const std::string& kind,
                         const geometry::Place& place, const std::string& key, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
     const Eigen::AlignedBox3d box = shape.box();
     const int wall = *c.planesAcross();
-    // Extent across the walls, as that of the ellipsoid in the shape's box.
+    // Extent across the walls: that of the ellipsoid in the shape's box.
     const Vec3 across = place.scale * geometry::rotationFromZ(place.axis).row(wall).transpose(),
                half = 0.5 * box.sizes(), middle = box.center();
     const double extent = std::abs(place.centre[wall] + across.dot(middle)) + across.cwiseProduct(half).norm();
@@ -95,8 +96,8 @@ void checkBetweenPlanes(const Case& c, const geometry::Shape& shape, const std::
                          "; move it towards the middle or make the box larger");
 }
 
-// What immersed coupling asks of a cell: triangles that leave no particle between them, and one nearest image
-// everywhere.
+// What immersed coupling requires of a type of cell: triangles small enough to hold particles near their middle to
+// their side.
 void checkImmersed(const Case& c, const CellTypeSettings& cell, const std::string& key, Problems& problems) {
     if (!wrongScale(c, cell).empty()) return;
     const Mark mesh{"system/mesh.yaml", 0, 0};
@@ -110,7 +111,7 @@ void checkImmersed(const Case& c, const CellTypeSettings& cell, const std::strin
                 formatQuantity(largestEdgeInSpacings, unit::none) + " dx, " + formatQuantity(longest, unit::metre));
 }
 
-// The same of one of its cells.
+// What immersed coupling requires of one cell: a unique nearest image everywhere.
 void checkImmersedPlace(const Case& c, const CellTypeSettings& cell, const geometry::Place& place,
                         const std::string& key, Problems& problems) {
     const Mark mesh{"system/mesh.yaml", 0, 0};
@@ -130,7 +131,8 @@ void checkImmersedPlace(const Case& c, const CellTypeSettings& cell, const geome
     }
 }
 
-// Layers of other viscosities lie between two walls, each at least a spacing thick, without cells or bodies.
+// Layers of other viscosities require two plane walls, must each be at least a spacing thick, and exclude cells and
+// bodies.
 void checkLayers(const Case& c, Problems& problems) {
     const Mark fluid{"constant/fluid.yaml", 0, 0};
     const std::vector<LayerSettings>& layers = c.fluid.layers;
@@ -229,7 +231,7 @@ void checkSurfaces(const Case& c, Problems& problems) {
             checkBetweenPlanes(c, *body.shape, "body", {body.centre, body.axis, 1}, fmt::format("bodies[{}].centre", i),
                                problems);
     }
-    int number = 0;  // of the cell
+    int number = 0;  // number of the cell
     for (std::size_t i = 0; i < c.mesh.cells.size(); ++i) {
         const CellTypeSettings& cell = c.mesh.cells[i];
         const bool isRight = cell.shape && wrongScale(c, cell).empty();
@@ -287,7 +289,7 @@ void checkTogether(const Case& c, Problems& problems) {
 }
 
 void checkSizes(const Case& c, double shearModulus, Problems& problems) {
-    constexpr double least = 1e-60, largest = 1e60;  // squares and products of a few stay far from overflow
+    constexpr double least = 1e-60, largest = 1e60;  // squares and products of a few such values do not overflow
     const double soundSpeed = c.soundSpeed();
     struct Value {
         const char* what;
@@ -309,7 +311,7 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
                      fmt::format("{} comes out as {}, which cannot be computed with: one of the values that it follows "
                                  "from (Ca, Re, viscosity, moduli, sizes) is far from anything real",
                                  what, formatQuantity(size, dimension)));
-        return;  // others follow from it
+        return;  // the others depend on it
     }
 }
 

@@ -1,4 +1,4 @@
-// Rules between the files of a case.
+// Rules that involve several files of a case.
 #pragma once
 #include "simulation/case.hpp"
 
@@ -11,15 +11,15 @@ struct PlacedSurface {
 };
 std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh);
 
-// Adds a problem for each rule that the case breaks; each names the file that most likely has to change.
+// Adds a problem for each rule that the case breaks; the problem names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems);
 
-// Entries of constant/membranes.yaml and constant/bodies.yaml that no cell and no body takes: what is changed there has
-// no effect. A sentence each, with what to do.
+// One sentence for each entry of constant/membranes.yaml and constant/bodies.yaml that no cell or body uses, so that
+// changes to it have no effect; it says what to do.
 std::vector<std::string> unusedEntries(const Case& c);
 
-// Values that each lie in their range can have a product that does not: adds a problem for what cannot be computed with
-// once the flow is known.
+// Values that each lie within their range can combine to a quantity that overflows or underflows. Adds a problem for
+// the first such quantity, once the flow is known.
 void checkSizes(const Case& c, double shearModulus, Problems& problems);
 
 }  // namespace corpuscle::simulation

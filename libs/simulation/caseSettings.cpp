@@ -104,7 +104,7 @@ const Schema<DomainSettings>& DomainSettings::schema() {
 }
 
 namespace {
-// The keys of all closed surfaces; those of a cell may come from a ready one.
+// The keys of all closed surfaces; a cell may have them from a ready cell.
 template <class Surface>
 void addSurface(Schema<Surface>& s, const FieldOptions& ofShape = {}) {
     s.name("name", static_cast<std::string Surface::*>(&SurfaceSettings::name), "names 0/<name>.vtp and its results")

@@ -15,13 +15,13 @@ namespace corpuscle::simulation {
 struct WriteSettings {
     std::optional<double> strain, time;  // time in s
     std::optional<long> steps;
-    std::vector<std::string> fields;  // of the fluid
-    std::optional<long> keep;         // empty: all
+    std::vector<std::string> fields;  // arrays of the fluid
+    std::optional<long> keep;         // number of written times that stay on disk; empty: all
     static const Schema<WriteSettings>& schema();
     Interval interval() const;
 };
 struct CheckpointSettings {
-    std::optional<double> wallClock;  // s; empty: only at the end
+    std::optional<double> wallClock;  // interval in s; empty: only at the end
     long keep = 2;
     static const Schema<CheckpointSettings>& schema();
 };
@@ -31,15 +31,15 @@ struct StopSettings {
     bool firstBreak = false;
     static const Schema<StopSettings>& schema();
 };
-// What is said of the key `libs`, here and in system/relax.yaml.
+// Description of the key `libs`, here and in system/relax.yaml.
 inline constexpr const char* pluginsText =
     "libraries with models of your own, such as [myLaw.so]; paths from the case directory";
 
 struct ControlSettings {
     std::string application;
     std::string startFrom = "latestTime";
-    // The time that `startFrom` (or -restart) means [s]; nothing for latestTime. Throws std::invalid_argument that says
-    // what is allowed.
+    // The time that `startFrom` (or -restart) selects [s]; empty for latestTime. Throws std::invalid_argument with the
+    // allowed values.
     static std::optional<double> startingTime(const std::string& startFrom);
     std::optional<double> endTime, endStrain;
     WriteSettings write;
@@ -60,7 +60,7 @@ struct DomainSettings {
 struct SurfaceSettings {
     std::string name;
     Choice<geometry::Shape> shape;
-    Length edgeLength;  // target, as given
+    Length edgeLength;  // target, as written: a length, or in spacings
     double edge = 0;    // the same [m], once the particle spacing is known
     std::string enclose;
     bool enclosesExactly() const { return enclose == "exact"; }  // geometry/enclosedVolume.hpp
@@ -73,36 +73,36 @@ struct PlaceSettings {
     static const Schema<PlaceSettings>& schema();
 };
 struct CellSettings : SurfaceSettings {
-    std::optional<std::string> cell;      // ready one (readyCell.hpp), whose values have been put here
-    std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the one of the cell's name
+    std::optional<std::string> cell;      // name of a ready cell, replaced by its values (readyCell.hpp)
+    std::optional<std::string> membrane;  // entry of constant/membranes.yaml; empty: the entry with the cell's name
     static const Schema<CellSettings>& schema();
     const std::string& type() const { return membrane ? *membrane : name; }
 };
-// One type of cell: a mesh and a membrane, placed once, or as often as `places` or `table` say.
+// One type of cell: a mesh and a membrane, for a single cell or for one cell at each place of `places` or `table`.
 struct CellTypeSettings : CellSettings {
     std::vector<PlaceSettings> places;
     std::optional<std::string> table;  // file of places (placesTable.hpp)
     static const Schema<CellTypeSettings>& schema();
 
-    // What follows. Its cells, each by where the mesh in 0/ is put: once and as it stands there where the entry itself
-    // says where its cell is.
+    // Derived: for each cell, where the mesh in 0/ is put. If the entry itself says where its single cell is, the mesh
+    // in 0/ already stands there, and the only place is the identity.
     std::vector<geometry::Place> placed{geometry::Place{}};
     bool isPlacedByList() const { return !places.empty() || table; }
-    // Where the shape, around the origin with its axis along z, is put.
+    // For each cell, where the shape is put, which is given around the origin with its axis along z.
     std::vector<geometry::Place> standing() const {
         return isPlacedByList() ? placed : std::vector<geometry::Place>{{centre, axis, 1}};
     }
     double largestScale() const;
 };
 struct BodyPlaceSettings : SurfaceSettings {
-    std::optional<std::string> body;  // entry of constant/bodies.yaml; empty: the one of the body's name
+    std::optional<std::string> body;  // entry of constant/bodies.yaml; empty: the entry with the body's name
     static const Schema<BodyPlaceSettings>& schema();
     const std::string& type() const { return body ? *body : name; }
 };
 struct FillSettings {
-    std::optional<double> jitter;  // in spacings; a loaded case has one (case.hpp)
+    std::optional<double> jitter;  // in spacings; always set in a Case that has been read (case.cpp)
     long seed = 1;
-    long relaxation = 60;  // sweeps that even out the particles around membranes
+    long relaxation = 60;  // number of sweeps that even out the particles around membranes
     static const Schema<FillSettings>& schema();
 };
 struct MeshSettings {
@@ -115,7 +115,7 @@ struct MeshSettings {
 
 // constant/fluid.yaml
 struct LayerSettings {
-    double above = 0;  // coordinate along the walls' normal at which it begins [m]
+    double above = 0;  // coordinate along the walls' normal at which the layer begins [m]
     double viscosity = 0;
     static const Schema<LayerSettings>& schema();
 };
@@ -132,7 +132,8 @@ struct MembranesSettings {
     static const Schema<MembranesSettings>& schema();
 };
 
-// A problem at `mark` where `user` ("the cell 'rbc' of system/mesh.yaml") names an entry that a dictionary lacks.
+// Adds a problem at `mark` if the entry `type`, which `user` ("the cell 'rbc' of system/mesh.yaml") names, is not among
+// the known ones.
 void requireEntry(const std::vector<std::string>& known, const std::string& type, const std::string& user,
                   const Mark& mark, Problems& problems);
 template <class Settings>

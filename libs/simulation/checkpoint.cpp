@@ -16,7 +16,7 @@ using coupling::Scene;
 
 namespace {
 
-// Of the dataset with what the scheme keeps.
+// Name of the dataset with the state of the scheme.
 std::string schemeName(const Case& input) { return "scheme/" + input.scheme().traits().state; }
 
 std::vector<double> flat(const std::vector<Vec3>& vectors) {
@@ -30,7 +30,7 @@ std::vector<Vec3> vectors(const std::vector<double>& values) {
     return result;
 }
 
-// Every rank's part of the budget, rank after rank, the same on all.
+// The parts of all ranks in the budget, rank after rank; the same on every rank.
 std::vector<double> gathered(const sph::Budget& budget, MPI_Comm comm) {
     std::vector<double> own(budget.total.begin(), budget.total.end());
     own.insert(own.end(), budget.last.begin(), budget.last.end());
@@ -42,7 +42,7 @@ std::vector<double> gathered(const sph::Budget& budget, MPI_Comm comm) {
     MPI_Allgather(own.data(), length, MPI_DOUBLE, all.data(), length, MPI_DOUBLE, comm);
     return all;
 }
-// A rank's own part where there are as many ranks; else all of it to the root.
+// With the same number of ranks, each rank takes its own part; otherwise the root takes the sum of all parts.
 void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sameRanks, int rank) {
     const std::size_t count = budget.total.size(), length = 2 * count + 1;
     std::fill(budget.total.begin(), budget.total.end(), 0.0), std::fill(budget.last.begin(), budget.last.end(), 0.0);
@@ -54,8 +54,8 @@ void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sam
     }
 }
 
-// Of each type of cell, datasets with as many rows as it has cells, each written by the cell's owner: its number, and
-// the reach by which its holders were found; places and velocities of its nodes; living bonds; damage.
+// Each type of cell has a group of datasets with one row for each cell, written by the cell's owner: its number, the
+// reach by which its holders were found, positions and velocities of its nodes, unbroken bonds, damage.
 std::string groupOf(const coupling::CellType& type) { return "cells/" + type.name + "/"; }
 
 template <class File>
@@ -122,7 +122,7 @@ void loadType(File& file, const std::string& where, const Scene& scene, std::siz
     }
 }
 
-// To a file, or to memory.
+// Saves a state to a file, or to memory.
 template <class File>
 void save(File& file, const Case& input, const Scene& scene, const Time& time, const RunState& state) {
     const MPI_Comm comm = scene.system->comm();
@@ -150,7 +150,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
             file.writeReplicated("bodies/" + body.name + "/state", body.saved());
 }
 
-// `where` is what errors name.
+// where: name of the file, or of the state in memory, for messages.
 template <class File>
 RunState load(File& file, const std::string& where, const Case& input, Scene& scene, Time& time) {
     time.t = file.template attribute<double>("time");
@@ -187,7 +187,7 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     if (scene.shifting) scene.shifting->restore(file.template attribute<std::int64_t>("shiftingSteps"));
     if (scene.cells.exist()) {
         const auto moves = file.template attribute<std::int64_t>("guardMoves");
-        // The sum over ranks is what counts: rank 0 takes it up.
+        // Only the sum over the ranks matters: rank 0 takes all of it.
         scene.movedBack = scene.system->decomposition().rank() == 0 ? static_cast<long>(moves) : 0;
     }
     if (scene.system->periodicity().slides())

@@ -33,7 +33,7 @@ SchemaInfo flowInfo() {
     return info;
 }
 
-// A dictionary: its settings, and the reader of them.
+// A dictionary: its declared settings and its reader.
 struct Known {
     std::string file;
     SchemaInfo info;
@@ -63,7 +63,7 @@ const std::vector<Known>& known() {
     return all;
 }
 
-// A ready cell brings its shape along, which is put in when a case is read: here any shape stands for it.
+// The shape of a ready cell is inserted when a case is read; here a dummy shape stands in for it.
 void checkMesh(Node node, Problems& problems) {
     Node none;
     Node* cells = node.find("cells");
@@ -78,7 +78,7 @@ void checkMesh(Node node, Problems& problems) {
 
 std::string schemaText(const SchemaInfo& info) { return schemaOf(info).dump(2) + "\n"; }
 
-// All, by the file's name.
+// All schemas, by file name.
 std::vector<std::pair<std::string, SchemaInfo>> schemas() {
     std::vector<std::pair<std::string, SchemaInfo>> all;
     for (const auto& [file, info] : dictionaries())

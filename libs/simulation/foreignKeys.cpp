@@ -55,7 +55,7 @@ const std::vector<Habit>& habits() {
     return all;
 }
 
-// Empty: none is known.
+// What to write in place of a key of another program; empty if the key is not known.
 std::string insteadOf(const std::string& file, const std::string& key) {
     for (const Habit& habit : habits())
         if (habit.file == file && std::find(habit.keys.begin(), habit.keys.end(), key) != habit.keys.end())
@@ -63,7 +63,7 @@ std::string insteadOf(const std::string& file, const std::string& key) {
     return {};
 }
 
-// Of a key at the top of one dictionary, the other dictionary that has it.
+// The other dictionary that has a key, which was found at the top level of `file`; empty if there is none.
 std::string belongsIn(const std::string& file, const std::string& key) {
     for (const auto& [other, info] : dictionaries())
         if (other != file && std::any_of(info.fields.begin(), info.fields.end(),

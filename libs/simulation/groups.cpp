@@ -10,7 +10,8 @@ namespace {
 
 class Groups {
   public:
-    // Of everything, or of a cell or body: what another has already, with the same value, is not repeated.
+    // whose: name of a cell or body; empty: the whole case. A group of a cell or body is not repeated if another one
+    // has it with the same value.
     void add(const std::string& symbol, double number, std::string text, const std::string& whose = "") {
         std::string value = fmt::format("{:.4g}", number);
         const auto of = [&](const Group& g) { return g.symbol == symbol; };
@@ -24,7 +25,7 @@ class Groups {
     std::vector<Group> take() { return std::move(groups_); }
 
   private:
-    std::string first_;  // cell or body
+    std::string first_;  // name of the first cell or body
     std::vector<Group> groups_;
 };
 

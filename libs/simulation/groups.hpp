@@ -1,5 +1,5 @@
-// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json. Cells (or bodies) after
-// the first have those that differ, under their own name: "Ca (stiff)".
+// The dimensionless numbers of a case, for checkCase, the head of a run's log, and run.json. For cells (or bodies)
+// after the first, only numbers that differ are listed, with the name of the cell: "Ca (stiff)".
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace corpuscle::simulation {
 struct Group {
     std::string name, value, text;
     double number;
-    std::string symbol;  // the name without whose it is
+    std::string symbol;  // the name without that of the cell or body: "Ca"
 };
 std::vector<Group> dimensionlessGroups(const Case& input);
 double capillaryNumber(const Case& input, const CellSettings& cell);  // mu gammadot a/Gs, Gs of the closed form

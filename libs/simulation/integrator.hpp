@@ -1,5 +1,5 @@
-// Advances a scene by the scheme of its case, in steps as large as every limit allows (sph/stepLimits.hpp). A step that
-// an event shortens (core/time.hpp) says nothing about the length of the next one.
+// Advances a scene by the scheme of its case, in steps as large as all limits allow (sph/stepLimits.hpp). A step that
+// is shortened to end at an event (core/time.hpp) does not affect the length of the next one.
 #pragma once
 #include <limits>
 #include <memory>
@@ -10,36 +10,37 @@
 
 namespace corpuscle::simulation {
 
-// Name, length, and which one binds; for the log.
+// A row for the log for each limit: its name, its length, and whether it is the binding one.
 std::vector<std::vector<std::string>> limitRows(const sph::StepLimits& limits);
 
 class Integrator {
   public:
-    // The scene must stay where it is: its coupling and loads refer to it.
+    // The scene must not be moved in memory: its coupling and loads refer to it.
     Integrator(const Case& input, coupling::Scene& scene);
 
-    void start(Time& time);  // forces at the initial state, first step
+    void start(Time& time);  // evaluates forces at the initial state and the length of the first step
     struct State {
         double dt = 0;
         std::vector<double> scheme;
     };
     State state(const Time& time) const { return {time.dt, stepper_->state()}; }
     void resume(const State& state, Time& time);  // after a restart
-    // The same where the scene has been rolled back within a run.
+    // The same after a rollback of the scene within a run.
     void goBack(const State& state, Time& time);
-    // From the next step that is chosen on: none longer than this [s], and by backward Euler where damped and the
-    // scheme knows it.
+    // From the next choice of a step on, no step is longer than `longest` [s]; if `damped`, steps are made by backward
+    // Euler where the scheme supports it.
     void shorten(double longest, bool damped);
 
-    // One step of time.dt, shorter where one of the events comes before its end; then time is on and time.dt is what
-    // the limits allow next. Collective. Throws Failure(numerics), on all ranks, where a step cannot be made.
+    // Makes one step of time.dt, shortened if one of the events lies before its end. Afterwards `time` has advanced,
+    // and time.dt is what the limits allow for the next step. Throws Failure(numerics), on all ranks, if the step
+    // cannot be made. Collective.
     void advance(Time& time, const std::vector<Event>& events = {});
-    double tried() const { return tried_; }  // length of the last step, made or not, had no event shortened it [s]
-    bool wasShortened() const { return shortened_; }  // the last step, by an event
+    double tried() const { return tried_; }  // length of the last attempted step, before shortening for an event [s]
+    bool wasShortened() const { return shortened_; }  // whether an event shortened the last step
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;
-    long mostFallbacks() const;  // nodes of immersed membranes with Shepard's weights at once
+    long mostFallbacks() const;  // most nodes of immersed membranes with Shepard's weights at one time
     const schemes::Stepper& stepper() const { return *stepper_; }
 
   private:
@@ -49,9 +50,9 @@ class Integrator {
     coupling::Scene& scene_;
     std::unique_ptr<schemes::Stepper> stepper_;
     sph::StepLimits limits_;
-    double largestBalance_ = 0;                                 // before the last way back
+    double largestBalance_ = 0;                                 // before the last rollback
     long mostFallbacks_ = 0;                                    // likewise
-    double longest_ = std::numeric_limits<double>::infinity();  // step, whatever the limits allow [s]
+    double longest_ = std::numeric_limits<double>::infinity();  // largest step, whatever the limits allow [s]
     double tried_ = 0;
     bool shortened_ = false;
 };

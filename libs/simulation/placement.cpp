@@ -59,7 +59,7 @@ class Clearance {
             const auto length = [](double metres) { return formatQuantity(metres, unit::metre); };
             if (box_.periodic[static_cast<std::size_t>(k)]) {
                 if (high[k] - low[k] > box_.size()[k]) {
-                    bounds_[s].setEmpty();  // meets whatever there is
+                    bounds_[s].setEmpty();  // it would meet everything: excluded from the search for pairs
                     if (!isMine_(s, s)) continue;
                     add(all_[s].shapeKey,
                         fmt::format("the {} is {} long along {}, longer than the box, which is periodic with {}: it "
@@ -135,13 +135,13 @@ class Clearance {
                              words(place), how, least / input_.spacing(), leastGapInSpacings));
     }
 
-    // Whether a node of `inner`, moved, is inside `outer`.
+    // Whether a node of `inner`, moved by `shift`, lies inside `outer`.
     bool holds(std::size_t outer, std::size_t inner, const Vec3& shift) {
         const Vec3 x = all_[inner].surface.nodes->front() + shift;
         return outer != inner && bounds_[outer].contains(bounds_[inner].translated(shift)) && inside(outer).inside(x);
     }
 
-    // Of the nodes of `other`, moved, in the surface `one`.
+    // The deepest of the nodes of `other`, moved by `shift`, that lie inside the surface `one`.
     Deepest deepest(std::size_t one, std::size_t other, const Vec3& shift) {
         Deepest most;
         const geometry::TriangleTree far(meshOf(one), bounds_[one].diagonal().norm());
@@ -203,7 +203,7 @@ std::vector<Problem> withPlaces(const Case& input, const std::vector<Problem>& f
     return {};
 }
 
-// What each rank has found, on all of them.
+// The problems that all ranks have found, on every rank.
 std::vector<Problem> ofAllRanks(const Communicator& ranks, const std::vector<Problem>& own) {
     constexpr char between = '\x1e', after = '\x1f';
     std::string text;

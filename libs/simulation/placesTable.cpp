@@ -40,7 +40,7 @@ std::vector<Word> wordsOf(const std::string& line) {
     return words;
 }
 
-// Which number a column has, and in which unit.
+// Which of the numbers (`names`) a column contains, and its unit.
 struct Column {
     std::size_t number;
     double unit = 1;
@@ -205,7 +205,7 @@ void writePlaces(const std::filesystem::path& path, const std::vector<Place>& pl
     writeFileAtomically(path, text);
 }
 
-// The checksum is that of the numbers as text, so that their last digits do not count.
+// The checksum is that of the numbers as text, so that their last digits do not matter.
 std::string describePlaces(const std::vector<Place>& places) {
     std::string text;
     const auto add = [&](double number) { text += fmt::format("{:.10g};", number + 0.0); };

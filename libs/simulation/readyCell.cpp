@@ -28,7 +28,8 @@ std::vector<fs::path> folders(const Application& app) {
     return all;
 }
 
-// Of rank 0, which alone looks at the disk: text and path of the file, and all names there are.
+// What rank 0, the only one that reads the disk, has found: path and text of the file, and the names of all ready
+// cells.
 struct Found {
     std::string path, text, names;
 };
@@ -70,7 +71,7 @@ void put(Node& table, const std::string& key, Node value) {
         table.entries.emplace_back(key, std::move(value));
 }
 
-// `above` laid over `base`.
+// Overrides values of `base` by those of `above`; a model of another type is replaced as a whole.
 void layOver(Node& base, const Node& above) {
     const std::string type = typeOf(above);
     const bool both = base.kind == Node::Kind::table && above.kind == Node::Kind::table;
@@ -86,7 +87,7 @@ void layOver(Node& base, const Node& above) {
     }
 }
 
-// The file's two tables; nothing where it is not as it must be, and `problems` has why.
+// The file's two tables; empty if the file is missing or invalid, with the reason in `problems`.
 std::optional<Node> readReady(const Application& app, const Node& name, Problems& problems) {
     const Found found = find(app, name.scalar);
     if (found.path.empty()) {
@@ -135,7 +136,7 @@ void insertReadyCells(const Application& app, Node& mesh, Node& membranes, Probl
         const Node* const found = cell.kind == Node::Kind::table ? cell.find("cell") : nullptr;
         if (!found) continue;
         const Node name = *found;
-        if (name.kind != Node::Kind::scalar || !isName(name.scalar)) continue;  // the reader says so
+        if (name.kind != Node::Kind::scalar || !isName(name.scalar)) continue;  // the reader reports it
         bool isAlone = true;
         for (const char* key : {"shape", "membrane"})
             if (const Node* other = cell.find(key)) {

@@ -1,16 +1,15 @@
-// Cells that are ready to be used: `cell: NAME` of a cell of system/mesh.yaml stands for its shape and the laws of its
-// membrane.
+// Ready cells: `cell: NAME` in an entry of `cells` in system/mesh.yaml stands for a shape and the laws of a membrane.
 //
 //     cells: [{name: rbc, cell: whiteCell, edge: 0.5 um}]
 //
 // NAME.yaml has the keys `shape`, as in system/mesh.yaml, and `membrane`, an entry of constant/membranes.yaml. It is
 // looked for, in this order, in constant/cells of the case, in the folders of the environment variable CORPUSCLE_CELLS
-// (with ':' between them), in share/corpuscle/cells beside the folder of the programs, and in etc/cells of the sources
-// that they were built from.
+// (separated by ':'), in share/corpuscle/cells beside the folder of the programs, and in etc/cells of the sources from
+// which the programs were built.
 //
-// The cell's membrane is then the entry NAME of constant/membranes.yaml. Where the case has one, its keys are laid over
-// those of the ready cell; a model of another type takes the place of the ready cell's. From here on nothing knows of
-// ready cells: used.yaml has the values.
+// The cell's membrane is then the entry NAME of constant/membranes.yaml. If the case has such an entry, its keys
+// override those of the ready cell; a model of another type replaces the ready cell's model as a whole. No later code
+// knows of ready cells: used.yaml contains the values.
 #pragma once
 #include "core/application.hpp"
 #include "core/registry.hpp"
@@ -19,17 +18,17 @@
 
 namespace corpuscle::simulation {
 
-// The keys of such a file, for its JSON schema.
+// The keys of NAME.yaml, for its JSON schema.
 struct ReadyCell {
     Choice<geometry::Shape> shape;
     membrane::MembraneSettings membrane;
     static const Schema<ReadyCell>& schema();
 };
 
-// Puts the values in place of the names in both dictionaries. membranes: an empty table where the case has no such
-// file. Collective.
+// Replaces the names of ready cells by their values, in both dictionaries. membranes: an empty table if the case has no
+// constant/membranes.yaml. Collective.
 void insertReadyCells(const Application& app, Node& mesh, Node& membranes, Problems& problems);
-// Whether a cell of the mesh names a ready one.
+// Whether an entry of `cells` in system/mesh.yaml names a ready cell.
 bool namesReadyCells(const Node& mesh);
 
 }  // namespace corpuscle::simulation

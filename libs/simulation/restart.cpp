@@ -18,7 +18,7 @@ constexpr const char* membranesFile = "constant/membranes.yaml";
 constexpr const char* bodiesFile = "constant/bodies.yaml";
 constexpr const char* wayOut = "start from firstTime, or give the old value";
 
-// Text in whole integers, the last filled up with zeros.
+// Text packed into integers, the last one padded with zeros.
 std::vector<std::int64_t> packed(const std::string& text) {
     std::vector<std::int64_t> words((text.size() + sizeof(std::int64_t) - 1) / sizeof(std::int64_t));
     std::memcpy(words.data(), text.data(), text.size());
@@ -46,7 +46,7 @@ std::vector<std::int64_t> flat(const std::vector<Index3>& triangles) {
 // A value that follows from several settings.
 struct Derived {
     std::string name;       // in the checkpoint
-    std::string file, key;  // what errors name
+    std::string file, key;  // named in errors
     AtRestart policy;
     std::string value;
     std::string cure = wayOut;
@@ -66,7 +66,7 @@ std::vector<Derived> derivedValues(const Case& input) {
     all.push_back({"viscosity", "constant/fluid.yaml", "viscosity",
                    input.varyingViscosity() ? AtRestart::fixed : AtRestart::noted,
                    shown(input.fluid.viscosity, unit::pascalSecond)});
-    // Schemes that keep the same state between steps can follow each other.
+    // Schemes that keep the same state between steps can continue each other's runs.
     all.push_back({"integrator", "system/numerics.yaml", "integrator", AtRestart::noted, input.numerics.integrator});
     if (input.flow.shearRate > 0)
         all.push_back({"shearRate", "constant/flow.yaml", "shear rate", AtRestart::noted,
@@ -74,7 +74,7 @@ std::vector<Derived> derivedValues(const Case& input) {
     return all;
 }
 
-// Directions are compared as such.
+// Axes are normalised, since only their directions are to be compared.
 Node meshSettings(MeshSettings mesh) {
     for (CellTypeSettings& cell : mesh.cells) {
         cell.axis.normalize();
@@ -101,7 +101,7 @@ Node settingsOf(const Case& input) {
     return all;
 }
 
-// Whether one can go on from what a checkpoint keeps of the other.
+// Whether one integrator can continue from a checkpoint of the other.
 bool keepTheSame(const std::string& integrator, const std::string& other) {
     const ModelTables<schemes::Scheme> defaults;
     const auto one = defaults.of(integrator), two = defaults.of(other);
@@ -127,7 +127,7 @@ std::string wordOf(const Node& table, const std::string& key) {
     return word ? word->scalar : std::string();
 }
 
-// Collects what the policies make of the changes.
+// Collects the errors and notes that follow from changes, by the policies of their settings.
 class Verdict {
   public:
     Verdict(std::string checkpoint, Spacings spacings) : checkpoint_(std::move(checkpoint)), spacings_(spacings) {}
@@ -158,7 +158,7 @@ class Verdict {
     std::vector<std::string> seen_;
 };
 
-// The laws of each cell, or kind of each body, of both sides.
+// Compares the laws of each cell, or the kind of each body, of the checkpoint and of the case.
 void compareKinds(Verdict& verdict, const std::string& file, const FieldInfo& dictionary, const std::string& list,
                   const std::string& kindKey, const Node& before, const Node& now) {
     const Node *was = tableOf(before, meshFile).find(list), *is = tableOf(now, meshFile).find(list);

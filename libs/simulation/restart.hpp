@@ -1,16 +1,15 @@
-// What a checkpoint depends on beside its own numbers, and whether the case of today may continue from it.
+// What the state in a checkpoint depends on, and whether the present case may continue from it.
 //
-// With every checkpoint go the settings of its run, as used.yaml has them, without those that are free (AtRestart,
+// Every checkpoint contains the settings of its run, as in used.yaml but without those declared `free` (AtRestart,
 // core/settings.hpp); values that the case derives from settings of several files; and the meshes of its cells and
-// bodies as they stood in 0/, with their stress-free shapes. A restart compares all of it: a change of a fixed setting,
-// of a derived value or of a mesh refuses it, all at once; a noted one gives a line. The laws of a cell are compared by
-// cell, whatever their entry of constant/membranes.yaml is called.
+// bodies as they were in 0/, with their stress-free shapes. A restart compares all of this. Changes of fixed settings
+// or derived values, and of meshes, are errors and are reported together; each change of a noted one gives a line in
+// the log. Membrane laws are compared cell by cell, whatever the name of their entry in constant/membranes.yaml.
 //
 // dataset of the checkpoint          | content
-// origin/settings                    | YAML text: a table for each file, and `derived`; its characters eight to an
-//                                    | integer
-// origin/<name>/nodes, /stressFree   | coordinates of a cell or body in 0/ [m]; the latter only where they differ
-// origin/<name>/triangles            | numbers of their nodes
+// origin/settings                    | YAML text: a table for each file, and `derived`; eight characters to an integer
+// origin/<name>/nodes, /stressFree   | node coordinates of a cell or body in 0/ [m]; stressFree only if it differs
+// origin/<name>/triangles            | node numbers of its triangles
 #pragma once
 #include <string>
 #include <vector>
@@ -22,16 +21,16 @@
 
 namespace corpuscle::simulation {
 
-// The dictionaries of a case that a restart looks at, by their files.
+// The dictionaries of a case that a restart compares, by file.
 std::vector<std::pair<std::string, FieldInfo>> restartDictionaries();
 
 void writeOrigin(io::CheckpointWriter& file, const Case& input, const coupling::Scene& scene);
 
-// Throws CaseError with every fixed setting that has changed, and Failure(io) where the file says nothing about its
-// settings. Returns a line for each change that is noted. Collective.
+// Throws CaseError with every fixed setting that has changed, and Failure(io) if the checkpoint contains no settings.
+// Returns a line for each change of a noted setting. Collective.
 std::vector<std::string> compareSettings(const std::filesystem::path& checkpoint, const Case& input, MPI_Comm comm);
 
-// Throws CaseError where a mesh of the scene, as read from 0/, is not the one of the checkpoint.
+// Throws CaseError if a mesh of the scene, as read from 0/, differs from that of the checkpoint.
 void compareMeshes(io::CheckpointReader& file, const std::filesystem::path& checkpoint, const Case& input,
                    const coupling::Scene& scene);
 

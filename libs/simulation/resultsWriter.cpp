@@ -14,7 +14,7 @@ using coupling::Scene;
 using particles::Kind;
 
 namespace {
-// The entry at the time of a restart is that of the run before: the restarted one begins after it.
+// The entry at the time of a restart belongs to the previous run; entries of the restarted run begin after it.
 double earliestOf(const Time& start) { return start.step == 0 ? start.t : start.t * (1 + 1e-8); }
 }  // namespace
 
@@ -46,7 +46,7 @@ void ResultsWriter::goBack(const Ticker& ticker, const Time& time) {
 
 namespace {
 
-// Where images are and how they move, if they slide: for whoever draws what crosses a face.
+// Offset and velocity of images that slide, for programs that draw surfaces across periodic faces.
 std::map<std::string, double> imagesOf(const Periodicity& periodicity) {
     if (!periodicity.slides()) return {};
     return {{"slidingAxis", periodicity.slidingAxis()},
@@ -94,7 +94,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
 }
 
 namespace {
-void addNumbers(io::PolyData& data) {  // of the nodes, that is, of the mesh in 0/
+void addNumbers(io::PolyData& data) {  // numbers of the nodes, as in the mesh in 0/
     auto& id = data.point.integers["id"];
     id.resize(data.points.size());
     std::iota(id.begin(), id.end(), 0);
@@ -197,7 +197,7 @@ void ResultsWriter::write(const Scene& scene, const Time& time) {
 }
 
 std::string writeFault(const Case& input, const Scene& scene, const Time& time, const Vec3& place) {
-    constexpr double reach = 5;  // supports
+    constexpr double reach = 5;  // in supports
     const MPI_Comm comm = scene.system->comm();
     const auto& s = scene.store();
     io::PolyData near;

@@ -17,12 +17,12 @@ namespace corpuscle::simulation {
 using coupling::Scene;
 
 namespace {
-constexpr long goodStepsToRelax = 10;                    // past a fault
+constexpr long goodStepsToRelax = 10;                    // past the time of a fault
 constexpr double leastStep = 1e-7, leastAdvance = 1e-4;  // of a full step
-constexpr long triesToLook = 200;                        // at progress since the last rollback
+constexpr long triesToLook = 200;                        // after which progress since the last rollback is checked
 constexpr double mostSteps = 1e9;                        // of a run
-constexpr auto patience = std::chrono::seconds(10);      // for ranks on their way with the same failure
-// What to do about a limit of the step that lets a run come no further.
+constexpr auto patience = std::chrono::seconds(10);      // with ranks that have yet to reach the same failure
+// What to do if this limit of the step keeps a run from advancing.
 std::string cureOf(const sph::StepLimit& limit) {
     if (!limit.cure.empty()) return limit.cure;
     return "take a smaller step ('implicit.step' or 'safety') in system/numerics.yaml, or a finer mesh or spacing";
@@ -79,7 +79,7 @@ bool Rollback::advance() {
     return true;
 }
 
-// What is wrong after one; nothing where all is well.
+// Makes a step; returns what is wrong after it, empty if nothing is.
 Fault Rollback::step() {
     const schemes::Stepper& stepper = integrator_.stepper();
     const long before = stepper.tries();
@@ -98,8 +98,8 @@ Fault Rollback::step() {
     return check_.find(scene_, time_);
 }
 
-// A rank that failed alone leaves the others waiting within the step: then there is no way back, and the failure goes
-// on to end the run.
+// If only some ranks have failed, the others wait within the step: a rollback is then impossible, and the failure is
+// passed on and ends the run.
 bool Rollback::allFailed() {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Ibarrier(meeting_, &request);
@@ -181,8 +181,8 @@ Fault Rollback::creeping() {
     };
     if (time_.dt < leastStep * full_)
         return because(fmt::format("the step has fallen to {:.3g} s, and the run would never end", time_.dt));
-    // Steps since the last rollback; and, so that a run does not go back and forth for ever, all steps, over more of
-    // them than it takes to come past a fault from the earlier state by the shortest step.
+    // Progress is checked since the last rollback and also over the whole run, so that a run does not go back and forth
+    // for ever: over more steps than are needed to pass a fault from the earlier state with the shortest step.
     const long toPassFault = 4 * traits_.stepsPerKeptState << std::min(input_.numerics.rollbacks, 20L);
     for (const auto& [look, now, enough] : {std::tuple(&lookNear_, Progress{furthest_.tries, time_.t}, triesToLook),
                                             std::tuple(&lookFar_, furthest_, std::max(triesToLook, toPassFault))}) {

@@ -21,7 +21,7 @@ ExitCode run(Application& app, const RunHooks& hooks) {
     Rollback step(input, scene, time, integrator, after, app.log());
     while (time.running() && !after.stopRequested(scene, time)) {
         hooks.beforeStep(scene, time, integrator);
-        if (step.advance()) after.afterStep(scene, time);  // back where it fails
+        if (step.advance()) after.afterStep(scene, time);  // false: rolled back
     }
     return after.end(scene, time);
 }

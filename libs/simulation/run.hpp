@@ -1,4 +1,4 @@
-// A run from its case to its end: what dmpFlow, sphFlow, benchmarks and tests that step a case have in common.
+// A whole run, from reading the case to the exit code, for dmpFlow, sphFlow, and benchmarks and tests that step a case.
 #pragma once
 #include <functional>
 
@@ -7,9 +7,9 @@
 namespace corpuscle::simulation {
 
 struct RunHooks {
-    // Once the case has been read; throws what is wrong with it for this program.
+    // Called once the case has been read; throws if the case does not suit this program.
     std::function<void(const Case& input)> check = [](const Case&) {};
-    // Before each step, once or again where a step has been taken back. Collective.
+    // Called before each step, and again if a step was rolled back. Collective.
     std::function<void(coupling::Scene& scene, Time& time, const Integrator& integrator)> beforeStep =
         [](coupling::Scene&, Time&, const Integrator&) {};
 };

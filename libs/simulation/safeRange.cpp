@@ -16,8 +16,9 @@ namespace corpuscle::simulation {
 
 namespace {
 
-constexpr double stiffest = 0.005;  // largest Ca of a stiff cell: a finer mesh turned it too fast at 0.002, not at 0.02
-constexpr double rounding = 1e-6;   // of numbers such as 0.05 that come out of units and quotients
+// Largest Ca of a stiff cell: with a finer mesh it rotated too fast at 0.002, not at 0.02.
+constexpr double stiffest = 0.005;
+constexpr double rounding = 1e-6;  // relative, of numbers such as 0.05 after conversion of units and division
 constexpr const char* header = "axis,integrator,low,high,outside";
 
 double number(const std::string& word, const std::string& line) {
@@ -45,7 +46,7 @@ std::optional<double> valueOf(const Case& input, const std::string& axis) {
     return std::nullopt;
 }
 
-// Of a case on an axis, by name: one value, or those of all cells, none twice.
+// Values of a case on an axis, with their names: one value, or those of all cells without repetition.
 std::vector<std::pair<std::string, double>> valuesOf(const Case& input, const std::vector<Group>& groups,
                                                      const std::string& axis) {
     std::vector<std::pair<std::string, double>> values;

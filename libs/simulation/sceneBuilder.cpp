@@ -28,7 +28,7 @@ std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double s
 
 namespace {
 
-// Contact of a membrane with itself must not be that of neighbours in its mesh.
+// Neighbours in the mesh must not count as contact of a membrane with itself.
 void checkReach(const contact::ContactLaw& law, const CellType& type, Problems& problems) {
     double least = 1;
     for (const geometry::Place& place : type.places) least = std::min(least, place.scale);
@@ -68,7 +68,7 @@ std::vector<CellType> readTypes(const Case& input) {
     return types;
 }
 
-// The number of the cell that a point at t = 0 is inside, 0: none.
+// The number of the cell that contains a point at t = 0; 0: none.
 int cellAround(const Scene& scene, const Vec3& x) {
     const Periodicity period = scene.fluidBox.periodicity();
     for (const CellType& type : scene.cells.types()) {
@@ -116,7 +116,7 @@ void addBodies(const Case& input, Scene& scene) {
 // Velocity and half the curl of the undisturbed flow, by central differences.
 bodies::RigidMotion motionOfFlow(const Case& input, const Vec3& x) {
     const double step = 1e-2 * input.spacing();
-    Mat3 gradient;  // (i, k): of u_i along k
+    Mat3 gradient;  // (i, k): derivative of u_i along axis k
     for (int k = 0; k < 3; ++k) {
         const Vec3 along = step * Vec3::Unit(k);
         gradient.col(k) = (input.flow.velocity(x + along) - input.flow.velocity(x - along)) / (2 * step);
@@ -127,7 +127,7 @@ bodies::RigidMotion motionOfFlow(const Case& input, const Vec3& x) {
 
 double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
 
-// Adds this rank's share of `total` things: those with numbers in [total r/P, total (r+1)/P).
+// Calls f for this rank's share of `total` items: those with numbers in [total r/P, total (r+1)/P), r of P ranks.
 template <class F>
 void forShare(std::size_t total, MPI_Comm comm, F&& f) {
     int rank = 0, size = 1;
@@ -171,7 +171,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
     if (input.contact && hasCells)
         scene.contacts = std::make_unique<coupling::CellContacts>(*input.contact, scene.model().walls);
-    if (input.numerics.shifting && !input.scheme().traits().isAdjoint)  // those shift within every step
+    if (input.numerics.shifting && !input.scheme().traits().isAdjoint)  // adjoint schemes shift within every step
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
     return scene;
@@ -179,7 +179,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
 
 namespace {
 
-// Puts this rank's share of all particles of the start into a scene, numbered kind after kind.
+// Adds this rank's share of the initial particles to a scene; their ids are numbered kind after kind.
 class StartingParticles {
   public:
     StartingParticles(const Case& input, Scene& scene)
@@ -211,7 +211,7 @@ class StartingParticles {
         });
         firstId_ += walls.points.size();
     }
-    // The nodes of membranes, where the coupling says that they are particles.
+    // The nodes of membranes, if they are particles in the coupling of the case (dual identity).
     void addNodes() {
         if (!s_.optional().node) return;
         const sph::FluidModel& model = scene_.model();

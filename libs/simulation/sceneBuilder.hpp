@@ -1,18 +1,18 @@
-// From a checked case to a scene: only what the case names exists.
+// Builds the scene of a checked case; it contains only what the case names.
 #pragma once
 #include "coupling/scene.hpp"
 #include "simulation/case.hpp"
 
 namespace corpuscle::simulation {
 
-// Particles and cells where they stand in 0/, with the velocity and pressure of the flow, spread over the ranks. Throws
-// as readStart. Collective.
+// The scene at t = 0: particles and cells at their places in 0/, with the velocity and pressure of the flow,
+// distributed over the ranks. Throws like readStart. Collective.
 coupling::Scene buildScene(const Case& input, MPI_Comm comm);
 
-// The scene without particles: what a restart fills from its checkpoint.
+// The scene without particles, which a restart fills from its checkpoint.
 coupling::Scene emptyScene(const Case& input, MPI_Comm comm);
 
-// Volume of each node of a membrane as a particle: the area around it, one spacing thick [m^3].
+// Volume of each membrane node as a particle: its vertex area times one spacing [m^3].
 std::vector<double> nodeVolumes(const std::vector<double>& vertexAreas, double spacing);
 
 }  // namespace corpuscle::simulation

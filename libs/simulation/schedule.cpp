@@ -149,11 +149,11 @@ void Schedule::afterStep(const Scene& scene, const Time& time) {
     recordProgress(time);
     try {
         record_.write();
-    } catch (const Failure&) {  // a full disk ends the run where something is to be kept, not here
+    } catch (const Failure&) {  // a full disk ends the run when results or checkpoints are written, not here
     }
 }
 
-// For whoever watches the run (caseMonitor).
+// For programs that watch the run (caseMonitor).
 void Schedule::recordProgress(const Time& time) {
     const auto now = std::chrono::steady_clock::now();
     const double pause = std::chrono::duration<double>(now - told_).count(),

@@ -17,20 +17,21 @@ namespace corpuscle::simulation {
 class Schedule {
   public:
     Schedule(Application& app, const Case& input, const StartingPoint& from, const Integrator& integrator);
-    // Says what a run that ends by an error leaves to go on from.
+    // If the run ends by an error, reports the checkpoint from which it can continue.
     ~Schedule();
-    // -dry-run: groups, limits, particles; writes nothing.
+    // For -dry-run: reports groups, limits and the number of particles; writes nothing.
     ExitCode dryRun(const coupling::Scene& scene, const Time& time);
-    // Head of the log, used.yaml, run.json, and what is due before the first step. The first to change files of the
-    // case: what an earlier run left after the start is removed.
+    // Writes the head of the log, used.yaml, run.json, and what is due before the first step. Changes files of the case
+    // for the first time: it begins by removing what an earlier run wrote after the start.
     void begin(const coupling::Scene& scene, const Time& time);
-    // Whether the run is to end before its time: by request, or at the first break where the case says so. Collective.
+    // Whether the run is to end early: by request, or at the first broken bond if the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
     void afterStep(const coupling::Scene& scene, const Time& time);
-    // Where steps are to end: the ends of the run, results, observers.
+    // Where steps have to end: at the ends of the run, and at the times of results and observers.
     std::vector<Event> events(const Time& time) const;
 
-    // What is to be seen and written again where the run goes back to an earlier state (rollback.hpp). Collective.
+    // What is kept for a rollback (rollback.hpp), so that observers look again and results are written again after it.
+    // Collective.
     struct Memory {
         observers::Observers::Memory observers;
         Ticker results;
@@ -38,10 +39,10 @@ class Schedule {
     };
     Memory remember() const;
     void goBack(const Memory& memory, const coupling::Scene& scene, const Time& time);
-    // Of the state in the scene.
+    // Writes a checkpoint of the state in the scene.
     void saveCheckpoint(const coupling::Scene& scene, const Time& time);
     RunRecord& record() { return record_; }
-    // Last checkpoint, table of figures; the exit code.
+    // Writes the last checkpoint and the final figures; returns the exit code.
     ExitCode end(const coupling::Scene& scene, const Time& time);
 
   private:
@@ -63,10 +64,10 @@ class Schedule {
     WallTicker checkpoints_;
     StopControl stop_;
     Progress progress_;
-    std::shared_ptr<RunRecord> kept_;  // outlives this where an error ends the run
+    std::shared_ptr<RunRecord> kept_;  // shared: outlives this object if an error ends the run
     RunRecord& record_;
     std::chrono::steady_clock::time_point began_;
-    double processorBegan_;  // of this rank [s]
+    double processorBegan_;  // processor time of this rank at the start [s]
     long particles_ = 0, guardMoves_ = 0, brokenBonds_ = 0;
     double smallestDt_ = 0, largestDt_ = 0;
     bool begun_ = false;

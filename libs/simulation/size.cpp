@@ -15,16 +15,16 @@ namespace corpuscle::simulation {
 
 namespace {
 
-// Bytes. Of a particle or a ghost: by explicit schemes, and where operators are corrected (the implicit step, velocity
-// Verlet on adjoint operators); with membranes or bodies in the fluid there is more of them.
+// In bytes. Of a particle or a ghost: `plain` with explicit schemes, `corrected` in the implicit step and velocity
+// Verlet on adjoint operators; `...Loaded` with membranes or bodies in the fluid.
 struct MemoryCosts {
-    static constexpr double program = 46e6, parallel = 6e6;  // of a rank; more where there are several
+    static constexpr double program = 46e6, parallel = 6e6;  // of a rank; additional with several ranks
     static constexpr double plain = 600, plainLoaded = 730;
     static constexpr double corrected = 1150, correctedLoaded = 1500;
     static constexpr double network = 1500;  // of a node of a mesh, with its bonds and triangles, on each rank
 };
 
-// Cut from the box across its longest side again and again.
+// Size of a brick if the box is cut repeatedly across its longest side.
 Vec3 evenBrick(const Case& c, int ranks) {
     Vec3 brick = c.particleBox().size();
     for (int parts = ranks; parts > 1;) {
@@ -38,8 +38,8 @@ Vec3 evenBrick(const Case& c, int ranks) {
     return brick;
 }
 
-// Copies of particles that a rank has besides its own, over its own: of an even brick what lies within `reach` around
-// it. Nothing lies beyond a wall.
+// Number of ghosts of a rank over the number of its own particles: the volume within `reach` around an even brick over
+// that of the brick. No ghosts lie beyond a wall.
 double ghostShare(const Case& c, int ranks, double reach) {
     const Vec3 box = c.particleBox().size(), brick = evenBrick(c, ranks);
     double share = 1;
@@ -50,7 +50,7 @@ double ghostShare(const Case& c, int ranks, double reach) {
     return share - 1;
 }
 
-// How many ranks hold a cell of this radius, on the average.
+// Mean number of ranks that hold a cell of this radius.
 double holdersOf(const Case& c, int ranks, double radius) {
     const Vec3 box = c.particleBox().size(), brick = evenBrick(c, ranks);
     const double margin = c.numerics.isImmersed() ? coupling::Immersed::margin(c.spacing(), c.support(), c.skin())
@@ -109,9 +109,9 @@ ParticleEstimate estimateLattice(const Case& c) {
 
 ParticleEstimate estimateParticles(const Case& c) {
     ParticleEstimate n = estimateLattice(c);
-    if (!c.numerics.isImmersed())  // else nodes are no particles
+    if (!c.numerics.isImmersed())  // immersed nodes are not particles
         for (const CellTypeSettings& cell : c.mesh.cells) {
-            // As particles the nodes replace fluid of area x dx.
+            // Nodes that are particles replace fluid of the volume area x dx.
             double squares = 0;
             for (const geometry::Place& place : cell.placed) squares += place.scale * place.scale;
             n.nodes += estimateNodes(cell) * static_cast<double>(cell.placed.size());
@@ -126,7 +126,7 @@ ParticleEstimate estimateParticles(const Case& c) {
 }
 
 SizeEstimate estimateSize(const Case& c, int ranks) {
-    constexpr double place = 38, component = 7.5, perNode = 170;  // compressed; a node with its two triangles
+    constexpr double place = 38, component = 7.5, perNode = 170;  // compressed; perNode: a node with its two triangles
     constexpr double state = 137, nodeState = 100;                // of a checkpoint
     const ParticleEstimate particles = estimateParticles(c);
     const double n = particles.all(), written = n - particles.walls;

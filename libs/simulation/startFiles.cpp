@@ -23,7 +23,7 @@ std::string rounded(const std::string& text) {
     return fmt::format("{:.10g}{}", number + 0.0, std::string(end, text.data() + text.size()));  // + 0.0: no "-0"
 }
 
-// Everything below a node by its full key, lists of values as one text.
+// Adds all settings below a node by their full keys; a list of values is one text.
 void flatten(const Node& node, const std::string& key, Settings& settings) {
     if (node.kind == Node::Kind::table) {
         for (const auto& [name, value] : node.entries) flatten(value, fmt::format("{}.{}", key, name), settings);
@@ -36,7 +36,7 @@ void flatten(const Node& node, const std::string& key, Settings& settings) {
     }
 }
 
-// A cell or rigid body of system/mesh.yaml, by its place there.
+// A cell or rigid body of system/mesh.yaml, with its key there.
 struct Surface {
     const SurfaceSettings* settings = nullptr;
     std::string kind, key;  // "cell", "cells[0]"
@@ -55,7 +55,7 @@ Surface surfaceNamed(const Case& input, const std::string& name) {
 
 void addSurface(SurfaceSettings surface, const std::string& key, Settings& settings) {
     surface.axis.normalize();
-    surface.edgeLength = {surface.edge, false};  // in dx it would say nothing without the spacing
+    surface.edgeLength = {surface.edge, false};  // a length in dx has no meaning without the spacing
     flatten(write(surface), key, settings);
     // A file of the same name may hold another surface.
     if (surface.shape->triangulation())
@@ -63,7 +63,7 @@ void addSurface(SurfaceSettings surface, const std::string& key, Settings& setti
             fmt::format(" with {:.10g} m^2 and {:.10g} m^3", surface.shape->area(), surface.shape->volume());
 }
 
-// A cell or body that one side lacks altogether is named once, by its name.
+// Whether to skip a key: a cell or body that one side lacks altogether is reported once, by its name.
 bool isDetailOfMissing(const std::string& key, const Settings& without) {
     const std::size_t end = key.find("].");
     return (key.starts_with("mesh.cells[") || key.starts_with("mesh.bodies[")) && end != std::string::npos &&

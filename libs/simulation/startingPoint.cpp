@@ -36,7 +36,7 @@ void reportFinished(Application& app, const Case& input, const StartingPoint& fr
     record.print();
 }
 
-// What a run will write, by the temporary names, which are the longest.
+// The files that a run will write, by their temporary names, which are the longest.
 std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
     std::vector<std::string> streams{"fluid"};
     for (const CellSettings& cell : input.mesh.cells) streams.push_back(cell.name);

@@ -14,11 +14,11 @@ struct StartingPoint {
     Time time;
     std::filesystem::path checkpoint;  // empty: from 0/
     RunState state;
-    std::vector<std::string> notes;  // settings that have changed since the checkpoint, and may
-    bool isFinished =
-        false;  // the checkpoint is at the end already: there is nothing to run, and the user has been told
+    std::vector<std::string> notes;  // allowed changes of settings since the checkpoint
+    // The checkpoint is at the end of the run already: there is nothing to run, and the user has been told.
+    bool isFinished = false;
 };
-// Takes the lock of the case, unless it is a dry run. Collective.
+// Chooses the start and makes its scene. Takes the lock of the case, unless it is a dry run. Collective.
 StartingPoint prepare(Application& app, const Case& input);
 
 // Forces and first step at the start, or the continuation of a checkpoint.

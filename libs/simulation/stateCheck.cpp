@@ -22,10 +22,10 @@ using particles::Kind;
 namespace {
 
 constexpr double largestDensityChange = 0.3, largestSpeedUp = 10, largestVolumeChange = 1.0 / 3;
-constexpr double largestBondChange = 0.3;  // of ln l between two looks
+constexpr double largestBondChange = 0.3;  // of ln l between two checks
 constexpr double sharpestFold = -0.5;      // cosine between the normals of neighbours
 constexpr double beyondWall = 2;           // spacings
-constexpr double mostPeriods = 3;          // of a cell's length
+constexpr double mostPeriods = 3;          // largest length of a surface, in periods of the box
 constexpr const char* noContact =
     "nothing but fluid keeps them apart: give cells contact by constant/contact.yaml, for example 'law: {type: "
     "barrier, "
@@ -33,7 +33,7 @@ constexpr const char* noContact =
 constexpr const char* isPassedBy =
     "the contact of constant/contact.yaml, which cells have with cells and walls, has not kept them apart";
 constexpr const char* tooShort = "the box is too short for it";
-constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // looks, without suspicion and with it
+constexpr long stepsBetweenExact = 50, leastBetweenExact = 5;  // in checks, without suspicion and with it
 
 double length(const Membrane& m, const Bond& bond) {
     return (m.position[static_cast<std::size_t>(bond.node[1])] - m.position[static_cast<std::size_t>(bond.node[0])])
@@ -68,8 +68,8 @@ Fault StateCheck::find(const Scene& scene, const Time& time) {
     for (const Cell& cell : scene.cells)
         if (!fault) fault = ofCell(scene, cell, time);
     if (!fault) fault = ofSurfaces(scene, time);
-    // Surfaces that meet are the cause only where nothing else is wrong, on any rank: a node that was thrown out of its
-    // place may cross another cell.
+    // Surfaces that meet are taken for the cause only if nothing else is wrong on any rank: a node that was thrown out
+    // of its place may cross another cell.
     const double own = !fault ? 0 : fault.isGeometric ? 1 : 2;
     const std::vector<double> most = ranks.max({own, fastest2});
     const long count = ranks.sum(static_cast<long>(scene.system->owned()));
@@ -133,8 +133,8 @@ bool StateCheck::isSuspicious(const Membrane& m) const {
     });
 }
 
-// The first bond that has changed too much since the last look, null: none; takes up the lengths of now. No lengths
-// yet: nothing to compare.
+// The first bond whose length has changed too much since the last check, null if there is none; stores the present
+// lengths. If no lengths are stored yet, nothing is compared.
 const Bond* StateCheck::compareBonds(const Membrane& m, std::vector<double>& lengths) {
     const bool isFirst = lengths.empty();
     lengths.resize(m.network().allBonds().size());
@@ -184,11 +184,12 @@ struct Surface {
     std::string name;
     geometry::SurfaceView view;
     bool isCell;
-    std::vector<int> holders;  // none: every rank
+    std::vector<int> holders;  // empty: every rank
     std::string text() const { return fmt::format("the {} {}", isCell ? "cell" : "body", name); }
 };
 
-// Closed cells that this rank holds, and all bodies; their nodes go to `ofBodies`, which must stay.
+// Closed cells that this rank holds, and all bodies. The nodes of bodies are stored in `ofBodies`, to which the result
+// refers.
 std::vector<Surface> surfacesOf(const Scene& scene, std::vector<std::vector<Vec3>>& ofBodies) {
     std::vector<Surface> surfaces;
     for (const Cell& cell : scene.cells)
@@ -230,7 +231,7 @@ Meeting withWalls(const Surface& surface, const geometry::Bounds& bounds, const 
     return {};
 }
 
-// A surface and its own image: one and other are the same.
+// For a surface and its own image, `one` and `other` are the same object.
 Meeting ofTwo(const Surface& one, const Surface& other, const Vec3& shift) {
     const auto found = geometry::crossing(one.view, other.view, shift);
     if (!found) return {};
@@ -245,8 +246,8 @@ Meeting ofTwo(const Surface& one, const Surface& other, const Vec3& shift) {
 
 }  // namespace
 
-// Against each other, their periodic images and walls. Each two are looked at by the lowest rank that holds both, two
-// bodies by one of all ranks.
+// Tests surfaces against each other, their periodic images and walls. Each pair is tested by the lowest rank that holds
+// both; pairs of bodies are distributed over all ranks.
 Fault StateCheck::ofSurfaces(const Scene& scene, const Time& time) const {
     std::vector<std::vector<Vec3>> nodesOfBodies;
     const std::vector<Surface> surfaces = surfacesOf(scene, nodesOfBodies);

@@ -1,19 +1,19 @@
-// Whether the state after a step can be that of a flow. Cheap at every step; exact where that raises suspicion.
+// Checks whether the state after a step is physically possible: cheap tests at every check, exact ones on suspicion.
 //
-// what                                    | where a state is refused
-// places, velocities, densities           | not finite
-// density                                 | more than 0.3 from that at rest
-// speed                                   | above 10 times both the fastest at the look before and the flow's own,
-//                                         | while a step is half a spacing or more, or above the speed of sound
-// number of particles                     | another than at the start, or fluid two spacings beyond a wall
-// bonds                                   | longer or shorter by a factor exp(0.3) than at the look before
-// volume of a closed membrane             | a third from that at the start
-// triangles of a closed membrane          | two that cut each other (geometry::selfIntersections), asked where
-//                                         | neighbours fold by more than 120 degrees, and from time to time
-// surfaces of cells and bodies            | two that touch or cross, a surface and its own periodic image among them
-//                                         | (geometry/crossings.hpp), or one beyond a wall: nothing but fluid keeps
-//                                             them apart, so no shorter step cures it (isGeometric)
-// A membrane that has broken is not asked for its volume and its cuts: its surface is open.
+// quantity                                | a state is rejected if
+// places, velocities, densities           | one is not finite
+// density                                 | it differs from the rest density by more than a fraction of 0.3
+// speed                                   | it is above 10 times both the fastest at the previous check and the flow's
+//                                         | own, and also half a spacing or more per step, or above the speed of sound
+// number of particles                     | it differs from that at the start, or fluid is two spacings beyond a wall
+// bonds                                   | one is longer or shorter by a factor exp(0.3) than at the previous check
+// volume of a closed membrane             | it differs by a third from that at the start
+// triangles of a closed membrane          | two intersect each other (geometry::selfIntersections); tested if
+//                                         | neighbours fold by more than 120 degrees, and at longer intervals anyway
+// surfaces of cells and bodies            | two touch or cross, including a surface and its own periodic image
+//                                         | (geometry/crossings.hpp), or one reaches beyond a wall: nothing but fluid
+//                                         | keeps them apart, so no shorter step cures it (isGeometric)
+// Volume and intersections of a broken membrane are not checked: its surface is open.
 #pragma once
 #include <map>
 #include <optional>
@@ -27,9 +27,9 @@
 namespace corpuscle::simulation {
 
 struct Fault {
-    std::string text;  // empty: none
+    std::string text;  // empty: no fault
     Vec3 place = Vec3::Zero();
-    bool isGeometric = false;  // of how things lie: a shorter step does not cure it
+    bool isGeometric = false;  // caused by the positions of surfaces: a shorter step does not cure it
     explicit operator bool() const { return !text.empty(); }
 };
 
@@ -37,20 +37,20 @@ class StateCheck {
   public:
     StateCheck(const Case& input, const coupling::Scene& scene);
 
-    // The first fault that there is, the same on all ranks. What is sound is what the next look compares with.
+    // The first fault found, the same on all ranks. A state without fault is what the next check compares with.
     // Collective.
     Fault find(const coupling::Scene& scene, const Time& time);
-    // Compare with this state next, unseen: after going back.
+    // Takes this state, unchecked, as the one that the next check compares with: after a rollback.
     void take(const coupling::Scene& scene);
-    // Throws Failure(numerics) on all ranks, naming `what` that is to be written, where a number of the state is not
-    // finite. Collective.
+    // Throws Failure(numerics) on all ranks if the state has a non-finite value; the message names `what` was to be
+    // written. Collective.
     static void requireFinite(const coupling::Scene& scene, const Time& time, const std::string& what);
-    // The particle that is fastest, or first of those not finite: where to look after a step that could not be made.
-    // Collective.
+    // Position of the fastest particle, or of one whose velocity is not finite: where to look after a step that could
+    // not be made. Collective.
     static Vec3 suspect(const coupling::Scene& scene);
 
   private:
-    // fastest2: raised to the largest square of a speed seen until the fault [m^2/s^2].
+    // fastest2: raised to the largest squared speed of the particles checked before a fault is found [m^2/s^2].
     Fault ofParticles(const coupling::Scene& scene, const Time& time, double& fastest2) const;
     static const membrane::Bond* compareBonds(const membrane::Membrane& membrane, std::vector<double>& lengths);
     Fault ofCell(const coupling::Scene& scene, const coupling::Cell& cell, const Time& time);
@@ -59,13 +59,13 @@ class StateCheck {
 
     const Case& input_;
     long particles_ = 0;   // of all ranks
-    double fastest2_ = 0;  // of all ranks, at the last look [m^2/s^2]
+    double fastest2_ = 0;  // largest squared speed, of all ranks, at the last check [m^2/s^2]
     struct Watched {
-        std::vector<double> lengths;  // of its bonds at the last look, by their numbers [m]
-        long exact = -1;              // look of the last exact test; none
+        std::vector<double> lengths;  // of its bonds at the last check, by bond number [m]
+        long exact = -1;              // number of the check with the last exact test; -1: none yet
     };
-    std::map<int, Watched> watched_;  // the cells that this rank holds, by their numbers
-    long lookedAt_ = 0;               // how often
+    std::map<int, Watched> watched_;  // the cells that this rank holds, by number
+    long lookedAt_ = 0;               // number of checks so far
 };
 
 }  // namespace corpuscle::simulation

@@ -30,8 +30,9 @@ FlowState AbcFlow::resolve(const FlowContext& context, const Mark& mark, Problem
     const double a = A, b = B, c = C;
     const Vec3 low = context.box.low;
     flow.density = rho;
-    // u^2 is A^2 + B^2 + C^2 and twice the sum of the products in p, of which each is at most half its amplitude times
-    // the two squares: an upper bound, reached for A = B = C.
+    // u^2 is A^2 + B^2 + C^2 plus twice the sum of the products in p. Each product, as A B sin kx cos kz, is at most
+    // half its amplitude times the sum of the squares of sine and cosine: this gives an upper bound, reached for
+    // A = B = C.
     flow.speed =
         std::sqrt(a * a + b * b + c * c + std::max(a * b, b * c) + std::max(b * c, c * a) + std::max(c * a, a * b));
     flow.length = 1 / k;

@@ -1,6 +1,7 @@
 // How evenly the neighbours of a particle lie around it:
 //     C_i = sum_j V_j F x_ij = - sum_j V_j grad W_ij,    sigma_i = sum_j V_j W_ij
-// C vanishes on a lattice and points from where particles are dense to where they are sparse: shifting follows it.
+// C vanishes on a lattice and points from where particles are dense to where they are sparse: shifting moves particles
+// along C.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V = m/rho [m^3]
 #pragma once
@@ -17,7 +18,7 @@ struct DisorderPair {
     static constexpr int fields = 4;
     DisorderConstants c;
 
-    // Times V_i, which makes it symmetric.
+    // The terms of the sums times V_i, which makes them symmetric in i and j.
     template <class V, class J>
     CORPUSCLE_INLINE void pair(const V (&i)[fields], const J* j, const V (&d)[3], const V& q, V (&p)[4]) const {
         const V volumes = i[3] * V(j[3]), F = Kernel::template slope<V>(q) * volumes;

@@ -13,9 +13,9 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr double otherWeight = 0.02;  // of neighbours in the less viscous fluid
-constexpr double leastShare = 1e-3;   // of the more viscous one: below it a particle has no stress of its own
-constexpr double pure = 1e-6;         // p or 1 - p below it: one fluid
+constexpr double otherWeight = 0.02;  // least weight of neighbours, for those in the less viscous fluid
+constexpr double leastShare = 1e-3;   // of the more viscous fluid; with less a particle has no one-sided stress
+constexpr double pure = 1e-6;         // if p or 1 - p is below this, there is only one fluid around the particle
 
 using Six = Eigen::Matrix<double, 6, 1>;
 
@@ -39,7 +39,7 @@ std::vector<Inside> insideByCentre(const particles::ParticleStore& store, double
     return inside;
 }
 
-// x y z, volume, f, f (mu_in - mu), f kappa, a vector along the gradient of p: of owned particles, then of ghosts.
+// Per particle, owned before ghosts: x y z, volume, f, f (mu_in - mu), f kappa, a vector along the gradient of p (3).
 struct ExcessStress::Records {
     static constexpr int fields = 10, gradientAt = 7;
     ParticleSystem& system;
@@ -54,9 +54,9 @@ struct ExcessStress::Records {
         system.halo().begin(values.data(), system.owned(), fields, part);
         system.halo().finish(values.data(), system.owned(), fields, part);
     }
-    // All within the support, the particle itself too.
+    // Finds all records within the support around x, that of the particle at x included.
     void findNear(const Vec3& x, std::vector<int>& near) const {
-        const double reach = H + 0.5 * system.skin();  // particles are found by their places when lists were built
+        const double reach = H + 0.5 * system.skin();  // the search uses positions at the time when lists were built
         const auto each = [&](int k) {
             if ((position(static_cast<std::size_t>(k)) - x).squaredNorm() < H * H) near.push_back(k);
         };
@@ -64,7 +64,7 @@ struct ExcessStress::Records {
         system.forOwnedNear(x, reach, each);
         system.forGhostsNear(x, reach, [&](int g) { each(system.owned() + g); });
     }
-    // f(record, d, q) of these.
+    // f(record, d, q) for each record of `near`, d its position relative to x and q = |d|/H.
     template <class F>
     void forThese(std::span<const int> near, const Vec3& x, F&& f) const {
         for (const int k : near) {
@@ -74,7 +74,7 @@ struct ExcessStress::Records {
     }
 };
 
-// The tensor that takes e to tr(e) 1, on symmetric tensors as vectors.
+// The tensor that maps e to tr(e) 1, with symmetric tensors as vectors.
 static const Eigen::Matrix<double, 6, 6>& traceOf() {
     static const Eigen::Matrix<double, 6, 6> J = [] {
         const Six one = vectorOf(Mat3::Identity());
@@ -120,14 +120,14 @@ void ExcessStress::build(ParticleSystem& system, const particles::SharedParticle
     }
     system.halo().exchange(records.values.data(), system.owned(), Records::fields);
 
-    std::vector<char> isNear(n, 0);  // something that lies within a membrane
+    std::vector<char> isNear(n, 0);  // whether a particle lies near one that is partly or fully within a membrane
     for (std::size_t k = 0; k < all; ++k)
         if (records.of(k)[4] > 0)
             system.forOwnedNear(records.position(k), H + 0.5 * system.skin(),
                                 [&](int i) { isNear[static_cast<std::size_t>(i)] = 1; });
 
     std::vector<std::size_t> mixed, first{0};
-    std::vector<int> near, nearMixed;  // the latter from first[k] to first[k + 1] of mixed[k]
+    std::vector<int> near, nearMixed;  // neighbours of mixed[k]: nearMixed[first[k]] to nearMixed[first[k + 1] - 1]
     for (std::size_t i = 0; i < n; ++i) {
         if (!isNear[i]) continue;
         records.findNear(records.position(i), near);
@@ -154,7 +154,7 @@ void ExcessStress::build(ParticleSystem& system, const particles::SharedParticle
         findMixed(records, std::span(nearMixed).subspan(first[k], first[k + 1] - first[k]), mixed[k], inside[mixed[k]]);
 }
 
-// The normals of the neighbours count by how steep p is there.
+// In the means over normals, neighbours are weighted by the magnitude of the gradient of p.
 void ExcessStress::findMixed(const Records& records, std::span<const int> near, std::size_t i, const Inside& inside) {
     const Vec3 x = records.position(i);
     double sum = 0, share = 0, excess = 0, kappa = 0, steepness = 0;
@@ -182,7 +182,7 @@ void ExcessStress::findMixed(const Records& records, std::span<const int> near, 
     const double across = mu * (ViscousLayers::laminate(p, lambda, kappa / share) - 1);
     Tensor viscosity = across * P;
     const Tensor inPlane = Tensor::Identity() - P;
-    const bool isThicker = lambda > 1;  // inside
+    const bool isThicker = lambda > 1;  // whether the fluid inside is the more viscous one
     const auto ofThicker = [&](double f) { return isThicker ? f : 1 - f; };
     if (!isThicker) viscosity += mu * (lambda - 1) * inPlane;
     if (const double own = ofThicker(inside.share); own > leastShare) {

@@ -6,8 +6,10 @@ namespace corpuscle::sph {
 class ExplicitScheme {
   public:
     virtual ~ExplicitScheme() = default;
-    virtual void start() = 0;   // forces at the initial state; not after a restart, forces are part of the state
-    virtual void resume() = 0;  // after a restart: everything that follows from lists, nothing that changes the state
+    // Computes the forces at the initial state; not called after a restart, since forces are part of the saved state.
+    virtual void start() = 0;
+    // After a restart: restores everything that follows from the neighbour lists, without changing the state.
+    virtual void resume() = 0;
     virtual void advance(double dt) = 0;
 };
 

@@ -1,9 +1,11 @@
-// Family of flows: what drives the fluid, from constant/flow.yaml: how fast walls move (where they stand is up to
-// boundary/wallShape.hpp) or the images of the box, and a body force.
+// Family of flows. A flow, read from constant/flow.yaml, is what drives the fluid: the velocities of walls (whose
+// places come from boundary/wallShape.hpp) or of the periodic images of the box, and a body force.
 //
-// A case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the membrane's bond law,
+// For a shear flow a case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the
+// membrane's bond law,
 //     Ca = mu gammadot a/Gs.
-// inertia: physical keeps the density as given; {Re: 0.1} sets it, rho = Re mu/(gammadot a^2), and is reported as such.
+// `inertia: physical` keeps the density as given; `inertia: {Re: 0.1}` sets it, rho = Re mu/(gammadot a^2), and it is
+// reported as derived from Re.
 #pragma once
 #include <functional>
 #include <optional>
@@ -12,31 +14,31 @@
 
 namespace corpuscle::sph {
 
-// What a flow may refer to.
+// Quantities of the case on which a flow may depend.
 struct FlowContext {
-    particles::Box box;         // of the fluid, walls' layers not included
+    particles::Box box;         // the box of the fluid, without the layers of wall particles
     double viscosity = 0;       // mu, outer [Pa s]
     double density = 0;         // as given in fluid.yaml [kg/m^3]
     double radius = 0;          // a of the first cell, else of the first rigid body [m]; 0: neither
     double shearModulus = 0;    // Gs [N/m]; 0: no cells
     bool layered = false;       // the viscosity differs from layer to layer between the walls
-    double leastViscosity = 0;  // of the layers; mu where there are none [Pa s]
+    double leastViscosity = 0;  // lowest viscosity of the layers; mu without layers [Pa s]
 };
 
-// What follows from it, SI.
+// A flow in numbers, SI, as computed from its keys and the context.
 struct FlowState {
     double density = 0;  // [kg/m^3]
     bool densityFromRe = false;
     double shearRate = 0;  // gammadot; 0: none [1/s]
     int gradient = 2;      // axis along which a sheared flow changes
     double speed = 0;      // largest speed that walls or body force give [m/s]
-    double length = 0;     // of the gradient of velocity: gap, or wavelength/(2 pi) [m]
+    double length = 0;     // length over which velocity changes: gap, or wavelength/(2 pi) [m]
     double rate = 0;       // shearRate, or speed/length [1/s]
-    double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: it is developed at t = 0
-    bool settles = false;  // towards a steady flow; else it decays
-    Vec3 bodyForce = Vec3::Zero();                // [m/s^2]
-    Vec3 slide = Vec3::Zero();                    // of images across the axis `gradient` [m/s]; 0: they do not
-    boundary::Walls walls;                        // as they move
+    double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: fully developed at t = 0
+    bool settles = false;  // true: the flow approaches a steady one; false: it decays
+    Vec3 bodyForce = Vec3::Zero();                // per unit mass [m/s^2]
+    Vec3 slide = Vec3::Zero();                    // of the next image along axis `gradient` [m/s]; 0: no sliding
+    boundary::Walls walls;                        // with their velocities
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0
     std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
 
@@ -47,21 +49,22 @@ class Flow {
   public:
     static constexpr const char* familyName = "flow";
     virtual ~Flow() = default;
-    // Where its walls are, null for none: known before anything else, since filling needs it.
+    // The shape of the walls, null if there are none: known before `resolve`, since filling needs it.
     virtual const boundary::WallShape* walls() const { return nullptr; }
-    // Whether it carries particles along all axes: a perfect lattice then does not last.
+    // Whether the flow carries particles along all axes: a perfect lattice then does not last.
     virtual bool isThreeDimensional() const { return false; }
-    // Whether images of the box slide: known before anything else.
+    // Whether images of the box slide: known before `resolve`.
     virtual bool slides() const { return false; }
-    // Problems of the combination with the rest of the case (mark: of the file) go to `problems`.
+    // Turns keys and context into numbers. Adds to `problems` what does not fit the rest of the case; mark: that of the
+    // file.
     virtual FlowState resolve(const FlowContext& context, const Mark& mark, Problems& problems) const = 0;
 };
 
-// Whether the box is equally long along these axes ("xz"); a problem of the key `type` where it is not.
+// Whether the box is equally long along these axes ("xz"); if not, adds a problem of the key `type`.
 bool equallyLong(const std::string& flow, const particles::Box& box, const std::string& axes, const Mark& mark,
                  Problems& problems);
 
-// Problems of the key `walls` where walls end the fluid along x, the direction of the flow; with `planes`, also where
+// Adds problems of the key `walls` if walls bound the fluid along x, the direction of the flow; with `planes`, also if
 // they are not two parallel planes.
 void checkWalls(const boundary::WallShape& walls, bool planes, const Mark& mark, Problems& problems);
 

@@ -144,7 +144,8 @@ void FluidForces::evaluate(ParticleSystem& system, double extrapolation) {
             s.fx[m.particle] = s.fy[m.particle] = s.fz[m.particle] = 0;
 }
 
-// Of the accelerations as pairs give them: those of walls and members not yet set to zero, nor the body force added.
+// Uses the accelerations due to pairs alone: to be called before those of walls and members are set to zero and the
+// body force is added.
 void FluidForces::findRates(const ParticleSystem& system) {
     const ParticleStore& s = system.store();
     const Vec3 middle = system.box().middle(), &g = model_.bodyForce;

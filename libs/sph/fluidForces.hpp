@@ -1,8 +1,10 @@
-// Accelerations and rates of density of all particles of one rank (fluidPair.hpp), with body force and wall reaction.
+// Accelerations and rates of density of all particles of one rank (fluidPair.hpp), with the body force and the forces
+// on walls.
 //
-// Pressure and viscosity act between all particles; a membrane's node counts as fluid here (dual identity). The
-// velocity that enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a with e = dt/2
-// and a the last acceleration; density is extrapolated likewise, rho* + e rhodot (velocityVerlet.hpp says why).
+// Pressure and viscosity act between all particles; a node of a membrane that is a particle (dual identity) counts as
+// fluid here. The velocity that enters viscosity and continuity is the extrapolated one of the paper's Eq 14, u* + e a
+// with e = dt/2 and a the last acceleration; density is extrapolated likewise, rho* + e rhodot (velocityVerlet.hpp
+// explains why).
 #pragma once
 #include <memory>
 
@@ -29,7 +31,7 @@ struct FluidModel {
 
 class FluidForces {
   public:
-    // groups: rigid bodies, which must outlive this; null: none. They need the optional fields mass and member.
+    // groups: rigid bodies, which must outlive this object; null: none. They need the store's fields mass and member.
     FluidForces(const FluidModel& model, const particles::ParticleSystem& system, RigidGroups* groups = nullptr);
 
     const FluidModel& model() const { return model_; }
@@ -38,23 +40,23 @@ class FluidForces {
     // summed up and set to zero.
     void evaluate(particles::ParticleSystem& system, double extrapolation);
 
-    // What the last evaluation does for the budget (budget.hpp), members of rigid groups and other loads left out; and
-    // the velocity of particle i that it was made with. Only where it is kept: it costs one loop over particles and the
-    // memory of their velocities.
+    // rates(): contribution of the last evaluation to the budget (budget.hpp), without members of rigid groups and
+    // other loads. velocityUsed(i): velocity of particle i in that evaluation. Both only after keepBudget(), which
+    // costs one loop over particles in each evaluation and the memory of their velocities.
     void keepBudget() { keepsBudget_ = true; }
     const Budget::Values& rates() const { return rates_; }
     Vec3 velocityUsed(std::size_t i) const { return {used_[0][i], used_[1][i], used_[2][i]}; }
 
-    // Particles that are walls, found anew after each list build.
+    // Finds the particles that belong to walls; to be called after each list build.
     void findWalls(const particles::ParticleSystem& system);
 
-    // Forces of the fluid on the walls, by their number, at the last evaluation, this rank's part [N].
+    // Forces of the fluid on the walls at the last evaluation, by number of the wall: the part of this rank [N].
     const std::vector<Vec3>& wallForces() const { return wallForces_; }
-    // For integrators that work forces out by other operators.
+    // For schemes that compute forces by other operators.
     void setWallForces(std::vector<Vec3> forces) { wallForces_ = std::move(forces); }
 
-    // Accelerations of the owned particles by viscosity alone at a velocity; those of walls are 0. No rigid groups.
-    // Collective.
+    // Accelerations of the owned particles due to viscosity alone at this velocity; those of walls are 0. Not for
+    // scenes with rigid groups. Collective.
     void findViscosity(particles::ParticleSystem& system, const particles::RealArray (&velocity)[3],
                        particles::RealArray (&acceleration)[3]);
 
@@ -71,8 +73,8 @@ class FluidForces {
         particles::AlignedVector<Real> records;
         PairKernels::Fluid<Real> away{}, atWall{};
     };
-    // Packs the records and computes the sums over pairs. velocity(i, Real[3]), for members of rigid groups that of
-    // `motion`; pressure(i) is p/rho^2.
+    // Packs the records and computes the sums over pairs. velocity(i, Real[3]) writes the velocity of particle i;
+    // members of rigid groups have that of `motion` instead. pressure(i) is p/rho^2.
     template <class Velocity, class Pressure>
     void run(particles::ParticleSystem& system, const particles::RealArray& density,
              const std::vector<RigidMotion>& motion, Velocity&& velocity, Pressure&& pressure,
@@ -89,7 +91,7 @@ class FluidForces {
 
     FluidModel model_;
     RigidGroups* groups_;
-    std::vector<RigidMotion> still_;  // of a scene without groups
+    std::vector<RigidMotion> still_;  // motion of the groups in a scene without groups: empty
     FluidVariant variant_;
     FluidConstants constants_;
     Pairs<double> double_;

@@ -1,5 +1,5 @@
-// Chooses the build of FluidPair for a kernel and for what varies. One file per precision instantiates it: they are the
-// longest to compile.
+// Chooses the build of FluidPair for a kernel, for varying or uniform mass and viscosity, and for the boundaries. Each
+// precision is instantiated in a file of its own, as these take the longest to compile.
 #pragma once
 #include <stdexcept>
 

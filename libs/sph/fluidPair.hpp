@@ -4,23 +4,22 @@
 //     drho_i/dt = - sum_j m_j F x_ij . u_ij                      F = -W'(r)/r,  grad W = -F x_ij
 //
 // mu_ij is the uniform viscosity, or across a jump the harmonic mean 2 mu_i mu_j/(mu_i + mu_j) (Cleary and Monaghan,
-// J. Comput. Phys. 148 (1999) 227). beta = 1 away from walls; noSlip.hpp has its form at them.
+// J. Comput. Phys. 148 (1999) 227). beta is 1 away from walls; noSlip.hpp gives beta at walls.
 //
-// At a rigid body (libs/bodies) the velocity is continued likewise, but from what is left of it when the rigid motion
-// is taken away: with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below it stands for the
-// velocity
+// At a rigid body (libs/bodies) the velocity is continued linearly beyond the surface, as at walls, after subtraction
+// of the rigid motion: with w = u_i - u_rigid(x_i), which vanishes on the surface, a body particle j below the surface
+// is given the velocity
 //     u_j - depth_j g_i,   g_i = w/distance_i
 // where u_j is its rigid velocity. Fluid has depth 0 and body particles have g = 0, so that one antisymmetric
-// expression does.
+// expression covers both orders of a pair.
 //
 // record | x y z in supports (pairLoop.hpp) | velocity (3) | H_s p/rho^2 | e | mass / constants.mass, if it varies |
 //                                                                            | viscosity, if it varies |
 //          where there are walls or bodies: gap/H_s (noSlip.hpp) | where there are bodies: H_s g (3), depth/H_s
-//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall particles: two of them do
-//              not act
-//          on each other (the list leaves such pairs out only where a whole block is wall)
-// What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies the pair gives
-// forces, which are equal and opposite.
+//          e = sqrt(2 mu)/rho where mu is uniform, 1/rho where it varies; negative for wall and body particles: two of
+//              them do not act on each other (the list omits such pairs only where a whole block consists of them)
+// What is uniform in the scene is a constant of the law, applied once to the sums. Where the mass varies, the pair
+// terms are forces, which are equal and opposite.
 #pragma once
 #include "sph/noSlip.hpp"
 
@@ -33,7 +32,7 @@ struct FluidConstants {
     NoSlip noSlip;
 };
 
-// Of a scene; bodies: rigid ones, with walls or without.
+// The boundaries in a scene; bodies: rigid bodies, with or without walls.
 enum class Boundaries { none, walls, bodies };
 constexpr int fieldsOf(Boundaries boundaries) {
     return boundaries == Boundaries::none ? 0 : boundaries == Boundaries::walls ? 1 : 5;
@@ -42,7 +41,7 @@ constexpr int fieldsOf(Boundaries boundaries) {
 template <class Kernel, bool varyingMass, bool varyingViscosity, Boundaries boundaries, bool atWall>
 struct FluidPair {
     static constexpr int gap = 8 + (varyingMass ? 1 : 0) + (varyingViscosity ? 1 : 0);
-    static constexpr int slope = gap + 1;  // the first of H_s g
+    static constexpr int slope = gap + 1;  // first field of H_s g
     static constexpr int fields = gap + fieldsOf(boundaries);
     static constexpr bool bodies = boundaries == Boundaries::bodies;
     FluidConstants c;
@@ -56,7 +55,7 @@ struct FluidPair {
             constexpr int at = varyingMass ? 9 : 8;
             viscous = viscous * (i[at] * V(J(4) * j[at])) / (i[at] + V(j[at]));
         }
-        [[maybe_unused]] V extra[3] = {V(0.0), V(0.0), V(0.0)};  // of the velocity of j against i, in viscosity
+        [[maybe_unused]] V extra[3] = {V(0.0), V(0.0), V(0.0)};  // added to the velocity u_j - u_i, in viscosity only
         if constexpr (atWall && bodies) {
             if (particles::anyNegative(i[7]) || particles::anyNegative(J(j[7]))) {
                 const V both = max(i[7], V(j[7]));

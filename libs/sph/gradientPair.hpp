@@ -1,11 +1,11 @@
 // Viscous force and gradient of a velocity (operators.hpp), where viscosity varies:
 //     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta m_ij
-//     V_i sum_j V_j F d (u_j - u_i)^T,    d = x_j - x_i,  F = -W'(r)/r;  B_i before it makes it the gradient
-// m_ij is the harmonic mean 2 m_i m_j/(m_i + m_j) of the layers' viscosities, 1 where it does not vary in layers; beta
-// that of walls (noSlip.hpp). Two wall particles do not act on each other.
+//     V_i sum_j V_j F d (u_j - u_i)^T,    d = x_j - x_i,  F = -W'(r)/r;  the gradient is B_i/V_i times this sum
+// m_ij is the harmonic mean 2 m_i m_j/(m_i + m_j) of the layers' viscosities, 1 if viscosity does not vary in layers;
+// beta is the factor at walls (noSlip.hpp). Two wall particles do not act on each other.
 //
-// record | that of ratePair.hpp, in layers with the viscosity m in units of the fluid's
-// sums   | -(L u) (3), nothing, d_x du (3), d_y du (3), d_z du (3), nothing (3)
+// record | as in ratePair.hpp; with layers also m, the viscosity in units of the fluid's
+// sums   | -(L u) (3), unused, d_x du (3), d_y du (3), d_z du (3), unused (3)
 #pragma once
 #include "sph/ratePair.hpp"
 

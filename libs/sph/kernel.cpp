@@ -10,7 +10,7 @@ namespace corpuscle::sph {
 
 namespace {
 
-// A plain number with the operations that kernel formulas use.
+// A scalar with the operations that kernel formulas use.
 struct Scalar {
     double v;
     Scalar(double value) : v(value) {}
@@ -47,7 +47,7 @@ struct KernelOf : Kernel {
     double slope(double q) const override { return Formula::template slope<Scalar>(q).v; }
 };
 
-// f(distance along each axis, distance) of all neighbours on a lattice of spacing 1, the particle itself too.
+// f(distance along each axis, distance) for all neighbours on a lattice of spacing 1, the particle itself included.
 template <class F>
 void forLattice(double support, F&& f) {
     const int n = static_cast<int>(std::ceil(support));
@@ -75,7 +75,7 @@ int Kernel::latticeNeighbours(double supportOverSpacing) const {
 double Kernel::viscousRate(double supportOverSpacing) const {
     constexpr int parts = 8;
     double most = 0;
-    for (int part = 0; part <= parts; ++part) {  // waves (pi, pi, k): the stiffest is among them
+    for (int part = 0; part <= parts; ++part) {  // wave vectors (pi, pi, k), among which is that of the stiffest mode
         double sum = 0;
         forLattice(supportOverSpacing, [&](const Index3& d, double r) {
             const double sign = (d[0] + d[1]) % 2 ? -1 : 1;

@@ -1,5 +1,5 @@
-// The kernels that there are. A new one is its header and its place in this list: a case can then choose it by its
-// name, and it is built into every pair loop.
+// List of all kernels. A new kernel needs a header and an entry in this list: a case can then choose it by its name,
+// and it is built into every pair loop.
 #pragma once
 #include <stdexcept>
 #include <type_traits>
@@ -10,11 +10,11 @@
 
 namespace corpuscle::sph {
 
-enum class KernelKind : int {};  // a place in the list
+enum class KernelKind : int {};  // index into the list
 
 template <class... Formula>
 struct KernelList {
-    // f.operator()<Formula>() of the kernel that is meant.
+    // The result of f.operator()<Formula>() for this kernel.
     template <class F>
     static auto visit(KernelKind kind, F&& f) {
         using Result = std::common_type_t<decltype(f.template operator()<Formula>())...>;
@@ -25,7 +25,7 @@ struct KernelList {
         if (!found) throw std::logic_error("there is no kernel of this number");
         return result;
     }
-    // f.operator()<Formula>(kind) of all.
+    // Calls f.operator()<Formula>(kind) for every kernel.
     template <class F>
     static void each(F&& f) {
         int place = 0;

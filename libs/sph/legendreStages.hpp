@@ -7,11 +7,12 @@
 //     mu_j = (2j - 1)/j b_j/b_(j-1),   nu_j = -(j - 1)/j b_j/b_(j-2),   mu~_j = w mu_j,
 //         gamma~_j = -(1 - b_(j-1)) mu~_j
 //
-// A step multiplies a mode of rate -lambda by 1 - b_s + b_s P_s(1 - w lambda dt), P_s Legendre's polynomial: between 0
-// and 1 up to
+// A step multiplies a mode of rate -lambda by the factor 1 - b_s + b_s P_s(1 - w lambda dt), with P_s the Legendre
+// polynomial. The factor is between 0 and 1 up to
 //     lambda dt = (s^2 + s - 2)/2,
-// (s^2 + s - 2)/4 of forward Euler's largest steps 2/lambda for s evaluations of M. There the factor is 2/(s^2 + s)
-// where s is odd and 1 where it is even, which would leave the stiffest modes undamped: so s is odd.
+// which is (s^2 + s - 2)/4 times forward Euler's largest step 2/lambda, for s evaluations of M. At this limit the
+// factor is 2/(s^2 + s) if s is odd, and 1 if s is even, which would leave the stiffest modes undamped: s is therefore
+// odd.
 #pragma once
 #include <vector>
 
@@ -30,8 +31,9 @@ class LegendreStages {
     const std::vector<Stage>& later() const { return later_; }
     int count() const { return static_cast<int>(later_.size()) + 1; }
 
-    // Largest lambda dt that so many stages bear, and the fewest, an odd number, that bear a lambda dt.
+    // Largest lambda dt for which `count` stages are stable.
     static double reach(int count) { return 0.5 * (count * (count + 1.0) - 2); }
+    // Smallest odd number of stages that is stable for this lambda dt.
     static int needed(double lambdaDt);
 
   private:

@@ -19,7 +19,7 @@ std::vector<double> localMean(particles::ParticleSystem& system, const Kernel& k
     for (std::size_t i = 0; i < n; ++i) {
         double* r = records.data() + fields * i;
         frame.position(i, r);
-        if (system.periodicity().slides()) {  // lists are of places from which particles have been wrapped since
+        if (system.periodicity().slides()) {  // particles may have been wrapped since the lists were built
             const Vec3 x = s.position(i), built(s.xBuilt[i], s.yBuilt[i], s.zBuilt[i]);
             Vec3::Map(r) += (system.periodicity().nearest(x, built) - x) / system.support();
         }

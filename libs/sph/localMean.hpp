@@ -1,5 +1,5 @@
-// A field of the fluid less its noise, for pictures: the mean around each particle (meanPair.hpp) over fluid particles
-// of its own side.
+// A field of the fluid with reduced noise, for pictures: the mean around each particle (meanPair.hpp) over the fluid
+// particles on its side of membranes.
 #pragma once
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace corpuscle::sph {
 
-// values: of the particles of this rank, whatever the unit; those of other kinds are neither read nor changed. mass: of
-// a particle where the store has none of its own [kg]. Membranes part sides (0 outside, n inside cell n). Leaves the
-// system as it is. Collective.
+// values: of the particles of this rank, in any unit; those of particles that are not fluid do not enter and are not
+// changed. mass: of a particle, if the store has no masses [kg]. Sides (0 outside, n inside cell n) are separated by
+// membranes. The system is not changed. Collective.
 std::vector<double> localMean(particles::ParticleSystem& system, const Kernel& kernel, double mass,
                               std::vector<double> values);
 

@@ -12,7 +12,7 @@ namespace corpuscle::sph {
 struct Lucy {
     static constexpr const char *name = "lucy", *text = "Lucy's kernel, the paper's choice";
     static constexpr double defaultSupport = 2.6,
-                            correctedSupport = 2.4;  // in spacings: smallest second-moment error near 80 neighbours
+                            correctedSupport = 2.4;  // in spacings; 2.6: least second-moment error near 80 neighbours
 
     static double normalisation(double H) { return 105 / (16 * std::numbers::pi * H * H * H); }
     static double gradientNormalisation(double H) { return 12 * normalisation(H) / (H * H); }

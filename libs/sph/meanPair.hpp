@@ -1,10 +1,9 @@
-// Mean of a quantity a around a particle, over those of its own side (Shepard):
+// Mean of a quantity a around a particle, over particles on its side of membranes (Shepard):
 //     <a>_i = a_i + sum_j V_j W_ij (a_j - a_i)/(V_i W(0) + sum_j V_j W_ij),   j on i's side
-// What particles have as noise goes away with the number of neighbours; what a smooth field loses is of second order in
-// H_s.
+// Noise decreases with the number of neighbours; a smooth field changes by an error of second order in H_s.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V = m/rho, in any unit | a | side, any whole number
-// sums   | sum V_i V_j W (a_j - a_i), two that are not used, sum V_i V_j W
+// sums   | sum V_i V_j W (a_j - a_i), two unused sums, sum V_i V_j W
 #pragma once
 #include "particles/simd.hpp"
 

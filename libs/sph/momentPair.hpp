@@ -1,14 +1,15 @@
 // Moments of the neighbours of a particle, from which corrected operators are made (operators.hpp):
 //     R = sum_j V_j F (1 + 0.2 (W/W(dx))^4) x_ij,  x_ij = x_i - x_j: vanishes where particles lie evenly; shifting
-//         follows it
-//     M = sum_j V_j F x_ij x_ij^T            the unit matrix on an ideal set
-//     sum_j V_j F,  sum_j V_j V_i F^2 r^2    of the diagonal of viscosity and of bulk stiffness
+//         moves particles along R
+//     M = sum_j V_j F x_ij x_ij^T            the unit matrix for an ideal arrangement of particles
+//     sum_j V_j F,  sum_j V_j V_i F^2 r^2    for the diagonals of viscosity and of bulk stiffness
 //     sigma = sum_j V_j W
-// with F = -W'(r)/r, dx the spacing. The second term of R holds off what is nearer than that (coupling/transport.hpp).
-// All in one pass; what walls see of each other is meaningless.
+// with F = -W'(r)/r, dx the spacing. The second term of R repels particles that are nearer than dx
+// (coupling/transport.hpp). All sums are made in one pass; contributions of wall particles to each other are
+// meaningless.
 //
 // record | x y z in supports (pairLoop.hpp) | volume V in units of `volume`
-// sums   | R (3), M (xx yy zz xy xz yz), sum V F, sum V V F^2 r^2, sigma; each times V_i until finished
+// sums   | R (3), M (xx yy zz xy xz yz), sum V F, sum V V F^2 r^2, sigma; each times V_i before `finish`
 #pragma once
 #include "particles/simd.hpp"
 
@@ -17,7 +18,7 @@ namespace corpuscle::sph {
 struct MomentConstants {
     double support = 0, normalisation = 0, gradientNormalisation = 0;
     double volume = 0;     // unit of the records' volumes [m^3]
-    double atSpacing = 0;  // the kernel, as Kernel::value, at one spacing
+    double atSpacing = 0;  // Kernel::value at a distance of one spacing
 };
 
 struct Moments {
@@ -52,7 +53,7 @@ struct MomentPair {
 
     template <class V>
     CORPUSCLE_INLINE void finish(const V (&i)[fields], V (&sum)[sums]) const {
-        const V once = V(c.volume) / i[3];  // a sum over j of V_j
+        const V once = V(c.volume) / i[3];  // turns a sum of V_i V_j into one of V_j
         const double F = c.gradientNormalisation, H = c.support;
         for (int k = 0; k < 3; ++k) sum[shift + k] = sum[shift + k] * once * V(F * H);
         for (int k = 0; k < 6; ++k) sum[second + k] = sum[second + k] * once * V(F * H * H);

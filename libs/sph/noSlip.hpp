@@ -1,11 +1,11 @@
-// No slip at walls, as a pair law sees it.
+// No slip at walls: the factor beta in pair laws.
 //
-// The particles behind a wall's surface take the velocity that continues the profile linearly, so that it vanishes
-// (relative to the wall) on the surface (Morris, Fox, Zhu, J. Comput. Phys. 136 (1997) 214): their pairs with the fluid
-// are multiplied by
+// Particles behind a wall's surface are given the velocity that continues the profile linearly, so that the velocity
+// relative to the wall vanishes on the surface (Morris, Fox, Zhu, J. Comput. Phys. 136 (1997) 214): the viscous terms
+// of their pairs with the fluid are multiplied by
 //     beta = min(betaMax, 1 + depth_wall/distance_fluid)
-// A particle's gap, the distance from its nearest wall, is a field of its record: above 0 in the fluid, below 0 behind
-// the surface, in supports.
+// A particle's gap, the signed distance from its nearest wall in supports, is a field of its record: above 0 in the
+// fluid, below 0 behind the surface.
 #pragma once
 #include <algorithm>
 
@@ -15,11 +15,11 @@ namespace corpuscle::sph {
 
 struct NoSlip {
     static constexpr double nowhere = 1e6;  // gap where there are no walls, in supports
-    // In supports, of a distance in metres.
+    // The gap for this distance from the nearest wall; distance and support in metres.
     static double gap(double distance, double support) { return std::min(distance / support, nowhere); }
 
-    // Bounds of beta's quotient: a fluid particle that has come very close to a wall counts as this far away, in
-    // supports.
+    // Bounds for the quotient in beta: a fluid particle that is very close to a wall counts as smallestDistance away,
+    // in supports; betaMax bounds beta itself.
     double smallestDistance = 1, betaMax = 10;
 
     // spacing, support: dx, H_s [m].

@@ -1,4 +1,5 @@
-// Chooses the builds of the laws of operators.hpp for a kernel. One file per precision instantiates them.
+// Chooses the builds of the pair laws of operators.hpp for a kernel and a kind of viscosity. One file per precision
+// instantiates them.
 #pragma once
 #include "sph/gradientPair.hpp"
 #include "sph/pairBuild.hpp"

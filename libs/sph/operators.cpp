@@ -20,9 +20,9 @@ constexpr int rateFields = 16, momentFields = 4, stressAt = 4, stressFields = 10
 constexpr particles::Halo::Part velocityPart{3, 6};
 constexpr int volumeAt = 6, scaleAt = 7, correctionAt = 8, viscosityAt = 14, gapAt = 15;
 constexpr int gradientSums = 16, gradientAt = 4;  // of gradientPair.hpp
-constexpr double leastMoment = 0.05;              // of the smallest direction, 1 on an ideal set
+constexpr double leastMoment = 0.05;              // in the direction where it is smallest; 1 ideally
 
-// Symmetric, of xx yy zz xy xz yz.
+// The symmetric matrix with the elements xx yy zz xy xz yz.
 Mat3 matrix(const std::array<double, 6>& s) {
     Mat3 m;
     m << s[0], s[3], s[4], s[3], s[1], s[5], s[4], s[5], s[2];
@@ -109,7 +109,8 @@ void Operators<Real>::sortBlocks(const ParticleSystem& system, HasStress&& hasSt
         sort(list.blocks(static_cast<particles::PairList::Group>(g)), groups_[g]);
     for (auto [from, to] : {std::pair{&shared_.reaching(), &reaching_}, std::pair{&shared_.rest(), &rest_}})
         sort(from->away, to->away), sort(from->atWall, to->atWall);
-    // A particle whose image meets a stress need not be in such a block itself: the earlier block takes both.
+    // A particle whose image is in a varying block need not be in one itself, as a pair across a periodic face is
+    // listed by the earlier block alone.
     for (std::size_t g = n; g < all; ++g)
         if (const std::size_t own = shared_.entry(static_cast<int>(g - n)); touched[g] && own < n) touched[own] = 1;
 
@@ -209,7 +210,7 @@ void Operators<Real>::packRecords(ParticleSystem& system) {
     halo.finish(stressRecords_.data(), system.owned(), stressFields);
 }
 
-// Ghosts' velocities that are not known are fetched behind interior blocks.
+// Unknown velocities of ghosts are received while interior blocks are processed.
 template <class Real>
 void Operators<Real>::findRates(ParticleSystem& system, const Field& u, Known known, FieldOf of) {
     if (isTwoFluids() && !hasInside_) throw std::logic_error("Operators: setInside comes after build");
@@ -277,7 +278,7 @@ void Operators<Real>::applyViscosity(ParticleSystem& system, const Field& u) {
         for (std::size_t i = 0; i < volume_.size(); ++i) takeForces(i, i, force_);
 }
 
-// The stress is in units that let both passes share one sum.
+// Pressure and stress are scaled so that the passes for viscosity and for stress can share one sum.
 template <class Real>
 void Operators<Real>::setPressure(std::size_t i, double pressure) {
     const double unit = rateUnit_ / viscousUnit_, p = pressure * unit;
@@ -290,7 +291,8 @@ void Operators<Real>::setPressure(std::size_t i, double pressure) {
     for (int k = 0; k < 9; ++k) varying[k] = static_cast<Real>(T(k / 3, k % 3));
 }
 
-// Of the stresses of own particles and their images alone: ghosts have none here, the ranks that own them have it.
+// Adds the forces of the stresses of own particles and their images alone; the stresses of ghosts owned by other ranks
+// are 0 here, as their owners compute the forces of these.
 template <class Real>
 void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& force) {
     const std::size_t n = volume_.size(), ghosts = static_cast<std::size_t>(system.ghosts());
@@ -311,7 +313,8 @@ void Operators<Real>::addStress(ParticleSystem& system, particles::RealArray& fo
     };
     copyToImages(stressRecords_, stressFields);
     if (!touched_.empty()) copyToImages(varyingStressRecords_, varyingStressFields);
-    std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);  // what rates left to others
+    // Removes what findRates has left in the sums of ghosts.
+    std::fill(sums_.begin() + static_cast<std::ptrdiff_t>(width * n), sums_.end(), 0.0);
     const auto work = [&](const BlocksByWall& blocks) {
         const particles::PairList& list = system.list();
         particles::addPairs(uniform_.stress, noSlip_, list, blocks.away.uniform, stressRecords_, sums_);

@@ -5,29 +5,33 @@
 //     (D^T V p)_i = -V_i sum_j V_j F (p_i B_i + p_j B_j) d                        force of the pressure p
 //     (L u)_i     = sum_j V_i V_j mu F (1/S2_i + 1/S2_j) beta (u_i - u_j)
 //         Morris' viscosity, with unit second moment
-// Morris' form is the divergence of mu grad u, which is that of 2 mu e, e the symmetric part of the gradient, only
-// where mu is uniform: at a jump it would put a torque on what turns rigidly. Where viscosity varies, L has the fluid's
-// mu, and the rest is a stress by the corrected gradient and its transpose,
+// Morris' form is the divergence of mu grad u. This equals the divergence of 2 mu e, with e the symmetric part of the
+// gradient, only where mu is uniform: at a jump it would exert a torque on a rigid rotation. Where viscosity varies, L
+// therefore has the mu of the outer fluid, and the rest is a stress tau from the corrected gradient, whose force is
+// computed by the transpose of that gradient,
 //     (grad u)_i = B_i sum_j V_j F d (u_j - u_i)^T,   force_i = V_i sum_j V_j F (tau_i B_i + tau_j B_j) d
-// which is 2 (mu_i - mu) e_i away from the jump, and what excessStress.hpp says near it. Gradients cost as much again:
-// only the blocks of pairs in which a particle has such a stress find them.
+// tau is 2 (mu_i - mu) e_i away from the jump, and that of excessStress.hpp near it. Gradients double the cost: they
+// are computed only in blocks of pairs in which a particle has such a stress.
+//
 // In a fluid of layers (FluidModel::lowestLayer) L has instead the harmonic mean of both particles' viscosities, so
-// that the layer beside a wall meets it by beta as a uniform fluid does, and what Morris' form lacks is tau_i = (mu_i -
-// mu_low) (grad u)_i^T, force by first index: nothing in a plane shear flow along the layers. mu_low, their lowest
-// viscosity, may be any constant, as the divergence vanishes; with it no mode gains power where they are no more than
-// 20 apart (tests/sph/operators.cpp: all eigenvalues; at 50 some are negative), and no case may have more. D and D^T V
-// are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above), and no force
-// is left over in the sum. Particles of walls have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1
+// that in the layer beside a wall beta acts as in a uniform fluid. What Morris' form lacks is tau_i =
+// (mu_i - mu_low) (grad u)_i^T, with the force along its first index: it exerts no force in a plane shear flow along
+// the layers. mu_low could be any constant, as the divergence vanishes; it is the lowest viscosity of the layers, with
+// which no mode gains power if viscosities differ by a factor of at most 20 (tests/sph/operators.cpp: all eigenvalues;
+// at 50 some are negative). No case may have a larger factor.
+//
+// D and D^T V are transposes of each other to rounding, L is symmetric and positive semi-definite (layers: see above),
+// and forces sum to zero. Wall particles have B = 1 and the S2 of a lattice. Plain operators have B = 1 and S2 = 1
 // everywhere.
 //
-// The weights are computed anew at each application: that needs a hundred bytes a particle and is as fast as reading
-// them. Real: what records and pair terms are; sums are double. Fields of vectors have four numbers a particle, the
-// last one 0.
+// The weights are computed anew at each application: this needs a hundred bytes per particle and is as fast as reading
+// stored weights. Real: type of records and pair terms; sums are double. Fields of vectors have four numbers per
+// particle, the last one 0.
 //
-// Over ranks: the divergence of an own particle needs the velocities of its neighbours, of which this rank may know
-// those of others already; then each rank gives the force of its own particles' stresses to all neighbours, others'
-// particles included, and one message to each neighbouring rank adds up the forces (particles/sharedParticles.hpp),
-// behind the pairs of particles that no other rank knows.
+// Over ranks: the divergence at an own particle needs the velocities of its neighbours; this rank may already know
+// those owned by other ranks, else they are exchanged. Each rank then adds the forces due to the stresses of its own
+// particles to all neighbours, including those owned by other ranks, and one message to each neighbouring rank adds up
+// the forces (particles/sharedParticles.hpp) while pairs of particles that no other rank knows are processed.
 #pragma once
 #include <array>
 #include <utility>
@@ -40,8 +44,8 @@ namespace corpuscle::sph {
 
 enum class OperatorForm { plain, corrected };
 
-// What a field of velocities is, where the images of a box slide (core/periodicity.hpp): velocities, which images have
-// with their slide, or changes of velocities, which all images share.
+// Meaning of a field in a box whose images slide (core/periodicity.hpp): velocities, to which images add their slide,
+// or changes of velocities, which are the same for all images.
 enum class FieldOf { velocities, changes };
 
 template <class Real>
@@ -52,35 +56,37 @@ class Operators {
 
     Operators(const FluidModel& model, const particles::ParticleSystem& system, OperatorForm form);
 
-    // For the particles at their present positions, whose lists have just been built there. Collective.
-    // Throws Failure(numerics) where a particle has too few neighbours for a gradient.
+    // Builds the operators for the present positions of the particles, at which lists have just been built. Collective.
+    // Throws Failure(numerics) if a particle has too few neighbours for a gradient.
     void build(particles::ParticleSystem& system);
-    // Where viscosity varies, but not in layers: after `build`, of owned particles. Collective.
+    // If viscosity varies, but not in layers, to be called after `build`; inside: of the owned particles. Collective.
     void setInside(particles::ParticleSystem& system, const std::vector<Inside>& inside);
 
-    // force_i = -(L u)_i + (D^T V p)_i + (that of tau)_i [N], four numbers a particle, with p_i = pressure(i, (D u)_i)
-    // [Pa] of owned particles. u: of the owned particles, and as it is of all of their images. Collective.
+    // force_i = -(L u)_i + (D^T V p)_i + (force of tau)_i [N], four numbers per particle, with p_i = pressure(i,
+    // (D u)_i) [Pa] for owned particles. u: of the owned particles; their images have the same u. Collective.
     template <class Pressure>
     void apply(particles::ParticleSystem& system, const Field& u, Pressure&& pressure) {
         force_.assign(width * shared_.entries(), 0.0);
         addForces(system, u, Known::ownVelocities, FieldOf::changes, pressure, force_);
     }
-    // The same added to `force`, with u and force of all entries of shared(): velocities of ghosts need no
-    // message. What own particles, and they alone, had as force before is in the sum that all ranks get. Collective.
+    // The same added to `force`, where u and force have all entries of shared(), so that velocities of ghosts need no
+    // message. Forces that own particles, and they alone, had before are included in the sum that all ranks get.
+    // Collective.
     template <class Pressure>
     void addForces(particles::ParticleSystem& system, const Field& u, FieldOf of, Pressure&& pressure,
                    particles::RealArray& force) {
         addForces(system, u, Known::allVelocities, of, pressure, force);
     }
-    // Without pressure; of owned particles. Collective.
+    // The same as `apply`, without pressure. Collective.
     void applyViscosity(particles::ParticleSystem& system, const Field& u);
-    particles::RealArray& force() { return force_; }  // what else acts may be added, until the next application
+    // Force of the last `apply` or `applyViscosity`; other forces may be added, until the next application.
+    particles::RealArray& force() { return force_; }
     const particles::RealArray& force() const { return force_; }
     particles::SharedParticles& shared() { return shared_; }  // since the last `build`
     const particles::SharedParticles& shared() const { return shared_; }
     double divergence(std::size_t i) const { return divergence_[i]; }  // of the last application [1/s]
 
-    // Of ghosts, by how much they are faster than their particles [m/s]; empty in a box whose images do not slide.
+    // Velocity of each ghost less that of its particle [m/s]; empty in a box whose images do not slide.
     const std::vector<Vec3>& slides() const { return slides_; }
 
     double volume(std::size_t i) const { return volume_[i]; }  // m/rho [m^3]
@@ -88,7 +94,7 @@ class Operators {
     double viscousScale(std::size_t i) const { return scale_[i]; }  // 1/S2
     double wallGap(std::size_t i) const { return gap_[i]; }         // distance from the nearest wall [m]
     bool isWall(std::size_t i) const { return wall_[i] != 0; }
-    // Of momentPair.hpp:
+    // Sums of momentPair.hpp:
     const Vec3& disorder(std::size_t i) const { return disorder_[i]; }              // R [1/m]
     double crowding(std::size_t i) const { return moment_[Moments::strength][i]; }  // sum_j V_j F [1/m^2]
     double evenness(std::size_t i) const { return moment_[Moments::number][i]; }    // sum_j V_j W
@@ -107,10 +113,11 @@ class Operators {
     }
     bool isLayered() const { return viscosity_ == ViscosityKind::layers; }
     bool isTwoFluids() const { return viscosity_ == ViscosityKind::sides; }
-    double layerExcess(const particles::ParticleSystem& system, std::size_t i) const {  // over the lowest [Pa s]
+    // Viscosity of particle i less the lowest of the layers [Pa s].
+    double layerExcess(const particles::ParticleSystem& system, std::size_t i) const {
         return system.store().viscosity[i] - model_.lowestLayer;
     }
-    // Blocks of pairs by whether one of their particles has a stress by the gradient.
+    // Blocks of pairs, sorted by whether one of their particles has a stress tau (varying) or none (uniform).
     struct Blocks {
         std::vector<int> uniform, varying;
     };
@@ -124,11 +131,12 @@ class Operators {
     void findRates(particles::ParticleSystem& system, const Field& u, Known known, FieldOf of);
     void setPressure(std::size_t i, double pressure);
     void addStress(particles::ParticleSystem& system, particles::RealArray& force);
-    void takeForces(std::size_t from, std::size_t entry, particles::RealArray& force) {  // of sums_, which have 0 then
+    // Adds the sums of record `from` to the force of `entry` and sets them to 0.
+    void takeForces(std::size_t from, std::size_t entry, particles::RealArray& force) {
         for (std::size_t k = 0; k < 3; ++k)
             force[width * entry + k] += viscousUnit_ * std::exchange(sums_[width * from + k], 0.0);
     }
-    void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ of gradientSums_
+    void takeGradients(const particles::ParticleSystem& system);  // stress_ and divergence_ from gradientSums_
 
     FluidModel model_;
     OperatorForm form_;
@@ -136,18 +144,19 @@ class Operators {
     PairKernels::Operators<Real> uniform_, varying_;
     MomentConstants moments_;
     NoSlip noSlip_;
-    double unitVolume_, wallScale_, viscousUnit_, rateUnit_;  // of the sums
+    double unitVolume_, wallScale_, viscousUnit_,
+        rateUnit_;  // wallScale_: 1/S2 of walls; others: units of records, sums
     Field momentRecords_, rateRecords_, stressRecords_, varyingStressRecords_;
     particles::SharedParticles shared_;
-    std::vector<Vec3> slides_;  // of ghosts; none in a box whose images do not slide
-    long plannedAt_ = -1;       // builds of the system's lists
+    std::vector<Vec3> slides_;  // of ghosts; empty in a box whose images do not slide
+    long plannedAt_ = -1;       // system.builds() when shared_ was planned
     particles::RealArray sums_, force_, divergence_;
     std::array<Blocks, particles::PairList::groups> groups_;
-    BlocksByWall reaching_, rest_;       // of shared_
-    std::vector<std::size_t> touched_;   // records of own particles in varying blocks, in order, then of ghosts
-    std::vector<int> place_;             // of an own particle in touched_, -1: not there
-    particles::RealArray gradientSums_;  // 0 but in touched_
-    std::vector<Mat3> stress_;           // tau of touched_
+    BlocksByWall reaching_, rest_;       // the blocks of shared_
+    std::vector<std::size_t> touched_;   // records in varying blocks: of own particles, in order, then of ghosts
+    std::vector<int> place_;             // index of each own particle in touched_; -1: it is not in touched_
+    particles::RealArray gradientSums_;  // by record; 0 except for touched_
+    std::vector<Mat3> stress_;           // tau of each entry of touched_
     ExcessStress excess_;
     bool hasInside_ = false;
     std::array<particles::RealArray, Moments::count> moment_;

@@ -1,4 +1,4 @@
-// A law's pair loop as built for the instruction set of the file that includes this: entries of the table in
+// The pair loop of a law, built for the instruction set of the file that includes this header: entries of the table in
 // pairKernels.hpp.
 #pragma once
 #include "particles/pairLoop.hpp"
@@ -16,7 +16,7 @@ struct PairBuild {
     static void finish(const Constants& c, int owned, const Real* records, const double* sums, double* const* results) {
         Loop::finish(Law{c}, owned, records, sums, results);
     }
-    static constexpr auto finishOrNone() {  // for laws whose sums are all that is wanted
+    static constexpr auto finishOrNone() {  // null for laws without `finish`, of which only the sums are used
         using Pointer = decltype(particles::PairKernel<Constants, Real>::finish);
         if constexpr (requires { &Law::template finish<particles::Simd<Isa, double, 4>>; })
             return Pointer(&finish);

@@ -1,4 +1,5 @@
-// The table of pair loops of this library, one build per instruction set: kernel and what varies are chosen here, once.
+// The table of this library's pair loops, one build per instruction set. The kernel and the quantities that vary are
+// chosen here, once.
 #pragma once
 #include "particles/pairLoop.hpp"
 #include "sph/disorderPair.hpp"
@@ -28,9 +29,9 @@ struct PairKernels {
     Fluid<double> (*fluid)(FluidVariant, bool atWall);          // for lists of Precision::full
     Fluid<float> (*fluidFloat)(FluidVariant, bool atWall);      // of Precision::mixed
     Disorder (*disorder)(KernelKind, particles::Precision list);
-    using Mean = particles::PairKernel<MeanConstants>;  // results: the mean; three that mean nothing
+    using Mean = particles::PairKernel<MeanConstants>;  // results: the mean, then three without meaning
     Mean (*mean)(KernelKind, particles::Precision list);
-    // Of operators.hpp.
+    // The laws of operators.hpp.
     template <class Real>
     struct Operators {
         particles::PairKernel<MomentConstants, Real> moments;      // results: MomentPair::sums

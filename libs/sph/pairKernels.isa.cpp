@@ -9,7 +9,7 @@ namespace {
 
 using particles::Precision;
 
-// Of double records, by lists of either precision.
+// A law with double records, for lists made for either precision.
 template <class Law, class Constants>
 particles::PairKernel<Constants> build(Precision precision) {
     return precision == Precision::full ? PairBuild<Law, Constants, double, Precision::full>::kernel

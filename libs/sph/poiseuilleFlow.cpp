@@ -28,12 +28,12 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
     flow.walls = wallShape->place(context.box);
     double area = 0;
     for (const boundary::Wall& wall : flow.walls) area += wall.surface->area();
-    // Of planes the distance between them, of a tube its radius, whose flow is up to twice as fast.
+    // gap: for planes the distance between them, for a tube its radius; the flow in a tube is up to twice as fast.
     const double gap = 2 * wallShape->volume(context.box) / area, fastest = across ? 0.25 : 0.5,
                  slowest = across ? std::numbers::pi : 2;
     const double curvature = bodyForce * context.density / (2 * context.viscosity),
                  largest =
-                     bodyForce * context.density / (2 * context.leastViscosity);  // if all were the thinnest layer
+                     bodyForce * context.density / (2 * context.leastViscosity);  // if all had the least viscosity
     flow.density = context.density;
     flow.speed = fastest * largest * gap * gap;
     flow.length = gap;

@@ -1,8 +1,8 @@
 // Flow between two walls at rest, driven by a body force F per unit mass along x:
-//     u(s) = F/(2 nu) (s - low)(high - s) in the end; from rest
+//     u(s) = F/(2 nu) (s - low)(high - s) when developed; from rest
 //     u nu/(F L^2) = y(1 - y)/2 - sum_n 4/((2n+1)^3 pi^3) sin((2n+1) pi y) exp(-(2n+1)^2 pi^2 nu t/L^2),  y = (s -
 //         low)/L
-// Between other walls it starts from rest.
+// Between walls other than two parallel planes the flow always starts from rest.
 #pragma once
 #include "sph/flow.hpp"
 

@@ -22,8 +22,8 @@ struct Quintic {
         const V a = max(V(3.0) - t, V(0.0)), b = max(V(2.0) - t, V(0.0)), c = max(V(1.0) - t, V(0.0));
         return power4(a) * a - V(6.0) * power4(b) * b + V(15.0) * power4(c) * c;
     }
-    // The bracket vanishes like 24 t at the origin; the floor on t keeps the particle's own term finite (it is
-    // multiplied by a zero distance).
+    // The bracket vanishes like 24 t at the origin. The lower bound of t keeps the term of the particle itself finite,
+    // which is then multiplied by a distance of zero.
     template <class V>
     static CORPUSCLE_INLINE V slope(V q) {
         const V t = V(3.0) * q;

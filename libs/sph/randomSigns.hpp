@@ -1,4 +1,4 @@
-// A start for power iterations that is the same on any number of ranks: signs from a hash of particle number and axis.
+// Start vector of power iterations that does not depend on the number of ranks: signs from a hash of particle and axis.
 #pragma once
 #include <cstdint>
 

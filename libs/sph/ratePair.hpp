@@ -1,10 +1,10 @@
 // Viscous force and divergence of a velocity (operators.hpp), where viscosity is uniform:
 //     (L u)_i = sum_j w_ij (u_i - u_j),   w_ij = V_i V_j F (s_i + s_j) beta
 //     V_i (D u)_i = sum_j V_i V_j F (B_i d).(u_j - u_i),   d = x_j - x_i,  F = -W'(r)/r
-// beta is that of walls (noSlip.hpp). Two wall particles do not act on each other.
+// beta is the factor at walls (noSlip.hpp). Two wall particles do not act on each other.
 //
 // record | x y z in supports | u (3) | V in units of `volume`, negative for wall particles | s | B (xx yy zz xy xz yz)
-//        | nothing here | gap in supports
+//        | unused here | gap in supports
 // sums   | -(L u) (3), V D u
 #pragma once
 #include "sph/noSlip.hpp"

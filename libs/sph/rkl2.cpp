@@ -45,7 +45,7 @@ Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting, Budg
     : system_(system), forces_(forces), shifting_(shifting), budget_(budget) {
     if (!budget_) return;
     forces_.keepBudget();
-    budget_->lastKnown = false;  // of a checkpoint of another scheme
+    budget_->lastKnown = false;  // rates from a checkpoint of another scheme are not used
 }
 
 void Rkl2::start() {
@@ -80,7 +80,8 @@ void Rkl2::advance(double dt) {
     findIncrement(dt);
     for (std::size_t i = 0; i < n; ++i) {
         s.u[i] += increment_[0][i], s.v[i] += increment_[1][i], s.w[i] += increment_[2][i];
-        s.density[i] += dt * s.densityRate[i] - half * densityRate_[i];  // at the end, to first order: for its pressure
+        // Density at the end of the step, to first order, for the pressure in the next evaluation.
+        s.density[i] += dt * s.densityRate[i] - half * densityRate_[i];
     }
     densityRate_ = s.densityRate;
     forces_.evaluate(system_, 0);

@@ -1,4 +1,4 @@
-// The rate of a simple shear as a case gives it, and the density that may follow from it:
+// The rate of a simple shear as given by a case, and the density that follows from it if the case gives Re:
 //     gammadot = Ca Gs/(mu a),   rho = Re mu/(gammadot a^2)
 #pragma once
 #include "sph/flow.hpp"
@@ -10,7 +10,7 @@ struct ShearRate {
     std::optional<InertiaSettings> inertia;  // empty: physical
     static const Schema<ShearRate>& schema();
 
-    // shearRate, rate, density and densityFromRe of the flow; else problems.
+    // Sets shearRate, rate, density and densityFromRe of the flow, or adds problems.
     void resolveRate(const FlowContext& context, const Mark& mark, Problems& problems, FlowState& flow) const;
 };
 

@@ -33,8 +33,8 @@ Shifting::Shifting(const ShiftingSettings& settings, const Kernel& kernel, doubl
 void Shifting::apply(particles::ParticleSystem& system, double dt) {
     using particles::Kind;
     particles::ParticleStore& s = system.store();
-    // The list must hold for the positions of now: they have moved since the last test by one step, within the skin's
-    // reserve.
+    // The list must be valid for the present positions. Since the last check particles have moved by one step, which
+    // the skin allows for.
     const auto n = static_cast<std::size_t>(system.owned());
     records_.resize((n + static_cast<std::size_t>(system.ghosts())) * 4);
     for (auto& d : disorder_) d.resize(n);

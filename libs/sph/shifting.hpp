@@ -2,7 +2,8 @@
 // not grow.
 //     x_i <- x_i + C H_s^2 (rate tau) sum_j V_j F x_ij        at most 0.05 dx
 // C: coefficient; rate: shear rate of the flow, or speed/length where it has none [1/s]; tau: time since the last
-// shift. Every `steps` time steps. Only fluid particles move; velocity and density stay with the particle.
+// shift. Particles are shifted every `steps` time steps. Only fluid particles move; velocity and density stay with the
+// particle.
 #pragma once
 #include <memory>
 #include <optional>
@@ -22,13 +23,13 @@ class Shifting {
   public:
     Shifting(const ShiftingSettings& settings, const Kernel& kernel, double support, double rate, double particleMass);
 
-    // Counts one step and says whether it is a step that shifts.
+    // Counts one step and returns whether particles are to be shifted in it.
     bool due() { return ++count_ % settings_.steps == 0; }
     void apply(particles::ParticleSystem& system, double dt);
 
     long count() const { return count_; }
     void restore(long count) { count_ = count; }
-    double largest() const { return largest_; }  // of the last shift, this rank [m]
+    double largest() const { return largest_; }  // largest displacement in the last shift on this rank [m]
 
   private:
     ShiftingSettings settings_;

@@ -1,11 +1,10 @@
 // The transposes of the divergence and the gradient of ratePair.hpp and gradientPair.hpp:
 //     f_i = - sum_j V_i V_j F (T_i + T_j) d,   d = x_j - x_i,  F = -W'(r)/r
-// With T = p B it is D^T V p, the force of the pressure p; with T = -tau B that of a stress tau, 3 x 3 and not
-// symmetric. Two wall particles do not act on each other.
+// With T = p B, f is D^T V p, the force of the pressure p; with T = -tau B, f is the force of a stress tau, and T is
+// 3 x 3 and not symmetric. Two wall particles do not act on each other.
 //
-// record | x y z in supports | V in units of `volume`, negative for wall particles | T: xx yy zz xy xz yz, or row by
-//                                                                                  | row
-// sums   | f (3), nothing
+// record | x y z in supports | V in units of `volume`, negative for wall particles | T: xx yy zz xy xz yz, or by rows
+// sums   | f (3), unused
 #pragma once
 #include "sph/noSlip.hpp"
 

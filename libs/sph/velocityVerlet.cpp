@@ -29,7 +29,7 @@ void VelocityVerlet::resume() {
 void VelocityVerlet::advance(double dt) {
     ParticleStore& s = system_.store();
     const double half = 0.5 * dt;
-    double displacement2 = 0, sum = 0;  // the sum tells what a maximum hides: NaN
+    double displacement2 = 0, sum = 0;  // the sum detects NaN, which a maximum does not
     const int n = system_.owned();
     for (int i = 0; i < n; ++i) {
         s.u[i] += half * s.fx[i];  // Eq 12

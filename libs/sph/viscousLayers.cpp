@@ -8,7 +8,7 @@ namespace corpuscle::sph {
 
 namespace {
 
-// Sum over the particles of a layer, z spacings away, of a function of q = r/H.
+// Sum of f(q), q = r/H, over the particles of a layer at a distance of z spacings.
 template <class F>
 double sumOverLayer(int z, double support, F&& f) {
     const int n = static_cast<int>(std::ceil(support));
@@ -87,18 +87,19 @@ ViscousLayers::Vector ViscousLayers::shear(double place, double ratio) {
     return u;
 }
 
-// A step of the outer line changes the stress in proportion.
+// The stress is linear in a jump added to the prescribed velocities outside: comparison with a jump of 1 gives the jump
+// at which the stress would be exact.
 double ViscousLayers::film(double place, double ratio, double kappa) const {
     const Vector c = excess(place, ratio, kappa), none = Vector::Zero(count), exact = shear(place, ratio);
     Vector stepped = exact;
     for (int i = 0; i < count; ++i)
         if (i - half > place) stepped[i] += 1;
     const double found = stress(c, velocities(c, none, exact)), withStep = stress(c, velocities(c, none, stepped));
-    const double unit = (pairs_ * shear(0, 1)).tail(ends_).sum();  // of a straight line in one fluid
+    const double unit = (pairs_ * shear(0, 1)).tail(ends_).sum();  // stress of a linear profile in one fluid
     return (unit - found) / (withStep - found);
 }
 
-// The film grows with kappa, from one that is negative.
+// Bisection: the mean film increases with kappa and is negative at kappa = 0.
 double ViscousLayers::filmCoefficient(double ratio) const {
     if (ratio <= 1) return 0;
     double low = 0, high = 1;

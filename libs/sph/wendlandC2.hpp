@@ -12,7 +12,7 @@ namespace corpuscle::sph {
 struct WendlandC2 {
     static constexpr const char *name = "wendlandC2", *text = "Wendland's C2 kernel, the default";
     static constexpr double defaultSupport = 3.0,
-                            correctedSupport = 2.4;  // in spacings; the second with corrected operators
+                            correctedSupport = 2.4;  // in spacings; correctedSupport: with corrected operators
 
     static double normalisation(double H) { return 21 / (2 * std::numbers::pi * H * H * H); }
     static double gradientNormalisation(double H) { return 20 * normalisation(H) / (H * H); }

@@ -1,5 +1,5 @@
-// sweep.json in each case of a study: where it comes from, and what has been done in it. Written whole after each
-// program, so that a study that is killed goes on behind the last program that ended.
+// sweep.json in each case of a study: the origin of the case, and which programs have run in it. The whole file is
+// written again after each program, so that a study that was killed continues after the last program that ended.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -17,24 +17,25 @@ struct CaseRecord {
     struct Ended {
         std::string program = {};
         int code = 0;
-        double seconds = 0;       // over all its starts
-        std::string logEnd = {};  // of a program that failed: its last lines
+        double seconds = 0;       // summed over all its starts
+        std::string logEnd = {};  // last lines of the log of a program that failed
     };
 
-    std::string study = {};                                        // path of study.yaml from the case
+    std::string study = {};                                        // path of study.yaml, relative to the case
     std::vector<std::pair<std::string, std::string>> values = {};  // of the parameters
-    std::map<std::string, std::string> files = {};                 // other files of the template: their checksums
+    std::map<std::string, std::string> files = {};                 // checksums of the template's other files, by path
     std::vector<Ended> done = {};                                  // programs that ended with 0, in order
     std::optional<Ended> failed = {};
-    double stoppedSeconds = 0;  // of a program that was stopped and goes on
+    double stoppedSeconds = 0;  // of a program that was stopped and will continue
 
     double seconds() const;
     void write(const std::filesystem::path& caseDir) const;
-    // Throws Failure: invalidCase where it is damaged, io where it cannot be read.
+    // Empty if the file does not exist. Throws Failure: invalidCase if it is damaged, io if it cannot be read.
     static std::optional<CaseRecord> read(const std::filesystem::path& caseDir);
 };
 
-// Checksums of the files that a run may depend on beside the dictionaries (core/caseFolder.hpp: dataFilesOf), by path.
+// Checksums, by path, of the files that a run may depend on besides the dictionaries (core/caseFolder.hpp:
+// dataFilesOf).
 std::map<std::string, std::string> otherFiles(const std::filesystem::path& caseDir, const std::string& excluded);
 
 }  // namespace corpuscle::study

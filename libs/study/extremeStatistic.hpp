@@ -1,4 +1,4 @@
-// The value that is greatest in size, with its sign: of changes that may be of either.
+// The value of greatest magnitude, with its sign: for changes that may be positive or negative.
 #pragma once
 #include "study/statistic.hpp"
 

@@ -1,4 +1,4 @@
-// Every combination of the values of all parameters; the last one changes fastest.
+// Every combination of the values of all parameters; the last parameter changes fastest.
 #pragma once
 #include "study/sampling.hpp"
 

@@ -1,5 +1,5 @@
-// Latin hypercube: the range of each parameter is cut into as many equal parts as there are cases, and each part is
-// used once, at a random place in it. McKay, Beckman, Conover 1979, Technometrics 21, 239.
+// Latin hypercube: the range of each parameter is cut into as many equal parts as there are cases. Each part is used by
+// one case, at a random place within the part. McKay, Beckman, Conover 1979, Technometrics 21, 239.
 #pragma once
 #include "study/sampling.hpp"
 

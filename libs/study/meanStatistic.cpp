@@ -7,7 +7,7 @@
 namespace corpuscle::study {
 
 Estimate MeanStatistic::of(std::span<const double> /*along*/, std::span<const double> values) const {
-    constexpr double rounding = 1e-9;  // of the mean: values that differ by less are the same
+    constexpr double rounding = 1e-9;  // relative to the mean: values that differ by less count as equal
     const BlockAverage average = blockAverage(values);
     return {.value = average.mean,
             .error = average.error,

@@ -1,5 +1,5 @@
-// The mean, with its standard error by blocks (core/blockAverage.hpp). Where no range is given, of the second half of
-// the run.
+// The mean, with its standard error from block averages (core/blockAverage.hpp). Where no range is given, the second
+// half of the run is used.
 #pragma once
 #include "study/statistic.hpp"
 

@@ -8,7 +8,7 @@
 namespace corpuscle::study {
 
 Estimate PeriodStatistic::of(std::span<const double> along, std::span<const double> values) const {
-    constexpr double clear = 0.05;  // of the range: what has to lie below the mean before the next crossing
+    constexpr double clear = 0.05;  // of the range: how far the series must be below the mean before a crossing counts
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     const double low = mean - clear * (*greatest - *least);

@@ -1,8 +1,8 @@
-// Period of an oscillation: the mean distance, in strain or time, between the places where it goes up through its mean.
+// Period of an oscillation: the mean distance, in strain or time, between upward crossings of the mean.
 //
-// Such a place counts once the series has been below the mean by 5 % of its whole range, so that noise around the mean
-// does not. Places are found by linear interpolation. For n >= 2 periods the standard error is that of n independent
-// ones.
+// A crossing counts once the series has been below the mean by 5 % of its whole range, so that noise around the mean
+// does not count. Crossings are located by linear interpolation. For n >= 2 periods the standard error is that of n
+// independent periods.
 #pragma once
 #include "study/statistic.hpp"
 

@@ -20,7 +20,7 @@ namespace corpuscle::study {
 
 namespace {
 
-// Processes that a process has started, by /proc/PID/stat: "PID (name) state parent ...".
+// Child processes of a process, from /proc/PID/stat: "PID (name) state parent ...".
 std::vector<pid_t> childrenOf(pid_t parent) {
     std::vector<pid_t> found;
     std::error_code ignored;
@@ -78,7 +78,7 @@ Process::Process(std::vector<std::string> words, const std::filesystem::path& lo
     if (id_ == 0) {
         setpgid(0, 0);
         prctl(PR_SET_PDEATHSIG, SIGTERM);
-        if (getppid() != parent) _exit(127);  // it has ended in between
+        if (getppid() != parent) _exit(127);  // the parent has ended in the meantime
         for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
         const int input = open("/dev/null", O_RDONLY);
         dup2(input, 0);
@@ -92,7 +92,7 @@ Process::Process(std::vector<std::string> words, const std::filesystem::path& lo
     const int error = errno;
     close(output);
     if (id_ < 0) throw Failure(ExitCode::io, fmt::format("{} cannot be started: {}.", words[0], std::strerror(error)));
-    setpgid(id_, id_);  // whichever of the two comes first
+    setpgid(id_, id_);  // also set by the child: either may run first
 }
 
 Process::Process(Process&& other) noexcept

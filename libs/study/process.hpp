@@ -1,8 +1,8 @@
-// A program that runs beside this one, with its output in a file.
+// A program that runs in parallel with this one, with its output in a file.
 //
-// It has a process group of its own, so that a terminal's Ctrl-C does not reach it, and is asked to stop (SIGTERM) when
-// this process ends in whatever way: a solver then writes a checkpoint and stops. Of mpirun the ranks are asked: by
-// itself it would wait, and then end them.
+// It has its own process group, so that Ctrl-C in a terminal does not reach it. It receives SIGTERM when this process
+// ends in any way: a solver then writes a checkpoint and stops. Where the program is mpirun, stop() signals its ranks,
+// since mpirun itself would wait and then end them.
 #pragma once
 #include <sys/types.h>
 
@@ -13,11 +13,12 @@
 
 namespace corpuscle::study {
 
-// Of this process, before MPI adds its own: a program that is started must not take itself for a part of this one.
+// Environment variables of this process, read before MPI adds its own: a program that is started must not take itself
+// for a part of this process.
 class Environment {
   public:
     static Environment ofThisProcess();
-    void set(const std::string& name, const std::string& value);  // unless it is there
+    void set(const std::string& name, const std::string& value);  // unless the variable exists
     std::vector<char*> pointers();
 
   private:
@@ -26,13 +27,14 @@ class Environment {
 
 class Process {
   public:
-    // words: program and arguments; a program without '/' is looked for along PATH. Its output is added to `log`. The
-    // descriptors `kept` stay open in it, so that a lock on one of them lasts as long as it runs. Throws Failure(io).
+    // words: program and arguments; a program without '/' is looked up in PATH. Its output is appended to `log`. The
+    // descriptors `kept` stay open in the program, so that a lock on one of them lasts as long as the program runs.
+    // Throws Failure(io).
     Process(std::vector<std::string> words, const std::filesystem::path& log, Environment environment,
             const std::vector<int>& kept);
     Process(Process&& other) noexcept;
     Process& operator=(Process&& other) noexcept;
-    ~Process();  // asks it to stop, and does not wait
+    ~Process();  // asks the program to stop, and does not wait for its end
 
     // The exit code, or 128 + the number of the signal that ended it; empty: it is still running.
     std::optional<int> poll();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t mostCurves = 12;  // of one plot; with more, points without lines and one colour
+constexpr std::size_t mostCurves = 12;  // in one plot; more are drawn as points without lines, in one colour
 
 std::string escaped(const std::string& text) {
     std::string safe;
@@ -39,7 +39,7 @@ std::string escaped(const std::string& text) {
     return safe;
 }
 
-// In single quotes of gnuplot, in which nothing has a meaning but the quotes themselves.
+// Text in single quotes of gnuplot, in which only the quotes themselves have a special meaning.
 std::string forGnuplot(const std::string& text) {
     std::string safe;
     for (const char c : text) safe += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
@@ -47,7 +47,7 @@ std::string forGnuplot(const std::string& text) {
 }
 
 struct Curve {
-    std::string title;  // the other parameters
+    std::string title;  // values of the other parameters
     std::vector<const SummaryRow*> rows;
 };
 
@@ -82,7 +82,7 @@ std::string plotScript(const Summary& summary, std::size_t x, std::size_t result
     if (curves.empty()) return {};
     std::string blocks, plots;
     const bool hasError = settings->statistic->hasError();
-    if (!isLine) {  // all together
+    if (!isLine) {  // all cases as one set of points
         for (std::size_t k = 1; k < curves.size(); ++k)
             curves[0].rows.insert(curves[0].rows.end(), curves[k].rows.begin(), curves[k].rows.end());
         curves.resize(1);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t longestName = 80;
 
-// As a part of a file's name: what a shell would treat as special is left out.
+// A value as part of a file name, without the characters that a shell would treat as special.
 std::string fileText(const std::string& value) {
     std::string text;
     for (std::size_t k = 0; k < value.size(); ++k) {
@@ -49,7 +49,7 @@ void nameByValues(std::vector<StudyCase>& cases, const StudySettings& study) {
 
 std::vector<StudyCase> casesOf(const StudySettings& study, const std::vector<std::string>& order) {
     std::vector<std::size_t> levels;
-    std::map<std::string, std::size_t> axis;  // of each parameter
+    std::map<std::string, std::size_t> axis;  // index in `levels` of each parameter
     for (const std::string& name : order)
         if (const ParameterSettings& p = study.parameters.at(name); !p.with) {
             axis[name] = levels.size();

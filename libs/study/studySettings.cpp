@@ -109,7 +109,8 @@ void checkFollowers(const StudySettings& study, const Node& node, Problems& prob
     }
 }
 
-// A key that two parameters set, or one beside `set`, or one within another: only the last would count.
+// Reports a key that two parameters set, or a parameter and `set`, or that lies within another: only the last setting
+// would have an effect.
 void checkSameKeys(const StudySettings& study, const Node& node, Problems& problems) {
     const auto isWithin = [](const std::string& inner, const std::string& outer) {
         return inner == outer || inner.starts_with(outer + "/");
@@ -171,7 +172,8 @@ std::string ParameterSettings::value(double u) const {
     if (levels() > 0 && part == 1) return endsOf(*this)[1];
     const double number =
         logRange ? low.value * std::pow(high.value / low.value, part) : low.value + part * (high.value - low.value);
-    // As short as is exact to 1 % of the distance to the next value: it becomes a part of the case's name.
+    // As few digits as give the number to within 1 % of the distance to the next value, since the text becomes part of
+    // the case's name.
     const std::size_t n = levels();
     const double ratio = logRange ? high.value / low.value : 0;
     const double step = n < 2      ? 1e-4 * std::abs(number)

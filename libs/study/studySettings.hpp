@@ -24,13 +24,13 @@ namespace corpuscle::study {
 struct ParameterSettings {
     std::optional<std::string> key;                  // FILE:/path
     std::optional<std::vector<std::string>> keys;    // several, all set to the same value
-    std::optional<std::vector<std::string>> values;  // YAML in one line each
+    std::optional<std::vector<std::string>> values;  // each is YAML in one line
     std::optional<std::vector<std::string>> range, logRange;
     std::optional<long> count;        // of values in the range
     std::optional<std::string> with;  // the parameter whose choice of level it follows
 
     std::vector<std::string> allKeys() const;
-    // Levels; 0: a continuous range.
+    // Number of levels; 0: a continuous range.
     std::size_t levels() const;
     // The value for a number in [0, 1) (sampling.hpp), as it is written into the case.
     std::string value(double u) const;

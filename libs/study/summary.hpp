@@ -1,4 +1,4 @@
-// What a study has found: one row for each case, as summary.csv.
+// Results of a study: one row for each case, as in summary.csv.
 #pragma once
 #include <map>
 #include <string>
@@ -12,8 +12,8 @@ namespace corpuscle::study {
 struct ParameterColumn {
     std::string name, unit = {};  // unit as it is written in the study, "1/s"
     bool isNumber = true;
-    bool isLogarithmic = false;  // spread over more than a factor of 30
-    bool follows = false;        // another parameter
+    bool isLogarithmic = false;  // spread over a factor of 30 or more
+    bool follows = false;        // it follows another parameter
     std::string header() const;  // "rate_1_s"
 };
 
@@ -26,7 +26,7 @@ struct CaseResult {
 struct SummaryRow {
     const CaseStatus* status;
     std::vector<std::string> texts = {};   // of the parameters
-    std::vector<double> numbers = {};      // the same, in their unit; NaN of a text
+    std::vector<double> numbers = {};      // the same, in their unit; NaN for text
     std::vector<CaseResult> results = {};  // of cases that are done
 };
 
@@ -36,10 +36,11 @@ struct Summary {
     std::vector<SummaryRow> rows;
 };
 
-// Results of cases that are done, by name: their tables are read once.
+// Results of cases that are done, by case name, so that their tables are read only once.
 using KnownResults = std::map<std::string, std::vector<CaseResult>>;
 
-// Refers to `study` and `cases`. Tables that lack what a result asks for are told in its `problem`.
+// The Summary refers to `study` and `cases`. Where a table lacks what a result asks for, `problem` of the result says
+// so.
 Summary summarise(const StudySettings& study, const std::vector<CaseStatus>& cases,
                   const std::filesystem::path& casesFolder, KnownResults& known);
 

@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* logName = "log.caseSweep";
 constexpr std::size_t shownLines = 15;       // of the log of a program that failed
-constexpr std::size_t shownDifferences = 5;  // of a case
+constexpr std::size_t shownDifferences = 5;  // shown for one case
 constexpr auto pauseBetweenLooks = std::chrono::seconds(1);
 
 // The end of a file, at most so many bytes.
@@ -49,7 +49,7 @@ std::string lastLines(const fs::path& path, std::size_t count) {
     return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
 }
 
-// "34.1 %" of the last line in which a solver tells how far it is.
+// "34.1 %" from the last line in which a solver reports its progress.
 std::string progressOf(const fs::path& log) {
     static const std::regex percent("step [0-9]+ .* ([0-9.]+ %)");
     const std::string text = tailOf(log, 2000);
@@ -59,13 +59,13 @@ std::string progressOf(const fs::path& log) {
     return found;
 }
 
-// Whether a solver that stopped early did so by its own `stop: wallClock`: it then goes on at once, since a study is
-// run to its end; a user who makes the stop file wants something else.
+// Whether a solver stopped early because of its own `stop: wallClock`. It then continues at once, since a study is run
+// to its end; a user who makes the stop file wants the solver to stay stopped.
 bool endedByWallClock(const fs::path& caseDir) {
     try {
         const auto record = nlohmann::json::parse(readFile(caseDir / "run.json"));
         return record.value("reason", "").find("wall-clock limit") != std::string::npos &&
-               record.at("performance").value("steps", 0) > 0;  // else it would go on for ever
+               record.at("performance").value("steps", 0) > 0;  // otherwise it would be continued for ever
     } catch (const std::exception&) {
         return false;
     }
@@ -92,7 +92,8 @@ class Descriptor {
 
 bool isSolver(const std::string& program) { return program == "dmpFlow" || program == "sphFlow"; }
 
-// Dictionaries that say how long is run, what is written and measured: a solver goes on after any change of them.
+// Dictionaries that define the length of the run, what is written and what is measured: a solver can continue after any
+// change of them.
 bool isOfTheRun(const std::string& file) { return file == "system/control.yaml" || file == "system/observers.yaml"; }
 
 // The lock on a case; empty where another run of the study has it.
@@ -101,13 +102,13 @@ std::optional<Descriptor> lockOf(const fs::path& folder) {
     Descriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     if (file.id() < 0)
         throw Failure(ExitCode::io, fmt::format("{}: cannot be written: {}.", path.string(), std::strerror(errno)));
-    // Where a file system has no such locks, the solver's own lock on its case is what remains.
+    // On a file system without such locks, only the solver's own lock protects its case.
     if (flock(file.id(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return std::nullopt;
     return file;
 }
 
-// That of the programs themselves (core/caseLock.hpp), which somebody may have started by hand: empty where one holds
-// it.
+// The lock of the programs themselves (core/caseLock.hpp), which somebody may have started by hand: empty where a
+// program holds it.
 std::optional<Descriptor> lockInside(const fs::path& folder) {
     Descriptor file(open((folder / CaseLock::fileName).c_str(), O_RDWR | O_CLOEXEC));
     if (file.id() >= 0 && flock(file.id(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return std::nullopt;
@@ -145,12 +146,12 @@ Sweep::Sweep(SweepOptions options, std::vector<StudyCase> cases, Environment env
     inTemplate_ = options_.cases.lexically_relative(options_.templateCase).begin()->string();
     if (inTemplate_ == "..") inTemplate_.clear();
     files_ = otherFiles(options_.templateCase, inTemplate_);
-    // Several MPI programs at a time, each of which would bind its ranks to the first cores. Where this process is
-    // killed, mpirun ends the ranks, which then have a few seconds for a checkpoint; where ranks have stopped by
+    // Several MPI programs run at a time, and each of them would bind its ranks to the first cores. If this process is
+    // killed, mpirun ends the ranks, which then have a few seconds to write a checkpoint; if ranks have stopped by
     // themselves, with code 5, mpirun waits as long before it ends.
     environment_.set("OMPI_MCA_hwloc_base_binding_policy", "none");
     environment_.set("OMPI_MCA_rmaps_base_oversubscribe", "1");
-    if (geteuid() == 0) {  // in a container: who runs this as root means it
+    if (geteuid() == 0) {  // as in a container: running as root is intended
         environment_.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
         environment_.set("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
     }
@@ -173,8 +174,8 @@ Sweep::Sweep(SweepOptions options, std::vector<StudyCase> cases, Environment env
 
 Sweep::~Sweep() = default;
 
-// Where the case stands, by its record: programs that have ended in the order of the list, as long as what they have
-// written is there.
+// Determines the state of the case from its record: the programs that have ended, in the order of the list, as long as
+// their output exists.
 void Sweep::takeState(CaseStatus& one) const {
     CaseRecord& record = one.record;
     const fs::path path = folder(one.what);
@@ -187,7 +188,7 @@ void Sweep::takeState(CaseStatus& one) const {
     while (count < record.done.size() && count < programs.size() && record.done[count].program == programs[count] &&
            isThere(programs[count]))
         ++count;
-    if (count < record.done.size() && record.done[count].program == "particleFill") count = 0;  // so is the mesh
+    if (count < record.done.size() && record.done[count].program == "particleFill") count = 0;  // the mesh is gone too
     record.done.resize(count);
     if (one.retries) record.failed.reset();
     one.seconds = record.seconds();
@@ -207,7 +208,7 @@ void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
     try {
         record = CaseRecord::read(path);
     } catch (const Failure& failure) {
-        if (failure.code() != ExitCode::invalidCase) throw;  // it cannot be read just now
+        if (failure.code() != ExitCode::invalidCase) throw;  // the file cannot be read at the moment
         if (options_.readOnly || options_.differing == Differing::keep)
             one.state = CaseState::failed,
             one.record.failed = CaseRecord::Ended{.program = one.program, .code = 4, .logEnd = failure.what()};
@@ -249,7 +250,7 @@ void Sweep::inspect(CaseStatus& one, std::vector<std::string>& different) {
             one.state = CaseState::waiting;
             one.program = *std::find_if(one.what.programs.begin(), one.what.programs.end() - 1, isSolver);
             break;
-        case Differing::keep:  // its row has the values that it was run with
+        case Differing::keep:  // its row shows the values with which it was run
             if (record->values.size() == one.what.values.size()) one.what.values = record->values;
             break;
         case Differing::fresh:
@@ -263,7 +264,7 @@ std::string Sweep::wantedText(const StudyCase& one, const std::string& file) con
     return found == changed.end() ? readFile(options_.templateCase / file) : found->second;
 }
 
-// What differs between the dictionaries and files of a case and those that it would have now.
+// Differences between the dictionaries and files of a case and those that it would have now.
 Sweep::Changes Sweep::changesOf(const StudyCase& one, const CaseRecord& record) const {
     const fs::path path = folder(one);
     Changes changes;
@@ -306,7 +307,7 @@ Sweep::Changes Sweep::changesOf(const StudyCase& one, const CaseRecord& record) 
 
 void Sweep::make(CaseStatus& one) const {
     const fs::path path = folder(one.what), hidden = path.parent_path() / ("." + one.what.name + ".new");
-    fs::remove_all(hidden);  // of a run that was killed here: the lock is ours
+    fs::remove_all(hidden);  // left by a run that was killed here: this run holds the lock
     copyCase(options_.templateCase, hidden, inTemplate_);
     for (const auto& [file, text] : dictionariesWith(options_.templateCase, one.what.settings))
         writeFileAtomically(hidden / file, text);
@@ -317,10 +318,11 @@ void Sweep::make(CaseStatus& one) const {
     fs::rename(hidden, path);
 }
 
-// The record first: a kill in between leaves a case whose solver has not ended and which differs still.
+// Writes the record first: a kill in between leaves a case whose solver has not ended and which still differs.
 void Sweep::update(CaseStatus& one) const {
     const fs::path path = folder(one.what);
-    std::vector<CaseRecord::Ended>& done = one.record.done;  // from the solver on again; all, where there is none
+    // The solver and the programs after it run again; all programs if there is no solver.
+    std::vector<CaseRecord::Ended>& done = one.record.done;
     const auto solver = std::find_if(done.begin(), done.end(), [](const auto& ended) {
         return isSolver(ended.program) || ended.program == "membraneRelax";
     });
@@ -344,12 +346,12 @@ void Sweep::fail(CaseStatus& one, const std::string& reason) const {
     one.record.failed = CaseRecord::Ended{.program = one.program, .code = 4, .seconds = 0, .logEnd = reason};
     try {
         if (fs::exists(folder(one.what) / CaseRecord::fileName)) one.record.write(folder(one.what));
-    } catch (const std::exception&) {  // it is told all the same
+    } catch (const std::exception&) {  // the failure is reported all the same
         return;
     }
 }
 
-// Whether the plan to remove a case still holds: another run of the study may have made it anew in between.
+// Whether the plan to remove a case still holds: another run of the study may have made it anew in the meantime.
 bool Sweep::isToBeFresh(const CaseStatus& one) const {
     try {
         const auto record = CaseRecord::read(folder(one.what));
@@ -360,7 +362,7 @@ bool Sweep::isToBeFresh(const CaseStatus& one) const {
     }
 }
 
-// Takes a case up unless another run of the study, or a program that somebody has started, is at it.
+// Starts a case unless another run of the study, or a program that somebody has started, is working on it.
 bool Sweep::begin(std::size_t k) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
@@ -372,15 +374,15 @@ bool Sweep::begin(std::size_t k) {
             return false;
         }
         const fs::path old = path.parent_path() / ("." + one.what.name + ".old");
-        fs::remove_all(old);  // of a run that was killed while it removed it
+        fs::remove_all(old);  // left by a run that was killed while removing it
         const Differing plan = std::exchange(one.plan, Differing::keep);
-        if (plan == Differing::fresh && fs::exists(path) && isToBeFresh(one)) {  // never half of a case: renamed first
+        if (plan == Differing::fresh && fs::exists(path) && isToBeFresh(one)) {  // renamed first: never half a case
             fs::rename(path, old);
             fs::remove_all(old);
         }
         if (!fs::exists(path)) {
             make(one);
-        } else if (const auto record = CaseRecord::read(path)) {  // another run may have gone on with it
+        } else if (const auto record = CaseRecord::read(path)) {  // another run may have continued it
             one.record = *record;
             const Changes changes = plan == Differing::update ? changesOf(one.what, *record) : Changes{};
             if (!changes.texts.empty() && changes.areOfTheRun) update(one);
@@ -388,13 +390,13 @@ bool Sweep::begin(std::size_t k) {
             one.retries = false;
             if (one.state != CaseState::waiting) return false;
         }
-        inside.reset();  // it is the program's from here
+        inside.reset();  // from here on the program takes this lock
         runs_[k] = std::make_unique<Run>();
         runs_[k]->lock = std::move(*lock);
         one.state = CaseState::running;
         startNext(k);
         return true;
-    } catch (const std::exception& error) {  // of this case: the others go on
+    } catch (const std::exception& error) {  // an error of this case only: the others continue
         runs_[k].reset();
         fail(one, error.what());
         return false;
@@ -412,7 +414,7 @@ void Sweep::startNext(std::size_t k) {
     runs_[k]->process.emplace(std::move(words), path / logName, environment_, std::vector<int>{runs_[k]->lock.id()});
 }
 
-// A program of the case has ended. What goes wrong is of this case: the others go on.
+// Handles the end of a program of the case. Errors are those of this case only: the others continue.
 void Sweep::settle(std::size_t k, int code) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
@@ -430,7 +432,7 @@ void Sweep::note(std::size_t k, int code) {
     CaseStatus& one = cases_[k];
     const fs::path path = folder(one.what);
     const double seconds = since(runs_[k]->start) + one.record.stoppedSeconds;
-    // A signal from outside, as at the end of a job or of the machine, is a stop too.
+    // A signal from outside, such as at the end of a batch job or at shutdown of the machine, counts as a stop too.
     const bool isSignal = code == 128 + SIGTERM || code == 128 + SIGINT || code == 128 + SIGHUP;
     const bool isStopped = code == static_cast<int>(ExitCode::stopped) || isSignal || (isStopping_ && code != 0);
     one.record.stoppedSeconds = 0;

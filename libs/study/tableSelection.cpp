@@ -12,7 +12,7 @@
 namespace corpuscle::study {
 namespace {
 
-constexpr double tolerable = 0.01;  // part of an interval by which rows may be off even steps
+constexpr double tolerable = 0.01;  // fraction of an interval by which rows may deviate from even spacing
 
 bool has(const io::CsvTable& table, const std::string& column) {
     return std::find(table.columns.begin(), table.columns.end(), column) != table.columns.end();
@@ -30,7 +30,7 @@ std::string keyOf(const io::CsvTable& table) {
     return "";
 }
 
-// The column in which the range is said: that of -from or -to, else the strain, unless a flow without shear has none.
+// The column in which the range is given: that of -from or -to; else the strain, or the time in a flow without shear.
 std::string alongOf(const io::CsvTable& table, const std::string& name, const std::optional<Moment>& from,
                     const std::optional<Moment>& to) {
     for (const auto& moment : {from, to})
@@ -56,14 +56,14 @@ std::vector<std::string> columnsOf(const io::CsvTable& table, const std::string&
     return wanted.empty() ? columns : wanted;
 }
 
-// Adds the rows that `isWanted` to the series, cells of one time together.
+// Adds the rows for which `isWanted` is true to the series, averaged over the cells at each time.
 template <class IsWanted>
 void addRows(TableSelection& s, const io::CsvTable& table, IsWanted&& isWanted) {
     const std::vector<double> along = table.column(s.along), time = table.column("time_s");
     const std::vector<double> places = s.isByPlace() ? table.column(s.key) : std::vector<double>(along.size());
     std::map<std::string, std::vector<double>> values;
     for (const std::string& column : s.columns) values[column] = table.column(column);
-    std::map<double, long> rows;  // of a place at this time
+    std::map<double, long> rows;  // number of rows of each place at this time
     for (std::size_t row = 0; row < along.size(); ++row) {
         if (!isWanted(row)) continue;
         if (rows.empty() || time[row] != time[row - 1]) s.moments.push_back(along[row]), rows.clear();

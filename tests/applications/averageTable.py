@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""averageTable: tables of one row a time, of cells and of places; what is refused.
+"""averageTable: tables with one row per time, tables of cells and of places; rejected input.
 
     averageTable.py BIN
 """
@@ -57,7 +57,7 @@ with tempfile.TemporaryDirectory() as temporary:
     run(case, "blood/suspension", "-from", "10 strain", says=["relativeViscosity", "standard error", "*", "lower bound"])
     assert list(averages(case, "blood/suspension", "-columns", "drift_m")[1]) == [("drift_m",)]
 
-    # Two cells, of which one is absent at times: the mean over those that are there.
+    # Two cells, one of them absent at some times: the mean over those present.
     cells = [(0.1 * k, cell, k + 10 * cell) for k in range(100) for cell in (1, 2) if (cell, k % 10) != (2, 3)]
     table(case, "deformation/rbc", "time_s,cell,D12", cells)
     result, found = averages(case, "deformation/rbc", "-from", "0 s")
@@ -65,7 +65,7 @@ with tempfile.TemporaryDirectory() as temporary:
     near(found["D12",]["mean"], expected, 1e-12)
     assert result["times"] == 100 and "cell" not in result["averages"][0]
 
-    # Places: a mean at each, without numbers where there is nothing.
+    # Places: a mean at each, and no numbers at places without values.
     places = [(0.1 * k, z, z * z + 0.01 * noise[k], math.nan if z > 2 else 1) for k in range(64) for z in (1.0, 2.0, 3.0)]
     table(case, "profile/profile", "time_s,z_m,u_m_s,n", places)
     result, found = averages(case, "profile/profile", "-from", "0 s")
@@ -77,7 +77,7 @@ with tempfile.TemporaryDirectory() as temporary:
     table(case, "mean/poiseuille", "time_s,strain,u_m_s", [(0.1 * k, 0, k) for k in range(101)])
     result, found = averages(case, "mean/poiseuille")
     assert (result["along"], result["times"]) == ("time_s", 51) and found["u_m_s",]["mean"] == 75, result
-    # A constant but for rounding has no error to speak of, however few values there are.
+    # A value that is constant up to rounding has a negligible error, however few values there are.
     table(case, "blood/few", "time_s,volume_m3,n", [(0.1 * k, 1e-16 * (1 + 1e-13 * (-1) ** k), k % 3) for k in range(4)])
     found = averages(case, "blood/few", "-from", "0 s")[1]
     assert found["volume_m3",]["isReliable"] and not found["n",]["isReliable"], found

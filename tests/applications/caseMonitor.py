@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""caseMonitor beside a run: how far it is, that it was killed, that it ended, and the curve of a table.
+"""caseMonitor during a run: its progress, that it was killed, that it ended, and the curve of a table.
 
     caseMonitor.py BIN SOURCE
 """
@@ -31,7 +31,7 @@ def solver(case, end):
 
 
 def progress(case, process, least):
-    """As soon as so many steps are on record."""
+    """The progress of a run, as soon as this number of steps is recorded."""
     while True:
         found = json.loads(run(case, "caseMonitor", "-json")) if (case / "run.json").exists() else {}
         if found.get("progress", {}).get("step", 0) >= least:

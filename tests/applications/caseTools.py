@@ -24,7 +24,7 @@ def text(case, file):
 
 
 def dictionaries(case):
-    """caseDict shows, changes, adds, removes; nothing that is wrong is written."""
+    """caseDict shows, changes, adds and removes keys; invalid values are not written."""
     said = lambda *words, code=0: run("caseDict", "-case", str(case), *words, code=code)
     assert said("constant/flow.yaml:/Ca") == "0.02\n"
     assert said("system/mesh.yaml:/domain/size", "-json").split() == ["[", '"20', 'um",', '"20', 'um",', '"20', 'um"', "]"]
@@ -35,7 +35,7 @@ def dictionaries(case):
     said("-set", "system/numerics.yaml:/spacing=0.5 um", "-set", "system/control.yaml:/write/strain=1", "-remove", "system/control.yaml:/stop")
     assert text(case, "system/numerics.yaml") == before.replace("spacing: 0.3333 um", "spacing: 0.5 um")
     assert "stop:" not in text(case, "system/control.yaml") and "startFrom: latestTime            # firstTime" in text(case, "system/control.yaml")
-    said("-remove", "constant/flow.yaml:/Ca", "-set", "constant/flow.yaml:/shearRate=100 1/s")  # exactly one of both, in one command
+    said("-remove", "constant/flow.yaml:/Ca", "-set", "constant/flow.yaml:/shearRate=100 1/s")  # exactly one of the two keys: both change in one command
 
     kept = {file: text(case, file) for file in ("constant/flow.yaml", "system/control.yaml", "system/mesh.yaml")}
     for words, message in ((("-set", "system/mesh.yaml:/cells/0/egde=1 um"), "Did you mean 'edge'?"),
@@ -54,7 +54,7 @@ def dictionaries(case):
 
     assert "a dictionary of the case is expected" in said("-set", "../case/constant/flow.yaml:/shearRate=1 1/s", code=1)
     assert "a dictionary of the case is expected" in said("README.md", code=1)
-    shared = case.parent / "shared.yaml"  # a link stays one, and permissions stay
+    shared = case.parent / "shared.yaml"  # a link stays a link, and permissions are kept
     (case / "system/control.yaml").rename(shared)
     (case / "system/control.yaml").symlink_to(shared)
     shared.chmod(0o640)

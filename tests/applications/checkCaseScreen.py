@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""checkCase on one screen, and true: lines, groups, kinds of cells, warnings with their cure, memory and disk against a run.
+"""checkCase fits on one screen and is correct: lines, groups, kinds of cells, warnings with their remedy, memory and disk space against a run.
 
     checkCaseScreen.py BIN TEST      BIN: directory of the applications
 """
@@ -33,7 +33,7 @@ def prepared(folder, files):
 
 
 def test_screen(folder):
-    """Every kind of case fits: 50 lines of 120 columns, groups in order, nothing of what the case does not have."""
+    """Every kind of case fits on the screen: 50 lines of 120 columns, groups in order, nothing about parts that the case does not have."""
     for name, files, absent in (("implicit", IMPLICIT_CASE, ("rkl2", "bodies", "membrane nodes 0", "on membranes")),
                                 ("dual", CELL_CASE, ("rkl2", "bodies")), ("body", {**BODY_CASE, "constant/flow.yaml": "type: shear\nshearRate: 200 1/s\ninertia: {Re: 0.1}\n"}, ("rkl2", "cells", "membrane")),
                                 ("fluid", FLUID, ("cells", "membrane", "bodies", "coupling"))):
@@ -52,7 +52,7 @@ def test_screen(folder):
 
 
 def test_cells(folder):
-    """Sixteen cells of one type take the lines of one, of two types those of two; the nodes are counted."""
+    """Sixteen cells of one type take as many lines as one cell, those of two types as many as two; the nodes are counted."""
     def cells(count, membranes):
         entries = [f"{{name: c{n}, membrane: {membranes[n % len(membranes)]}, shape: {{type: sphere, radius: 2 um}}, edge: 0.8 um, "
                    f"centre: [{6 * (n % 4) - 9} um, {6 * (n // 4) - 9} um, 0 um]}}" for n in range(count)]
@@ -63,14 +63,14 @@ def test_cells(folder):
     one, sixteen, two = (screen(cells(*given))[0] for given in ((1, ["rbc"]), (16, ["rbc"]), (16, ["rbc", "other"])))
     assert len(one) == len(sixteen), "\n".join(sixteen)
     assert len(two) <= len(one) + 3, "\n".join(two)
-    text = "\n".join(screen(prepared(folder / "meshed", IMPLICIT_CASE))[0])  # the mesh's own number, not an estimate beside it
+    text = "\n".join(screen(prepared(folder / "meshed", IMPLICIT_CASE))[0])  # the number from the mesh, without an estimate beside it
     counts = re.findall(r"(\d+) nodes", text)
     assert len(counts) > 1 and len(set(counts)) == 1 and "about" not in text, text
     assert any("16 of rbc" in line for line in sixteen) and sum("8 of" in line for line in two) == 2, "\n".join(sixteen + two)
 
 
 def test_warnings(folder):
-    """Meshes far from the spacing, both ways, and a density that only Re asks for: one warning each that says what to write."""
+    """Edges much longer or shorter than the spacing, and a density that follows only from Re: one warning each, with the text to write."""
     case = make(folder, IMPLICIT_CASE)
     assert "edge is" not in screen(case)[1]
     for edge, words in (("0.08 dx", ("edge is 0.08 dx", "156 nodes for each particle")), ("0.4 um", ("edge is 0.4 dx",)),
@@ -84,7 +84,7 @@ def test_warnings(folder):
     assert "sets the density" not in screen(case, "-set", "constant/flow.yaml:/inertia=physical", "-set", "constant/flow.yaml:/Ca=1e-4")[1]
     laws = IMPLICIT_CASE["constant/membranes.yaml"]
     assert "takes this entry" not in screen(case)[1]
-    for name in ("foo", "RBC", "healthyRBC"):  # one that nobody takes; what is changed in it would be changed for nothing
+    for name in ("foo", "RBC", "healthyRBC"):  # an entry that no cell uses: changes in it would have no effect
         (case / "constant" / "membranes.yaml").write_text(laws + "\n" + laws.replace("rbc:", name + ":", 1))
         warned = screen(case)[1]
         assert all(word in warned for word in (f"constant/membranes.yaml: {name}: no cell", "they take rbc", "'membrane'")), warned
@@ -99,15 +99,15 @@ def peak(case, application):
 
 
 def test_size(folder):
-    """Memory within 20 % of what a run takes, of small cases whose larger part is the program's own; a checkpoint within 30 %, results of a
-    flow that is not at rest too."""
+    """Memory within 20 % of what a run takes, for small cases, where the program itself takes the larger part; a checkpoint within 30 %, and so the
+    results of a flow that is not at rest."""
     sanitized = b"libasan" in subprocess.run(["ldd", BIN / "dmpFlow"], capture_output=True).stdout
     small = {"system/control.yaml": "application: dmpFlow\nendStrain: 0.3\nwrite: {strain: 0.05}\ncheckpoint: {wallClock: never, keep: 1}\n"}
     finer = {"system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("spacing: 1 um", "spacing: 0.5 um"),
              "system/mesh.yaml": IMPLICIT_CASE["system/mesh.yaml"].replace("edge: 1 um", "edge: 0.6 um")}
     short = {"system/control.yaml": small["system/control.yaml"].replace("endStrain: 0.3", "endStrain: 0.1")}
     places = ", ".join(f"{{centre: [{x} um, {y} um, {z} um]}}" for x in (-6, 6) for y in (-6, 6) for z in (-6, 6))
-    cells = {"system/mesh.yaml": "domain: {size: [24 um, 24 um, 24 um], periodic: [true, true, false]}\n"  # nodes take a third of it
+    cells = {"system/mesh.yaml": "domain: {size: [24 um, 24 um, 24 um], periodic: [true, true, false]}\n"  # nodes take a third of the memory
              f"cells: [{{name: rbc, shape: {{type: sphere, radius: 4 um}}, edge: 0.5 um, places: [{places}]}}]\n"}
     for name, files, application in (("fluid", {**FLUID, "system/numerics.yaml": FLUID["system/numerics.yaml"].replace("62.5", "31.25")}, "sphFlow"),
                                      ("implicit", {**IMPLICIT_CASE, **finer, **small}, "dmpFlow"),
@@ -119,7 +119,7 @@ def test_size(folder):
         (checkpoint,) = (case / "checkpoints").glob("*.h5")
         results = sum(path.stat().st_size for path in (case / "results").rglob("*.vtp"))
         for part, size in (("checkpoint_B", checkpoint.stat().st_size), ("results_B", results)):
-            most = 2 if name == "fluid" else 0.3  # a fluid at rest is packed well
+            most = 2 if name == "fluid" else 0.3  # a fluid at rest compresses well
             assert -0.3 < predicted[part] / size - 1 < most, f"{name}: {part} {predicted[part]:.3g} of {size:.3g}"
 
 

@@ -15,7 +15,7 @@ NAME = re.compile(r"column\('(\w+)'\)|(?:using |:)'(\w+)'")
 
 
 def uses(line):
-    """What a line of gnuplot takes from tables: from each `using` to the next word of its style."""
+    """What a line of gnuplot reads from tables: the text from each `using` to the next word of style."""
     return [re.split(r"\s(?:with|every|title|skip)\b", part)[0] for part in re.findall(r"using .*?(?=using |$)", line)]
 
 
@@ -46,7 +46,7 @@ def main():
     paths = [path for path in sorted(root.glob("**/*.gp")) if "build" not in path.relative_to(root).parts[0]]
     found = sum((faults(path.relative_to(root), path.read_text(), names) for path in paths), [])
     assert len(paths) > 10 and not found, "\n".join(found) or paths
-    # What it is there for.
+    # Wrong uses that this test must find.
     for wrong in ("plot table using 2:4 with lines", "plot f using 2:($6*degrees) with lines", "plot f using 'strain':(column('D12_extend')*2) with lines",
                   "plot f using 'stain':'D12_extent'", "plot f using 'strain':(strcol(1) eq dx ? $4 : NaN) with points"):
         assert faults("x.gp", wrong, names), wrong

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""caseSweep with the real programs: a study is killed and stopped, goes on, and ends with what an undisturbed one gives.
+"""caseSweep with the real programs: a study that is killed and stopped continues, and ends with the results of an undisturbed one.
 
     sweepRuns.py BIN SOURCE
 """
@@ -47,7 +47,7 @@ def values(folder):
 
 
 def interrupted(folder, how, after):
-    """Starts the study and ends it by a signal, once so many cases have ended and another one is in its solver."""
+    """Starts the study and ends it by a signal, once this number of cases have ended and another one is in its solver."""
     process = subprocess.Popen([str(BIN / "caseSweep")], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     while process.poll() is None:
         done = {row["case"] for row in (summary(folder) if (folder / "cases/summary.csv").exists() else []) if row["status"] == "done"}
@@ -71,7 +71,7 @@ def starts(folder):
 
 def goesOn(folder):
     calm, troubled = folder / "calm", folder / "troubled"
-    longer = STUDY.replace("endStrain=1", "endStrain=4")  # solvers that a fast machine does not finish between two looks at them
+    longer = STUDY.replace("endStrain=1", "endStrain=4")  # solvers run long enough that a fast machine does not finish them between two checks
     for study in (calm, troubled):
         study.mkdir()
         (study / "study.yaml").write_text(longer)
@@ -81,7 +81,7 @@ def goesOn(folder):
     ended = values(calm)
     assert len({row["D12"] for row in ended}) == 6 and all(0.3 < float(row["D12"]) < 0.7 for row in ended), ended
     table = [line for line in open(calm / "cases/Ca3-d8um/postProcessing/deformation/rbc.csv") if not line.startswith("#")]
-    last = list(csv.DictReader(table))[-1]  # by another reader
+    last = list(csv.DictReader(table))[-1]  # with an independent reader
     assert abs(float(ended[5]["D12"]) - float(last["D12_extent"])) < 1e-10
 
     assert interrupted(troubled, signal.SIGKILL, 1) == -signal.SIGKILL
@@ -100,7 +100,7 @@ def goesOn(folder):
 
     page = (calm / "cases/report.html").read_text()
     assert page.count("<svg") == 6 and "Ca0.02-d7um" in page and "src=" not in page, page.count("<svg")
-    # Results are read anew without a run; a column that is not there is told.
+    # Results are read again without a run; a missing column is reported.
     (calm / "study.yaml").write_text(longer.replace("{table: deformation/rbc, column: D12_extent}", "{table: deformation/rbc, column: D12_extend}"))
     assert "Did you mean 'D12_extent'?" in run(calm, "-collect")
     assert starts(calm) == {key: 1 for key in starts(calm)}
@@ -123,7 +123,7 @@ def refuses(folder):
     assert "one of -keep, -update and -fresh" in run(study, "-keep", "-fresh", code=1)
     assert "there is no such file" in run(study, "other.yaml", code=2)
     assert [one["case"] for one in json.loads(run(study, "-list", "-json", "-quiet"))][:2] == ["Ca0.02-d7um", "Ca0.02-d8um"]
-    # A case alone, as a job of an array; a failure in one case.
+    # A single case, as a job of an array; a failure in one case.
     run(study, "-only", "3", "-quiet")
     assert sorted(path.name for path in study.glob("cases/Ca*")) == ["Ca0.2-d7um"]
     (study / "study.yaml").write_text(STUDY.replace("values: [7 um, 8 um]", "values: [7 um, 100 um]"))
@@ -134,7 +134,7 @@ def refuses(folder):
 
 
 def changes(folder):
-    """A longer run goes on from its checkpoint; any other change makes a case anew, with the result of a new one; ranks stop with a checkpoint."""
+    """A longer run continues from its checkpoint; after any other change a case is made anew, with the result of a new one; ranks stop with a checkpoint."""
     study, new = folder / "changes", folder / "new"
     for one in (study, new):
         one.mkdir()
@@ -180,7 +180,7 @@ def changes(folder):
 
 
 def scripts(folder):
-    """The files for SLURM and Snakemake run the cases where there is a shell; without a cluster, by its variable."""
+    """The files for SLURM and Snakemake run the cases in a shell; without a cluster, by setting the cluster's variable."""
     study = folder / "scripts"
     study.mkdir()
     (study / "study.yaml").write_text(STUDY)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What listModels says of the tables: every column of every observer and protocol has a meaning, and a unit where its name has one.
+"""The tables as listed by listModels: every column of every observer and protocol has a meaning, and a unit where its name has one.
 
     tableColumns.py BIN      BIN: directory of the applications
 """

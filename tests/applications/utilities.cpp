@@ -1,4 +1,5 @@
-// membraneMesh, particleFill, checkMesh and listModels as a user runs them: exit codes, numbers, and what errors say.
+// membraneMesh, particleFill, checkMesh and listModels, run as a user runs them: exit codes, numbers and error
+// messages.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -75,8 +76,8 @@ TEST_F(Utilities, AStartIsMadeAndFoundSound) {
     EXPECT_EQ(mesh["rbc"]["quality"]["euler"], 2);
     EXPECT_NEAR(mesh["rbc"]["quality"]["edgeMean_m"].get<double>(), 0.8e-6, 0.03 * 0.8e-6);
     EXPECT_NEAR(mesh["rbc"]["quality"]["volume_m3"].get<double>() / 85.988326e-18, 1, 1e-7);
-    EXPECT_LT(mesh["rbc"]["quality"]["residual"].get<double>(), 0.05);  // of nodes off the surface, in radii
-    // Hexagonal network: Gs = sqrt(3)/4 k; the affine estimate lies a little above.
+    EXPECT_LT(mesh["rbc"]["quality"]["residual"].get<double>(), 0.05);  // distance of nodes from the surface, in radii
+    // Hexagonal network: Gs = sqrt(3)/4 k; the affine estimate is slightly larger.
     EXPECT_NEAR(mesh["rbc"]["moduli"]["Gs_N_m"].get<double>(), 2.165e-4, 0.05 * 2.165e-4);
 
     const json fill = runJson("particleFill");
@@ -292,7 +293,7 @@ TEST_F(Utilities, EveryCellHasItsGroups) {
     EXPECT_TRUE(groups.contains("a/dx (stiff)")) << groups;
 }
 
-// A group that only a later cell has is named after it, too.
+// A dimensionless group that only a later cell has is also named after that cell.
 TEST_F(Utilities, GroupsOfALaterCellAloneAreItsOwn) {
     const Result result =
         run("checkCase",

@@ -8,7 +8,7 @@
 2. Every library has its CMakeLists.txt, its tests in tests/<library> and its page docs/<library>.md.
 3. No file names a place of the machine that it was written on.
 4. A file that begins with #! can be called by its name.
-5. Files and classes that the page names are there.
+5. Files and classes that the page names exist.
 6. No line of C++ is wider than 120 columns, comments included (the formatter leaves those as they are).
 """
 import os
@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]).resolve()
-SAME_LAYER = {}  # library -> those of its own layer that it may use
+SAME_LAYER = {}  # library -> libraries of the same layer that it may use
 
 
 def drawn_layers(page):
@@ -123,7 +123,7 @@ def check_companions(root, fail):
 
 
 def check_page(root, fail):
-    """What the pages name is there: files as library/file, classes as library::Class."""
+    """Everything that the pages name exists: files as library/file, classes as library::Class."""
     for page, content in NAMING.items():
         for library, name in sorted(set(re.findall(r"(?<!tests/)\b(%s)/(\w+)" % "|".join(sorted(LIBRARIES)), content))):
             if not any((root / "libs" / library).glob(f"{name}.*")):
@@ -135,7 +135,7 @@ def check_page(root, fail):
 
 
 def texts(root):
-    """(path, content) of every file that is not binary and not what a build or a case makes."""
+    """(path, content) of every file that is not binary and not made by a build or a case."""
     for folder, names, files in os.walk(root):
         in_tutorial = "tutorials" in Path(folder).relative_to(root).parts
         names[:] = [n for n in names if not GENERATED.fullmatch(n) and not (in_tutorial and n in GENERATED_IN_CASES)]

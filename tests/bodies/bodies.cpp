@@ -1,4 +1,4 @@
-// Bodies among fluid: forces against the plain double loop, exact balances, periodic images and ranks.
+// Rigid bodies in fluid: forces compared with a plain double loop, exact balances, periodic images and ranks.
 #include "bodies/bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Vec3 someVelocity(std::size_t id, const Vec3& arm) {
 
 const RigidMotion turning{Vec3(0.1, -0.2, 0.05), Vec3(0.1, 0.3, -0.2)};
 
-// Force and torque on the body and accelerations of the fluid by a double loop over everything.
+// Force and torque on the body and accelerations of the fluid, by a double loop over all particles.
 struct Plain {
     Wrench wrench;
     std::vector<Vec3> acceleration;
@@ -99,7 +99,7 @@ TEST(Bodies, aBodyMayLieAcrossPeriodicFacesAndRanks) {
     compare(f);
 }
 
-// Fluid that turns with the body as one piece exerts no torque, and none that moves with it a force.
+// Fluid that moves rigidly with the body exerts neither torque nor force on it.
 TEST(Bodies, fluidThatMovesWithTheBodyExertsNothing) {
     SphereInFluid f({14, 14, 14}, Vec3(7, 7, 7), "held");
     f.setVelocities([](std::size_t, const Vec3& arm) { return turning.at(arm); }, turning);
@@ -113,7 +113,7 @@ TEST(Bodies, fluidThatMovesWithTheBodyExertsNothing) {
     EXPECT_LT(f.body().wrench.force.norm(), 1e-12 * scale);
 }
 
-// D tends to 2 mu V with the kernel's reach over the radius; here it is large.
+// D tends to 2 mu V as the ratio of the kernel's support to the sphere's radius tends to 0; here the ratio is large.
 TEST(Bodies, rotationalDragIsBelowItsContinuumLimit) {
     SphereInFluid f({14, 14, 14}, Vec3(7, 7, 7), "held");
     const Mat3 D = f.body().rotationalDrag / (2 * f.fluid.viscosity * f.body().solid.volume);
@@ -135,7 +135,7 @@ TEST(Bodies, fluidAndFreeBodyKeepTheirMomentum) {
     EXPECT_LT((after - before).norm(), 1e-12 * body.solid.mass);
     EXPECT_GT((body.state.motion.linear - velocity).norm(), 1e-3);
     EXPECT_GT(f.system->rebuilds(), 1);
-    // Its particles stand and move as it does.
+    // The body's particles follow its position and motion.
     const ParticleStore& s = f.system->store();
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::body) continue;
@@ -158,7 +158,7 @@ TEST(Bodies, everythingMovingTogetherGoesOnForEver) {
     EXPECT_LT(f.body().turned().angularDistance(Eigen::Quaterniond::Identity()), 1e-10);
 }
 
-// A light body adds to the viscous rate: its own drag over its own mass.
+// A light body increases the viscous rate, by its own drag over its own mass.
 TEST(Bodies, viscousRateKnowsAFreeBody) {
     const auto rate = [](const char* behaviour, double density) {
         SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), behaviour, density);

@@ -1,4 +1,4 @@
-// Drag and torque on a sphere in a periodic box against Stokes flow.
+// Drag and torque on a sphere in a periodic box, compared with Stokes flow.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,13 +17,13 @@ constexpr double step = 0.08;
 
 double fraction(double radius, int length) { return 4 * pi / 3 * std::pow(radius / length, 3); }
 
-// Volume average over the whole cell, the sphere counted as it moves: 0.
+// Velocity averaged over the volume of the periodic box, where the sphere counts with its own velocity, 0.
 double superficialVelocity(const SphereInFluid& f) { return f.momentum()[0] / std::pow(f.size[0], 3); }
 
 double hasimoto(double c) { return 1 / (1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c); }
 
-// Fluid driven through a cubic array of held spheres: drag factor K = F/(6 pi mu a U), after 3.5 times of relaxation,
-// when force and velocity approach their ends together.
+// Fluid driven through a cubic array of held spheres: drag factor K = F/(6 pi mu a U), after 3.5 relaxation times, when
+// force and velocity approach their final values together.
 double dragFactor(double radius, int length) {
     SphereInFluid f({length, length, length}, Vec3::Constant(0.5 * length), "held", 1, 0, radius, Vec3(2e-4, 0, 0));
     sph::VelocityVerlet scheme(*f.system, *f.forces, nullptr, {f.bodies.get()});
@@ -34,7 +34,7 @@ double dragFactor(double radius, int length) {
     return f.body().wrench.force[0] / (drag * superficialVelocity(f));
 }
 
-// Torque on a sphere that turns at a constant rate, over 8 pi mu a^3 Omega.
+// Torque on a sphere that turns at a constant rate, divided by 8 pi mu a^3 Omega.
 double torqueFactor(double radius, int length) {
     SphereInFluid f({length, length, length}, Vec3::Constant(0.5 * length),
                     "{type: driven, angularVelocity: [0 1/s, 0.002 1/s, 0 1/s]}", 1, 0, radius);
@@ -58,8 +58,8 @@ TEST(Drag, ofACubicArrayIsHasimotos) {
     }
 }
 
-// In a periodic box the images turn the fluid around the sphere backwards with (T/8 pi mu) (4 pi/3)/L^3, so that
-// T = 8 pi mu a^3 Omega/(1 - c).
+// In a periodic box the images rotate the fluid around the sphere backwards at the rate (T/8 pi mu) (4 pi/3)/L^3, so
+// that T = 8 pi mu a^3 Omega/(1 - c).
 TEST(Drag, torqueOnATurningSphereIsStokes) {
     double error[2];
     for (const int fine : {0, 1}) {

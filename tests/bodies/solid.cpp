@@ -1,4 +1,4 @@
-// Mass and inertia from meshes, flight of a free body, distances, and the motions of the family.
+// Mass and inertia from meshes, free motion of a body, distance fields, and the models of body motion.
 #include "bodies/solid.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ struct Top {
     double energy() const { return 0.5 * state.motion.angular.dot(state.angularMomentum(solid)); }
 };
 
-// Where a free top has turned after unit time.
+// The orientation of a free top after unit time.
 Eigen::Quaterniond flight(int steps) {
     Top top;
     for (int k = 0; k < steps; ++k) drift(top.state, top.solid, 1.0 / steps);
@@ -64,7 +64,7 @@ TEST(Solid, massAndInertiaOfACuboidAreExact) {
     const Solid solid(mesh, 3);
     const double m = 3 * 1 * 2 * 3;
     EXPECT_NEAR(solid.mass, m, 1e-12 * m);
-    // m/12 of the squares of the two edges across each axis, in ascending order
+    // For each axis m/12 times the sum of the squares of the two edges normal to it, in ascending order.
     EXPECT_NEAR((solid.inertia - m / 12 * Vec3(1 + 4, 1 + 9, 4 + 9)).norm(), 0, 1e-11 * m);
     EXPECT_NEAR((solid.startCentre() - Vec3(7, -3, 2)).norm(), 0, 1e-13);
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
@@ -97,7 +97,7 @@ TEST(RigidState, theFlightIsOfSecondOrderAndReversible) {
     EXPECT_LT(top.state.orientation.angularDistance(top.solid.startOrientation()), 1e-14);
 }
 
-// The axis of a symmetric top goes about L at the rate L/I, I the moment across the axis.
+// The axis of a symmetric top precesses about L at the rate L/I, where I is the moment of inertia across the axis.
 TEST(RigidState, aSymmetricTopPrecesses) {
     const Solid solid(cuboid(Vec3(1, 1, 2)), 1);
     RigidState state{Vec3::Zero(), solid.startOrientation(), {Vec3::Zero(), Vec3(0.5, 0, 1)}};
@@ -148,7 +148,7 @@ TEST(BodyMotion, heldAndDrivenDoNotYield) {
 TEST(DistanceField, isThatOfTheSurfaceWithinItsReach) {
     const double radius = 5, spacing = 0.5, reach = 2;
     const geometry::DistanceField field(sphere(radius), spacing, reach);
-    // Interpolation errs by spacing^2/4 (k1 + k2), the mesh by its sagitta.
+    // The error of interpolation is spacing^2/4 (k1 + k2), that of the mesh its sagitta.
     const double tolerance = spacing * spacing / 4 * 2 / (radius - reach) + 0.02;
     for (const double r : {3.2, 4.0, 4.9, 5.0, 5.3, 6.0, 6.9})
         for (const Vec3& way : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(-1, 2, 3), Vec3(0.2, -1, 0.1)})

@@ -1,4 +1,4 @@
-// A rigid sphere in a periodic box of fluid, in lengths of a spacing and densities of about 1.
+// A rigid sphere in a periodic box of fluid. Unit of length: the particle spacing; densities are about 1.
 #pragma once
 #include "bodies/bodies.hpp"
 #include "membrane/meshes.hpp"
@@ -10,8 +10,8 @@ using namespace sph::testing;
 
 inline constexpr double support = 2.4, skin = 0.3;
 
-// A sphere of particles in a periodic lattice of fluid; particles are numbered by their place relative to the sphere's
-// centre, so that what they start with does not depend on where it is.
+// A sphere of particles in a periodic lattice of fluid. Particles are numbered by their position relative to the
+// sphere's centre, so that their initial state does not depend on where the sphere is.
 struct SphereInFluid {
     Index3 size;
     Vec3 centre;
@@ -73,7 +73,8 @@ struct SphereInFluid {
 
     Body& body() { return bodies->all()[0]; }
 
-    // Velocity of every particle by its place relative to the centre; the body's from its motion.
+    // Sets the velocity of each fluid particle by its position relative to the centre, and that of the body from its
+    // motion.
     template <class F>
     void setVelocities(F&& velocity, const RigidMotion& rigid) {
         body().state.motion = rigid;

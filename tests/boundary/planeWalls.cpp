@@ -38,7 +38,7 @@ TEST(PlaneWalls, standAtTheEndsOfTheBox) {
     EXPECT_DOUBLE_EQ(walls->volumeBehind(box, Vec3(9, 0.5, 9)), 36);
 }
 
-// A table without `type` is one of planes, and across z where it says nothing else.
+// Walls without `type` are planes; without `normal` they lie across z.
 TEST(PlaneWalls, areTheUsualWalls) {
     EXPECT_EQ(shape("{normal: y}")->planesAcross(), 1);
     EXPECT_EQ(shape("{}")->planesAcross(), 2);
@@ -57,7 +57,7 @@ TEST(Walls, distanceIsThatOfTheNearest) {
     EXPECT_EQ(Walls().distance(Vec3(0, 0, 0)), std::numeric_limits<double>::infinity());
 }
 
-// A surface without a loop of its own: a ball, fluid outside it.
+// A surface that does not implement a loop of its own over many points: a ball with fluid outside.
 struct Ball : Surface {
     double distance(const Vec3& x) const override { return x.norm() - 1; }
     Vec3 normal(const Vec3& x) const override { return x.normalized(); }

@@ -1,4 +1,5 @@
-// Pairs of pieces within a distance of each other: all of them, each once, against all pairs.
+// Candidate pairs of pieces (nodes, edges, triangles) within a distance of each other: all are found, each once, as by
+// a search over all pairs.
 #include "contact/candidates.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace corpuscle::contact {
 namespace {
 
 using NodeTriangle =
-    std::tuple<int, int, int, int>;  // pair of surfaces, whether the node is of the second, node, piece
+    std::tuple<int, int, int, int>;  // pair of surfaces, whether the node is on the second one, node, piece
 using EdgeEdge = std::tuple<int, int, int>;
 
 struct Expected {
@@ -77,7 +78,7 @@ Expected bruteForce(const Scene& scene, const std::vector<geometry::ImagePair>& 
     return all;
 }
 
-// What was found, each once and in order.
+// What was found, as sorted sets; nothing may be found twice.
 Expected collected(const Candidates& found) {
     Expected all;
     for (const NodeRow& row : found.rows) {
@@ -119,7 +120,7 @@ void compare(const Scene& scene, const std::vector<geometry::ImagePair>& pairs, 
     EXPECT_GE(found.edgePairs.size(), atLeast);
 }
 
-// Two spheres, the second in triangles of another size, and a plate of two triangles beside them.
+// Two spheres with triangles of different sizes, and a plate of two triangles beside them.
 Scene scene() {
     Scene all;
     geometry::TriangleMesh one = sphere(1, 2), other = sphere(1.1, 1), plate;

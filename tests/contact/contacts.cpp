@@ -1,4 +1,5 @@
-// Energy, forces and stiffness of contact: derivatives by central differences, what is conserved, images, self contact.
+// Energy, forces and stiffness of contact: derivatives against central differences, conservation of momentum and
+// angular momentum, periodic images, self-contact.
 #include "contact/contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ std::shared_ptr<const ContactLaw> attraction() {
     return law;
 }
 
-// Two uneven spheres, near each other.
+// Two spheres with displaced nodes, near each other.
 Scene twoSpheres(double gap, unsigned long seed = 5) {
     geometry::TriangleMesh one = sphere(1, 2), other = sphere(1, 2);
     Random random(seed);
@@ -81,7 +82,7 @@ TEST(Contacts, forcesAreMinusTheGradientOfTheEnergy) {
     for (const double gap : {0.01, 0.04}) checkForces(twoSpheres(gap), {{0, 1, none}}, barrier(0.1, 0.01));
     checkForces(twoSpheres(0.05), {{0, 1, none}}, attraction());
     checkForces(flatSphere(), {{0, 0, none}}, barrier(0.1, 0));
-    Scene apart = twoSpheres(0.02);  // touches its image
+    Scene apart = twoSpheres(0.02);  // moved, so that the first sphere touches an image of the second
     const Vec3 shift(0.4, 7, -3);
     for (int n = 0; n < static_cast<int>(apart.surfaces[0].nodes()); ++n) apart.x[n] += shift;
     checkForces(apart, {{0, 1, shift}}, barrier(0.1, 0.01));
@@ -111,7 +112,7 @@ TEST(Contacts, noNetForceAndNoTorque) {
     }
 }
 
-// Surfaces that touch across periodic faces: the same energy, forces and virial as side by side.
+// Surfaces that touch across periodic faces have the same energy, forces and virial as side by side.
 TEST(Contacts, imagesAreLikeTheSurfacesThemselves) {
     const Scene near = twoSpheres(0.01);
     Scene far = near;
@@ -131,7 +132,7 @@ TEST(Contacts, imagesAreLikeTheSurfacesThemselves) {
     for (std::size_t n = 0; n < f.size(); ++n) difference += (f[n] - g[n]).norm(), sum += f[n].norm();
     EXPECT_LT(difference, 1e-9 * sum);
 
-    // A surface and its own image: its forces add up to nothing.
+    // A surface in contact with its own image: the forces on it sum to zero.
     Scene single;
     single.add(sphere(1, 2));
     Contacts own(barrier(0.1, 0));
@@ -175,7 +176,7 @@ TEST(Contacts, stiffnessIsPositiveSemiDefinite) {
     }
 }
 
-// A small gap over triangles, far from the ends of edges: psi'' is all that counts.
+// A small gap over triangles, far from the ends of edges: the term with psi'' dominates the stiffness.
 TEST(Contacts, stiffnessIsTheHessianWhereTheBarrierIsSteep) {
     Scene scene;
     geometry::TriangleMesh tent, plate;
@@ -218,7 +219,8 @@ TEST(Contacts, aSphereHasNoContactsWithItself) {
     EXPECT_GT(contacts.leastGap(), 0.8 * 0.138 * 0.866) << "height of the smallest triangles";
 }
 
-// A node beyond a ridge, an edge or a valley of the other surface: the nearest place counts, and the sum diverges.
+// A node that approaches a node, an edge or the inside of a triangle of another surface, from outside or inside: the
+// energy is at least that of the gap to the nearest point, so it diverges.
 TEST(Contacts, energyDivergesTowardsEveryPieceOfASurface) {
     Scene scene;
     const geometry::TriangleMesh ball = sphere(1, 1);
@@ -229,7 +231,7 @@ TEST(Contacts, energyDivergesTowardsEveryPieceOfASurface) {
     const std::vector<const Surface*> pointers{&surface, &needle};
     const double reach = 0.2, area = needle.nodeArea()[0];
     const auto law = barrier(reach, 0);
-    for (const bool inside : {false, true})  // inside, edges and nodes are valleys
+    for (const bool inside : {false, true})  // seen from inside, edges and nodes are valleys
         for (const Vec3& corner : {Vec3(1, 0, 0), Vec3(0.5, 0.5, 0), Vec3(0.3, 0.3, 0.4), Vec3(0.01, 0.98, 0.01)}) {
             const Index3& t = ball.triangles[5];
             const Vec3 place =
@@ -251,7 +253,8 @@ TEST(Contacts, energyDivergesTowardsEveryPieceOfASurface) {
         }
 }
 
-// Two ridges that cross far from all nodes: only edges are near. The energy diverges, and pushes the ridges apart.
+// Two ridges that cross far from all nodes, so that only edges are near each other: the energy diverges as the gap
+// closes, and the forces push the ridges apart.
 TEST(Contacts, ridgesThatCrossRepelEachOther) {
     geometry::TriangleMesh ridge;
     ridge.nodes = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}};
@@ -325,7 +328,8 @@ TEST(Contacts, travelEndsBeforeAnythingMeets) {
     EXPECT_LT(contacts.freeTravel(scene.x, u), 0.03) << "no farther than the lists cover";
 }
 
-// A flow carries both along, far beyond their distance: lists for that travel are no longer than for none, and hold.
+// A flow carries both surfaces along, much farther than their distance: lists made for that motion are no longer than
+// those for surfaces at rest, and remain valid after it.
 TEST(Contacts, surfacesThatAreCarriedAlongTogetherKeepShortLists) {
     const Scene scene = twoSpheres(0.05);
     const std::vector<const Surface*> pointers = scene.pointers();
@@ -346,7 +350,7 @@ TEST(Contacts, surfacesThatAreCarriedAlongTogetherKeepShortLists) {
     EXPECT_FALSE(carried.covers(x));
 }
 
-// A surface that turns and is drawn out as a whole needs hardly longer lists for contact with itself.
+// A surface that is rotated and stretched as a whole hardly needs longer lists for self-contact.
 TEST(Contacts, aMeanDeformationKeepsListsOfOneSurfaceShort) {
     const Scene scene = twoSpheres(0.05);
     const std::vector<const Surface*> one{scene.pointers()[0]};
@@ -358,7 +362,8 @@ TEST(Contacts, aMeanDeformationKeepsListsOfOneSurfaceShort) {
     Contacts still(barrier(0.02, 0)), turning(barrier(0.02, 0));
     still.find(one, x, Pairs{{0, 0, none}}, 0.01);
     turning.find(one, x, Pairs{{0, 0, none}}, 0.01, travel);
-    EXPECT_LT(turning.candidates().within[0], 0.045);  // (0.02 + 0.01)/(1 - |gradient|); by the nodes' ways above 0.4
+    // (0.02 + 0.01)/(1 - |gradient|); from the nodes' travel above 0.4
+    EXPECT_LT(turning.candidates().within[0], 0.045);
     EXPECT_EQ(turning.candidates().rows.size(), still.candidates().rows.size());
     EXPECT_EQ(turning.freeTravel(x, travel), 1);
     std::vector<Vec3> there = x;

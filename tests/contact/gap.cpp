@@ -84,13 +84,13 @@ TEST(Gap, slopesOfDistances) {
         const Points x = randomPoints(random);
         if (triangleGap(x).distance < 0.05 || edgeGap(x).distance < 0.05) continue;
         checkSlope(triangleGap, x, 1e-6);
-        checkSlope(edgeGap, x, 1e-5);  // has kinks, where nearly parallel edges jump
+        checkSlope(edgeGap, x, 1e-5);  // has kinks where the nearest points of nearly parallel edges jump
         checkSlope(endGap, x, 1e-6);
         checkSlope([](const Points& p) { return nodeToNode(p[0], p[1]); }, x, 1e-6);
     }
 }
 
-// Pieces without extent, parallel, nearly parallel and crossing edges, nodes on triangles.
+// Degenerate pieces (zero length or area); parallel, nearly parallel and crossing edges; nodes on triangles.
 TEST(Gap, degeneratePieces) {
     const Vec3 o(0, 0, 0), e(1, 0, 0), f(0, 1, 0), z(0, 0, 0.5);
     const Points pieces[] = {{z, o, o, o},
@@ -161,7 +161,8 @@ TEST(CrossingFactor, valueAndSlope) {
     EXPECT_EQ(crossingFactor({0, 0, 0}, {0, 0, 0}, {-1, 0, 1}, {1, 0, 1}).value, 0);
 }
 
-// Where a crossing reaches an end, and where edges become parallel, the factor ends without a kink.
+// The factor goes to zero without a kink where the crossing reaches the end of an edge, and where edges become
+// parallel.
 TEST(CrossingFactor, endsSmoothly) {
     const auto at = [](double place, double angle) {
         const Vec3 along(std::cos(angle), std::sin(angle), 0), middle(place, 0, 0.1);

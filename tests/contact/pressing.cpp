@@ -1,5 +1,5 @@
-// Surfaces that are pressed together by forces much larger than the barrier's, in steps that are much too long: cut by
-// freeTravel, they never cross.
+// Surfaces that are pressed together by forces much larger than the barrier's, in steps that are much too long: since
+// freeTravel cuts the steps, the surfaces never cross.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using geometry::ImagePair;
 
-// The forces of springs along the edges, of the strength 1.
+// Forces of springs along the edges, of stiffness 1.
 void addElasticity(const Surface& surface, std::span<const Vec3> rest, std::span<const Vec3> x, std::span<Vec3> f) {
     for (const Edge& e : surface.edges()) {
         const Vec3 along = x[e[1]] - x[e[0]];
@@ -34,7 +34,8 @@ struct Pressing {
     double push, strength, thickness;
     double least = 1;
 
-    // Moves each surface towards the plane x = 0 for so many steps.
+    // Pushes both surfaces towards the plane x = 0, for `steps` steps; a node moves by `step` times its force, cut by
+    // freeTravel.
     void run(int steps, double step) {
         auto law = std::make_shared<Barrier>();
         law->length = 0.04, law->strength = strength, law->thickness = thickness;
@@ -97,7 +98,7 @@ TEST(Pressing, meshesStayApartByTheThickness) {
     EXPECT_GT(all.least, 0);
 }
 
-// With a barrier of next to no strength and violent steps, only the cut of the steps keeps them apart.
+// With a barrier of almost no strength and violent steps, only freeTravel keeps the surfaces apart.
 TEST(Pressing, violentStepsDoNotCross) {
     Pressing all = spheres(0.3, 1e-9, 0);
     all.run(150, 5);

@@ -41,7 +41,7 @@ double energy(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b, 
     return contacts.energy();
 }
 
-// Per area, without the effect of borders: the second difference over three sizes.
+// Energy per area without the effect of borders: the second difference over three sizes.
 double perArea(const Vec3& shift, double reach, double gap) {
     const geometry::TriangleMesh large = lattice(16, Vec3::Zero());
     const Vec3 corner = Vec3(3, std::sqrt(3.0), 0.05 + gap) + shift;
@@ -67,8 +67,8 @@ TEST(FlatSheets, energyPerAreaWhateverTheShift) {
         }
 }
 
-// Uneven meshes, of one size and of different ones, turned against each other. The lower sheet is larger, so that only
-// the border of the upper one counts.
+// Disordered meshes of equal and of different edge lengths, rotated against each other. The lower sheet is larger, so
+// that only the border of the upper one has an effect.
 TEST(FlatSheets, energyPerAreaOfUnevenMeshes) {
     const double reach = 0.2, gap = 0.08, psi = barrier(reach)->at(gap).energy;
     for (const double edge : {1.0, 1.7, 4.0})
@@ -102,14 +102,14 @@ TEST(FlatSheets, aSlidingNodeFeelsNoTriangles) {
         contacts.find(pointers, scene.x, std::vector<geometry::ImagePair>{{0, 1, Vec3::Zero()}}, 0);
         std::vector<Vec3> f(scene.x.size(), Vec3::Zero());
         contacts.addForces(f);
-        if (contacts.count() != 1) continue;  // the sheet's own nodes, near the sides of the tip
+        if (contacts.count() != 1) continue;  // nodes of the sheet are near the sides of the tip too
         EXPECT_LT(std::hypot(f[0].x(), f[0].y()), 1e-9 * f[0].z()) << "no friction";
         least = std::min(least, contacts.energy()), most = std::max(most, contacts.energy());
     }
     EXPECT_LT(most, least * (1 + 1e-9));
 }
 
-// Over a sphere, which is nearly flat: within 2 %.
+// Over a sphere, which is nearly flat, the energy is that of the gap to the nearest triangle, within 2 %.
 TEST(FlatSheets, aNodeSlidesOverASphere) {
     Scene scene;
     geometry::TriangleMesh tip;

@@ -17,7 +17,8 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-// An icosahedron whose triangles are cut into four `levels` times, on the sphere: 20 x 4^levels triangles.
+// An icosphere: an icosahedron whose triangles are split into four `levels` times, with all nodes on the sphere; 20 x
+// 4^levels triangles.
 inline geometry::TriangleMesh sphere(double radius, int levels) {
     const double g = 0.5 * (1 + std::sqrt(5.0));
     geometry::TriangleMesh mesh;
@@ -44,7 +45,7 @@ inline geometry::TriangleMesh sphere(double radius, int levels) {
     return mesh;
 }
 
-// Several meshes, numbered through.
+// Several meshes, their nodes numbered consecutively.
 struct Scene {
     std::vector<Surface> surfaces;
     std::vector<Vec3> x;

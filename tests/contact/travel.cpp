@@ -1,4 +1,4 @@
-// Free fractions of motions: never beyond a meeting, and not much short of one.
+// Free fraction of a motion: the motion ends before pieces meet, and not much earlier than necessary.
 #include "contact/travel.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ FourNodes moved(const FourNodes& x, const FourNodes& u, double fraction) {
     return now;
 }
 
-// The first fraction at which the distance is below `least`, by many small steps; 1: none.
+// The fraction at which the distance first falls below `least`, found in many small steps; 1 if it never does.
 template <class Distance>
 double firstBelow(Distance&& distance, const FourNodes& x, const FourNodes& u, double least) {
     constexpr int n = 20000;
@@ -88,7 +88,7 @@ TEST(Travel, specialMotions) {
     // Sliding is free, however small the gap.
     const FourNodes low{Vec3(0.1, 0.2, 1e-9), above[1], above[2], above[3]};
     EXPECT_EQ(nodeTriangleTravel(low, {Vec3(0.6, 0, 0), none, none, none}, {}), 1);
-    // A triangle squeezed flat below the thickness can still open, and does not cross.
+    // A node nearer to the triangle than the thickness can still move away, and does not cross.
     const FourNodes flat{Vec3(0.2, 0.2, 0.01), above[1], above[2], above[3]};
     EXPECT_EQ(nodeTriangleTravel(flat, {Vec3(0, 0, 0.005), none, none, none}, {.thickness = 0.1}), 1);
     EXPECT_NEAR(nodeTriangleTravel(flat, {Vec3(0, 0, -0.02), none, none, none}, {.thickness = 0.1}), 0.45, 0.003);

@@ -1,4 +1,4 @@
-// Contact of nodes with walls: energy and force by the distance of each node, ways that end before a wall.
+// Contact of nodes with walls: energy and force from the distance of each node, motions that end before a wall.
 #include <gtest/gtest.h>
 
 #include "boundary/planeWalls.hpp"
@@ -18,7 +18,8 @@ struct Between {
     Between() { law.length = 0.3, law.strength = 2, law.thickness = 0.02; }
 };
 
-// Every node within range of one of two walls, once, with the law at its gap; the force is the slope of the energy.
+// Every node within range of one of the two walls is found once, with the law at its gap; the force is minus the slope
+// of the energy.
 TEST(WallContact, isThatOfNodes) {
     const Between test;
     const auto energyAt = [&](double lift) {
@@ -53,7 +54,8 @@ TEST(WallContact, endsWaysBeforeTheWall) {
     EXPECT_EQ(freeBy({3, 2, 0}, 0.1), 1);
     EXPECT_EQ(freeBy({0, 0, -0.05}, 0.1), 1);
     for (const double way : {-0.1, -1.0, -50.0}) {
-        const double gone = freeBy({0, 0, way}, 0.1) * -way;  // of the gap 0.08 a tenth is left, by eight looks
+        // A tenth of the gap 0.08 is to be left; the motion is checked at eight points.
+        const double gone = freeBy({0, 0, way}, 0.1) * -way;
         EXPECT_LE(gone, 0.072 + 1e-12) << way;
         EXPECT_GE(gone, std::max(0.072 + way / 8, 0.0)) << way;
     }

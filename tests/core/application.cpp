@@ -1,4 +1,4 @@
-// Runs sampleApplication as a user would, and looks at exit code and output.
+// Runs sampleApplication as a user would, and checks exit code and output.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -110,7 +110,7 @@ TEST_F(Application, oneFailingRankEndsAll) {
     Outcome o = run("-fail one", two);  // the other rank waits in a barrier
     EXPECT_EQ(o.code, 4) << o.text;
     expectPart(o, "[rank 1] sample: the disk is full");
-    o = run("-fail numerics", two);  // all ranks alike: said once
+    o = run("-fail numerics", two);  // all ranks fail alike: reported once
     EXPECT_EQ(o.code, 3) << o.text;
     EXPECT_EQ(o.text.find("NaN in step 3"), o.text.rfind("NaN in step 3"));
 }

@@ -1,4 +1,5 @@
-// Against series whose standard error is known: independent values, and those that remember the last one.
+// Block averages of series whose standard error is known: independent values, and values correlated with the previous
+// one.
 #include "core/blockAverage.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +12,8 @@
 namespace corpuscle {
 namespace {
 
-// x_k = memory x_(k-1) + noise, from its stationary state, mean 3, variance 1. The mean of n has the variance
-// (1 + memory)/((1 - memory) n), for n far above 1/(1 - memory).
+// x_k = memory x_(k-1) + noise, started in its stationary state, mean 3, variance 1. The mean of n values has the
+// variance (1 + memory)/((1 - memory) n), for n far above 1/(1 - memory).
 std::vector<double> remembering(double memory, std::size_t n, unsigned seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;

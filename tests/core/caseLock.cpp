@@ -1,4 +1,5 @@
-// The lock of a case: one writer at a time, named; what is left over is told from what is held.
+// The lock of a case: one program writes at a time, and others are told which; a stale lock file is distinguished from
+// one that is held.
 #include "core/caseLock.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ class Lock : public testing::Test {
         if (world.isRoot()) std::ofstream(file) << text;
         world.barrier();
     }
-    void expectNoFile() {  // before any rank goes on and makes one
+    void expectNoFile() {  // checked before any rank continues and creates one
         EXPECT_FALSE(std::filesystem::exists(file));
         world.barrier();
     }
@@ -61,7 +62,7 @@ TEST_F(Lock, TakesOverWhatIsLeftOver) {
     const std::string host = machineInfo().host, since = "since: 2026-11-25T01:02:03Z\n";
     const std::vector<std::pair<std::string, std::string>> leftOver{
         {"program: dmpFlow\nprocess: 999999\nhost: " + host + "\nboot: " + boot() + "\n" + since, "has ended"},
-        // The number of a process that lives, but is another one now: nobody holds the file.
+        // The process number exists but now belongs to another process: the lock is not held.
         {"program: dmpFlow\nprocess: 1\nhost: " + host + "\nboot: " + boot() + "\n" + since, "has ended"},
         {"program: dmpFlow\nprocess: 1\nhost: " + host + "\nboot: another\n" + since, "started again"},
         {"program: dmpFlow\nprocess: 7\nhost: elsewhere\nboot: another\n" + since + "file: 1:2\n", "copied"},
@@ -77,7 +78,7 @@ TEST_F(Lock, TakesOverWhatIsLeftOver) {
         world.barrier();
         expectNoFile();
     }
-    for (const char* text : {"", "\n\n", "not a lock at all: really\n"}) {  // of nobody
+    for (const char* text : {"", "\n\n", "not a lock at all: really\n"}) {  // names no process
         leave(text);
         EXPECT_EQ(failure(), "") << text;
     }

@@ -49,7 +49,7 @@ TEST(Communicator, reductionsAndTexts) {
     for (std::size_t i = 0; i < texts.size(); ++i) EXPECT_EQ(texts[i], std::string(i, 'x'));
 }
 
-// Rank r has r + q numbers for rank q, 1000 r + q and up: rank 0 has nothing for itself.
+// Rank r has r + q numbers for rank q, from 1000 r + q upwards: rank 0 has none for itself.
 template <class T>
 void expectExchange() {
     const Communicator c;
@@ -69,7 +69,7 @@ TEST(Communicator, exchangeBringsEachRankWhatIsMeantForIt) {
 
 fs::path folder() { return fs::temp_directory_path() / "corpuscleStopControl"; }
 
-// Every rank stops at the same step, for the same reason.
+// Checks that every rank stops at the same step, for the same reason.
 void expectStop(StopControl& control, const Communicator& c, const std::string& reason) {
     long step = 0;
     while (!control.requested(step) && step < 100000) {
@@ -103,12 +103,13 @@ TEST(StopControl, stopsForFileWallClockAndSignal) {
         EXPECT_FALSE(soon.due(control));
     }
     StopControl control({}, c);
-    if (c.rank() == c.size() - 1) std::raise(SIGUSR1);  // one rank only
+    if (c.rank() == c.size() - 1) std::raise(SIGUSR1);  // raised on one rank only
     expectStop(control, c, "SIGUSR1");
     if (c.isRoot()) fs::remove_all(folder());
 }
 
-// Half of the way took at least 0.6 s, so does the rest; nothing is said again before the pause is over.
+// The first half of the run took at least 0.6 s, so the remaining time must be at least as long. Nothing more is
+// reported before the pause is over.
 TEST(Progress, saysWhatIsDoneAndWhatIsLeft) {
     const Communicator c;
     const fs::path file = folder() / "log";

@@ -41,7 +41,7 @@ TEST(Dictionary, keepsTextPlacesAndPaths) {
     EXPECT_EQ(root.find("nothing"), nullptr);
 }
 
-// It is not YAML, but the reader must know it to show the cure.
+// This is not YAML, but the reader has to recognise it to suggest the correction.
 TEST(Dictionary, unitAfterAList) {
     const Node root = clean(
         "domain: {size: [20, 16, 16] um, periodic: [true, true, false]}  # [1, 2] um\n"

@@ -1,4 +1,4 @@
-// Changes of single entries in the text of a dictionary: the wanted text is written out by hand for each layout.
+// Changes of single entries in the text of a dictionary: the expected text is written out for each layout.
 #include "core/dictionaryEdit.hpp"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,7 @@ TEST(DictionaryEdit, FindsDifferencesByValue) {
     EXPECT_TRUE(differences(first, first).empty());
 }
 
-// All places of a node, as paths.
+// The paths of a node and of all nodes below it.
 void addPaths(const Node& node, const std::string& path, std::vector<std::string>& all) {
     if (!path.empty()) all.push_back(path);
     for (const auto& [key, value] : node.entries) addPaths(value, path + "/" + key, all);
@@ -149,8 +149,8 @@ std::vector<std::string> comments(const std::string& text) {
     return all;
 }
 
-// Every entry of every dictionary of the tutorials can be changed and taken out; values elsewhere and, but for those of
-// the entry, comments stay.
+// Every entry of every dictionary of the tutorials can be changed and removed. Other values stay, and so do comments,
+// except those of the entry itself.
 TEST(DictionaryEdit, UnderstandsEveryDictionaryOfTheTutorials) {
     std::size_t files = 0, changes = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(TUTORIALS)) {

@@ -88,7 +88,7 @@ struct Few {
     }
 };
 
-// 40,000 of anything take as long as their characters.
+// The time for 40,000 faults of any kind is proportional to the length of the text.
 TEST(DictionaryText, manyFaultsTakeLittleTimeAndFewLines) {
     const auto start = std::chrono::steady_clock::now();
     std::string unknown, same, ordered;

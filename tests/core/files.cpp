@@ -27,7 +27,7 @@ TEST_F(Files, areReplacedAsAWhole) {
     writeFileAtomically(folder / "a/b.txt", "two\n");
     EXPECT_EQ(readFile(folder / "a/b.txt"), "two\n");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "a"), fs::directory_iterator{}),
-              1);  // nothing temporary left
+              1);  // no temporary file is left
 }
 
 TEST_F(Files, failuresNameThePathAndTheReason) {

@@ -1,4 +1,4 @@
-// Against images counted out one by one, with and without a slide.
+// Comparison with images enumerated one by one, with and without sliding images.
 #include "core/periodicity.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ const Vec3 low(-1, 2, 0), high(3, 5, 1.5);
 
 struct Boxed {
     std::array<bool, 3> along;
-    int sliding;  // axis, -1: none
+    int sliding;  // axis whose images slide; -1: none
 };
 
 class PeriodicBox : public testing::TestWithParam<Boxed> {
@@ -31,7 +31,7 @@ class PeriodicBox : public testing::TestWithParam<Boxed> {
         std::uniform_real_distribution<double> number(-reach, reach);
         return {number(random), number(random), number(random)};
     }
-    // All images of x, up to six periods off along each axis.
+    // All images of x, up to six periods away along each axis.
     std::vector<Periodicity::Image> images() const {
         std::vector<Periodicity::Image> all;
         const auto most = [&](int k) { return GetParam().along[static_cast<std::size_t>(k)] ? 6 : 0; };
@@ -53,7 +53,7 @@ TEST_P(PeriodicBox, wrapsIntoTheBoxWithTheVelocityOfTheImage) {
     for (int trial = 0; trial < 80; ++trial) {
         Vec3 from = somewhere(7);
         const Vec3 velocity = somewhere(1);
-        // So near a face that rounding decides: within the last bits of 1 to 1e9 times its place, on both sides.
+        // So near a face that the result depends on rounding: offsets of 1 to 1e9 times 1e-16, on both sides.
         const double bits = std::pow(10, trial % 10) * 1e-16 * (trial % 20 < 10 ? 1 : -1);
         if (trial >= 50)
             for (int k = 0; k < 3; ++k) from[k] = (trial % 3 == k ? low[k] : high[k]) + bits;

@@ -12,7 +12,7 @@ double found(const Eigen::Matrix4d& A, Eigen::Vector4d x, int iterations) {
         iterations,
         [&] {
             if (x.norm() == 0) return 0.0;
-            x /= x.cwiseAbs().maxCoeff();  // any scale will do
+            x /= x.cwiseAbs().maxCoeff();  // any scale is allowed
             return x.squaredNorm();
         },
         [&] {
@@ -21,7 +21,7 @@ double found(const Eigen::Matrix4d& A, Eigen::Vector4d x, int iterations) {
         });
 }
 
-// Against the eigenvalues of Eigen; from below.
+// Comparison with the eigenvalues from Eigen, which are approached from below.
 TEST(PowerIteration, findsTheLargestEigenvalue) {
     Eigen::Matrix4d A;
     A << 4, 1, 0, 2, 1, 3, 1, 0, 0, 1, 5, 1, 2, 0, 1, 2;

@@ -28,8 +28,8 @@ TEST(QuantityForms, otherDimensionsAndFormsAreNot) {
     EXPECT_FALSE(takes("8 m/s s", unit::metre));
     EXPECT_FALSE(takes("8", unit::metre));
     EXPECT_FALSE(takes("8 um\n", unit::metre));
-    EXPECT_FALSE(takes("1 N/m s", unit::newtonSecondPerMetre));  // of which it is unclear what is below the line
-    EXPECT_FALSE(takes("81/s", unit::perSecond));                // is it 8 1/s or 81 /s?
+    EXPECT_FALSE(takes("1 N/m s", unit::newtonSecondPerMetre));  // ambiguous: which units are in the denominator?
+    EXPECT_FALSE(takes("81/s", unit::perSecond));                // ambiguous: 8 1/s or 81 /s?
     EXPECT_TRUE(takes("8 1/s", unit::perSecond));
     EXPECT_TRUE(takes("8s^-1", unit::perSecond));
     EXPECT_FALSE(takes("8 rad", unit::none));

@@ -1,4 +1,4 @@
-// A small application for applicationTest: reads a dictionary, and fails as it is told.
+// A small program for the tests in application.cpp: reads a dictionary, and fails in the way it is told to.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -57,12 +57,12 @@ TEST(JsonSchema, tellsTypesLimitsAndRules) {
     EXPECT_EQ(json["properties"]["porosity"]["maximum"], 1);
     EXPECT_EQ(json["required"], (std::vector<std::string>{"porosity", "size"}));
     EXPECT_EQ(json["additionalProperties"], false);
-    // Without shearRate Ca is required, and both together are refused.
+    // Without shearRate, Ca is required; both together are refused.
     EXPECT_EQ(json["allOf"].size(), 2u);
     EXPECT_EQ(json["allOf"][0]["then"]["required"][0], "Ca");
     EXPECT_EQ(json["allOf"][1]["not"]["required"].size(), 2u);
     const auto& shape = json["properties"]["shape"];
-    EXPECT_EQ(shape["then"]["enum"], (std::vector<std::string>{"none", "ball"}));  // group is not a word alone
+    EXPECT_EQ(shape["then"]["enum"], (std::vector<std::string>{"none", "ball"}));  // group needs more than a word
     EXPECT_EQ(shape["else"]["$ref"], "#/definitions/test%20shape");
     EXPECT_EQ(shape["default"], "none");
     EXPECT_EQ(shape["description"], "its shape");
@@ -80,7 +80,7 @@ TEST(JsonSchema, quantitiesHaveTheirDimension) {
     const std::string pattern = size["items"]["pattern"];
     EXPECT_NE(pattern.find("]?m"), std::string::npos) << pattern;
     EXPECT_EQ(pattern.find("Pa"), std::string::npos) << pattern;
-    EXPECT_LT(pattern.size(), 200u) << pattern;  // it stands in the messages of other programs
+    EXPECT_LT(pattern.size(), 200u) << pattern;  // it appears in the messages of other programs
 }
 
 TEST(JsonSchema, dictionariesAsJson) {

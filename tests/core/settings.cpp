@@ -185,7 +185,7 @@ TEST(Settings, intervals) {
         EXPECT_EQ(readText(base + "every: " + wrong + "\n").problems.size(), 1u) << wrong;
 }
 
-// Each wrong line gives one problem, at its place, with the words that help.
+// Each wrong line gives one problem, with its position and the words that help to correct it.
 TEST(Settings, faultsNamePlaceAndCure) {
     const auto expect = [](const std::string& line, const std::string& key, const std::vector<std::string>& parts) {
         const Outcome o = readText(base + line + "\n");
@@ -200,12 +200,12 @@ TEST(Settings, faultsNamePlaceAndCure) {
     expect("soundSpeed: 2 dx", "soundSpeed", {"particle spacings"});
     expect("soundSpeed: [1, 2]", "soundSpeed", {"a list of 2"});
     expect("soundSpeed:", "soundSpeed", {"nothing"});
-    // The nearest unit is of the right dimension.
+    // The suggested unit is the nearest one of the right dimension.
     expect("soundSpeed: 8 mm", "soundSpeed", {"'8 mm' is in m"});
     expect("size: [8 uM, 1 um, 1 um]", "size[0]", {"Did you mean 'um'?"});
     expect("forces: [1 pn]", "forces[0]", {"Did you mean 'pN'?"});
     expect("soundSpeed: 8 mm*s^-1/s s", "soundSpeed", {"written in a way that is not read", "Units of m/s"});
-    // Numbers that are none.
+    // Values that are not accepted as numbers: non-finite, out of range, not decimal.
     expect("soundSpeed: nan", "soundSpeed", {"not a finite number"});
     expect("soundSpeed: -.inf m/s", "soundSpeed", {"not a finite number"});
     expect("soundSpeed: 1e400 m/s", "soundSpeed", {"between 1e-100 and 1e+100"});
@@ -275,7 +275,7 @@ TEST(Settings, oneFaultOneMessage) {
     o = readText("viscosity: 1 Pa s\n");
     ASSERT_EQ(o.problems.size(), 1u) << o.text;
     EXPECT_NE(o.text.find("'Ca', 'shearRate'"), std::string::npos);
-    // All problems in one pass.
+    // All problems are found in one pass.
     o = readText("viscosity: 1\nCa: x\nporosity: 2\nfoo: 1\n");
     EXPECT_EQ(o.problems.size(), 4u) << o.text;
 }

@@ -1,5 +1,5 @@
-// What a changed setting means to a run that continues: by value, not by spelling, and never silently where nothing is
-// declared.
+// The effect of a changed setting on a run that continues: settings are compared by value, not by spelling, and a
+// change whose effect is not declared is never silent.
 #include "core/settingsChange.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Steps that end at events, and strain that is summed.
+// Time steps that end exactly at events, and the summed strain.
 #include "core/time.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ struct Walk {
     double shortest = 1e300, longest = 0;
 };
 
-// With steps that the limits allow, to the end, as a solver makes them.
+// Makes steps like a solver, each as long as the limits allow, until the end.
 Walk walk(Time time, const std::vector<Interval>& intervals) {
     std::vector<Ticker> tickers;
     tickers.reserve(intervals.size());
@@ -47,7 +47,8 @@ TEST(StepEvents, AreHitToTheBit) {
 }
 
 TEST(StepEvents, LeaveNoTinySteps) {
-    // 1/3 and a rounding error: one step, not one and a tiny one; one and a bit: two equal ones.
+    // If one step and a rounding error are left: one step, not one and a tiny one; if somewhat more than one step is
+    // left: two equal ones.
     const Time third{.dt = 0.1 / 3, .shearRate = 1, .endStrain = 0.7};
     const Walk made = walk(third, {{Interval::Kind::strain, 0.1}});
     EXPECT_EQ(made.ends.size(), 21U);
@@ -56,7 +57,7 @@ TEST(StepEvents, LeaveNoTinySteps) {
     EXPECT_EQ(halves.ends.size(), 10U);
     EXPECT_NEAR(halves.shortest, 0.05, 1e-12);
     EXPECT_NEAR(halves.longest, 0.05, 1e-12);
-    // Two events that are nearer than a thousandth of a step count as one.
+    // Two events less than a thousandth of a step apart count as one.
     const Walk near = walk(Time{.dt = 0.1, .shearRate = 1, .endStrain = 0.40001}, {{Interval::Kind::strain, 0.4}});
     EXPECT_EQ(near.ends.size(), 4U);
     EXPECT_EQ(near.ends.back(), 0.40001);
@@ -80,7 +81,7 @@ TEST(StepEvents, InTime) {
     EXPECT_EQ(Ticker({Interval::Kind::steps, 3}, time).next(time).wait, std::numeric_limits<double>::infinity());
 }
 
-// Another shear rate from here on: the strain of before stays as it is.
+// If the shear rate changes, the strain accumulated so far stays as it is.
 TEST(Strain, IsSummed) {
     Time time{.dt = 0.1, .shearRate = 10};
     for (int k = 0; k < 10; ++k) time.advance(0.1);

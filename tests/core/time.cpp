@@ -15,7 +15,7 @@ TEST(Time, endsAtEachOfItsConditions) {
     time.endTime = 1.0;
     time.dt = 0.1;
     long steps = 0;
-    for (; time.running(); time.advance(0.1)) ++steps;  // ten times 0.1 is less than 1 in doubles
+    for (; time.running(); time.advance(0.1)) ++steps;  // the sum of ten times 0.1 is less than 1 in double precision
     EXPECT_EQ(steps, 10);
     EXPECT_EQ(time.endReason(), "endTime 1 s");
 
@@ -58,7 +58,7 @@ TEST(Ticker, oneLongStepIsOneEvent) {
     EXPECT_FALSE(ticker.due(time));
 }
 
-// Stopped anywhere and started again, the two runs together do what one run does.
+// A run that is stopped anywhere and restarted does, in both parts together, what an uninterrupted run does.
 TEST(Ticker, restartContinuesTheSeries) {
     for (const Interval& interval : {every(Interval::Kind::time, 0.25), every(Interval::Kind::strain, 0.7),
                                      every(Interval::Kind::steps, 4), every(Interval::Kind::time, 0.3)})

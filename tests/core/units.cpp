@@ -14,7 +14,7 @@ void expectQuantity(const std::string& text, double value, Dimension dimension) 
     EXPECT_EQ(q.dimension, dimension) << text;
 }
 
-// Of units whose factor is no power of ten.
+// For units whose factor is not a power of ten.
 void expectNearly(const std::string& text, double value, Dimension dimension) {
     const Quantity q = parseQuantity(text);
     EXPECT_DOUBLE_EQ(q.value, value) << text;

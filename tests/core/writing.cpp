@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A limit on the size of files for the time of a test.
+// Limits the size of files for the duration of a test.
 class SizeLimit {
   public:
     explicit SizeLimit(rlim_t bytes) {
@@ -88,7 +88,7 @@ TEST_F(Writing, leavesTheOldFileWhereTheNewOneDoesNotFit) {
               std::string::npos);
     EXPECT_EQ(readFile(path), "old");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);
-    EXPECT_TRUE(overwriteFile(path, "status: failed"));  // in the room that was kept
+    EXPECT_TRUE(overwriteFile(path, "status: failed"));  // in the space that was reserved
     EXPECT_EQ(readFile(path), "status: failed");
     EXPECT_FALSE(overwriteFile(folder / "missing", "x"));
 }

@@ -1,5 +1,5 @@
-// The explicit step on adjoint operators: a shear wave, its limits against dense matrices, momentum, ranks, a sphere's
-// membrane. Lengths in spacings, density 1.
+// The explicit step with adjoint operators: decay of a shear wave, limits of the step against dense matrices,
+// conservation of momentum, independence of the number of ranks, spherical membranes. Lengths in spacings, density 1.
 #include "coupling/adjointVerlet.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,8 @@ struct ExplicitFluid : FluidScene {
     }
 };
 
-// Of M^-1 L on a lattice: sum_j 2 nu F (1 - cos k.d)/S2 for waves k that fit the box, by the printed kernel.
+// Eigenvalue of M^-1 L on a lattice for a wave k that fits the box: sum_j 2 nu F (1 - cos k.d)/S2, with the kernel as
+// printed in the literature.
 double latticeRate(double viscosity, const Index3& size, const Index3& wave) {
     const auto sum = [&](auto&& term) {
         double total = 0;
@@ -82,7 +83,7 @@ struct ShearWave {
     }
 };
 
-// Two spheres of membrane in still fluid, pulled out of shape.
+// Two spherical membranes, pulled out of shape, in fluid at rest.
 struct TwoSpheres : SphereScene {
     Scene scene;
     std::unique_ptr<AdjointVerlet> step;
@@ -110,8 +111,8 @@ struct TwoSpheres : SphereScene {
         step = AdjointVerlet::make(scene, {.shifting = 1.0});
         step->start();
     }
-    // The largest eigenvalue of P S M^-1 S^T P A, whose eigenvalues are those of M^-1 S^T P A P S: A on the nodes,
-    // masses 1.
+    // The largest eigenvalue of P S M^-1 S^T P A (S, P: coupling/immersed.hpp), whose eigenvalues are those of M^-1 S^T
+    // P A P S. A is the matrix on the nodes that `product` applies; the masses M are 1.
     template <class F>
     double largest(F&& product) const {
         Immersed immersed(const_cast<coupling::Cells&>(scene.cells), scene.model(), *scene.system);
@@ -135,7 +136,7 @@ struct TwoSpheres : SphereScene {
 
 }  // namespace
 
-// The formulas of the header for du/dt = -rate u.
+// The formulas of coupling/adjointVerlet.hpp, applied to du/dt = -rate u.
 TEST(AdjointVerlet, stepsAsItsFormulasSay) {
     const ShearWave wave;
     const double dt = 0.4 / latticeRate(wave.model.viscosity, wave.size, {2, 2, 6});
@@ -250,7 +251,7 @@ TEST(AdjointVerlet, isTheSameOnOneRankAndOnAll) {
         EXPECT_LT((a.velocity(place.at(b.id[i])) - b.velocity(i)).norm(), 1e-10 * largest);
 }
 
-// Two spheres out of shape go back towards it through the fluid, their volume as it was; nothing passes their
+// Two deformed spheres relax towards their shape in the fluid and keep their volume; no particle passes their
 // membranes.
 TEST(AdjointVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
     TwoSpheres cells(true);
@@ -267,7 +268,7 @@ TEST(AdjointVerlet, membranesMoveTheFluidAndKeepTheirVolume) {
         return sph::testing::sumOverRanks(static_cast<double>(cells.step->noFlux()->crossings()));
     };
     cells.step->advance(dt);
-    const double atFirst = crossings();  // of particles whose side was that of the spheres before they were pulled
+    const double atFirst = crossings();  // particles whose side was set before the spheres were deformed
     for (int k = 1; k < 100; ++k) cells.step->advance(dt);
     EXPECT_LT(energy(), 0.9 * before);
     EXPECT_EQ(cells.step->steps(), 100);

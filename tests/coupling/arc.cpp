@@ -1,4 +1,4 @@
-// The middle of a step on the arc: against places of points that turn as one piece, which are known.
+// The middle of a step on the arc, against the known positions of points that turn as a rigid body.
 #include "coupling/arc.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ struct Points {
     std::vector<Vec3> position, velocity;
 };
 
-std::vector<Vec3> cloud(int count) {  // about its mean
+std::vector<Vec3> cloud(int count) {  // relative to its mean
     std::mt19937 random(7);
     std::uniform_real_distribution<double> in(-1, 1);
     std::vector<Vec3> all;
@@ -30,7 +30,8 @@ std::vector<Vec3> cloud(int count) {  // about its mean
 
 const Vec3 axis = Vec3(0.3, -0.5, 0.8).normalized(), drift(0.2, 0.1, -0.4), off(3, 1, -2);
 
-// Of the cloud, which drifts and turns by `angle` a step of length 1: the middle of the chord, and its velocity.
+// For each point of the cloud, which drifts and turns by `angle` in a step of length 1: the middle of its chord, and
+// the velocity along the chord.
 Points onChord(double angle) {
     Points points;
     for (const Vec3& r : cloud(60)) {
@@ -71,7 +72,7 @@ TEST(Arc, isTheChordWhereNothingTurns) {
     for (const Vec3& r : cloud(20))
         for (const double x : {-1, 1})
             for (const double y : {-1, 1})
-                for (const double z : {-1, 1}) {  // strain along the axes turns no cloud that they mirror
+                for (const double z : {-1, 1}) {  // strain along the axes does not turn a cloud with mirror symmetry
                     const Vec3 d = r.cwiseProduct(Vec3(x, y, z));
                     points.position.push_back(off + d);
                     points.velocity.push_back(drift + Vec3(0.4 * d[0], 0.1 * d[1], -0.5 * d[2]));

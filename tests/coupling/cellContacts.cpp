@@ -1,5 +1,5 @@
-// Contact of the cells of a scene, against contact of all of them on one rank, through periodic faces, and with walls.
-// Lengths in spacings.
+// Contact of the cells of a scene against contact of all cells computed on one rank; through periodic faces, and with
+// walls. Lengths in spacings.
 #include "coupling/cellContacts.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace corpuscle::coupling::testing;
 namespace {
 
 const Index3 size{14, 12, 12};
-constexpr double reach = 0.25;  // below 0.4 edges
+constexpr double reach = 0.25;  // below 0.4 edge lengths
 
 contact::ContactSettings settings(bool walls = false) {
     contact::ContactSettings s;
@@ -23,7 +23,8 @@ contact::ContactSettings settings(bool walls = false) {
     return s;
 }
 
-// Two spheres that touch: the second one, or its image through a face. margin: within which ranks hold cells.
+// Two spheres in contact; the first may touch an image of the second across a face instead of the second itself.
+// margin: a rank holds the cells within this distance of its brick.
 struct Touching : SphereScene {
     boundary::Walls walls;
     CellContacts contacts;
@@ -43,7 +44,7 @@ struct Touching : SphereScene {
         contacts.addForces(f);
         return f;
     }
-    // Of held nodes: f(number of the cell, node).
+    // f(number of the cell, node) of all nodes of the held cells.
     template <class F>
     NodeVectors vectors(F&& f) const {
         NodeVectors all;
@@ -55,7 +56,7 @@ struct Touching : SphereScene {
         return vectors(
             [&](int cell, int n) { return start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)]; });
     }
-    double dot(const NodeVectors& a, const NodeVectors& b) const {  // each node of the scene once
+    double dot(const NodeVectors& a, const NodeVectors& b) const {  // counts each node of the scene once
         const int rank = system->decomposition().rank();
         return sph::testing::sumOverRanks(
             layout.sumOverOwned(cells, rank, [&](std::size_t m) { return a[m].dot(b[m]); }));
@@ -67,7 +68,8 @@ Vec3 somewhere(int cell, int n) {
     return {std::sin(t), std::cos(1.3 * t), std::sin(2.1 * t + 1)};
 }
 
-// Forces of all nodes, by contact of both whole surfaces on this rank alone; shift: of the second beside the first.
+// Forces on all nodes, from the contact of both whole surfaces computed on this rank alone. shift: moves the second
+// surface next to the first.
 std::vector<Vec3> alone(const Touching& scene, const Vec3& shift) {
     const membrane::Network& network = scene.cells.types()[0].membrane->network();
     const contact::Surface surface(network.stressFree(), network.triangles());
@@ -130,7 +132,7 @@ TEST(CellContacts, forcesAreMinusTheGradientOfTheEnergyAndStiffnessIsTheirs) {
     NodeVectors at(d.size(), Vec3::Zero());
     scene.contacts.addForcesAt(NodeVectors(d.size(), Vec3::Zero()), at);
     for (std::size_t m = 0; m < d.size(); ++m) EXPECT_LT((at[m] - f[m]).norm(), 1e-12);
-    // Symmetric, and semi-definite.
+    // The stiffness is symmetric and positive semi-definite.
     const NodeVectors e = scene.vectors([](int cell, int n) { return somewhere(cell + 3, 2 * n); });
     NodeVectors Kd(d.size(), Vec3::Zero()), Ke = Kd;
     scene.contacts.addStiffness(1, d, Kd), scene.contacts.addStiffness(1, e, Ke);
@@ -145,14 +147,14 @@ TEST(CellContacts, aWayOnWhichCellsMeetIsNotFree) {
         return scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.places(), {way});
     };
     EXPECT_EQ(travel(0.05), 1);
-    const double free = travel(4);  // through the other one; lists that are made for it
+    const double free = travel(4);  // through the other cell; lists are made for this motion
     EXPECT_GT(free, 0.01);
     EXPECT_LT(free, 0.1);
     EXPECT_NEAR(free, sph::testing::sumOverRanks(free) / scene.system->decomposition().size(), 1e-15);
     EXPECT_EQ(travel(-1), 1);
 }
 
-// Two cells that touch across a sliding face: the energy of contact changes by the slide alone.
+// Two cells at rest that touch across a sliding face: the energy of contact changes by the sliding alone.
 TEST(CellContacts, powerOfImagesIsWhatTheirSlideTakesFromTheEnergy) {
     for (const double along : {-0.5, 0.5}) {
         const double up = std::sqrt(1 - along * along);
@@ -172,7 +174,8 @@ TEST(CellContacts, powerOfImagesIsWhatTheirSlideTakesFromTheEnergy) {
     }
 }
 
-// Images of the second cell come past the first one by themselves, and meet it after 1.08 s where they come nearer.
+// The sliding alone carries an image of the second cell past the first one. If the image approaches, the two meet after
+// 1.08 s.
 TEST(CellContacts, aWayOnWhichAnImageSlidesIntoACellIsNotFree) {
     for (const double speed : {-1.0, 1.0}) {
         Touching scene({3, 6, 11}, {8, 6, 1}, 2.0);
@@ -192,10 +195,10 @@ TEST(CellContacts, aWayOnWhichAnImageSlidesIntoACellIsNotFree) {
             EXPECT_NEAR(2 * met, gap, 0.15) << "the spheres have edges, and a tenth of the gap is kept";
             EXPECT_LT(2 * met, gap);
         }
-        // The same of a way that began two seconds ago.
+        // The same for a motion that began two seconds ago.
         scene.system->moveImages(2);
         EXPECT_NEAR(free(2, 2), met, 1e-12);
-        // Carried along by as much, nothing meets.
+        // If the first cell moves along by the same distance, nothing meets.
         const NodeVectors with = scene.vectors([&](int cell, int) { return Vec3(cell == 1 ? 2 * speed : 0, 0, 0); });
         EXPECT_EQ(scene.contacts.freeTravel(scene.cells, scene.layout, *scene.system, scene.places(), {with, 2, 2}), 1);
     }
@@ -216,7 +219,7 @@ TEST(CellContacts, wallsHoldCellsOff) {
         total[k] = sph::testing::sumOverRanks(total[k]), onWalls[k] = sph::testing::sumOverRanks(onWalls[k]);
     EXPECT_GT(total[2], 0.1);
     EXPECT_LT((total + onWalls).norm(), 1e-12 * total[2]);
-    // Of the nodes within reach, by the law itself.
+    // Expected: the sum of the law over all nodes within reach of the wall.
     const membrane::Network& network = scene.cells.types()[0].membrane->network();
     const contact::Surface surface(network.stressFree(), network.triangles());
     double force = 0, energy = 0;

@@ -1,4 +1,5 @@
-// Who holds which cell: against all pairs of cells and bricks, while cells travel; and what new holders get to know.
+// Which ranks hold which cell, against all pairs of cells and bricks, while cells travel; and the state of a cell that
+// new holders receive.
 #include "coupling/cells.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +62,7 @@ struct Population {
     int rank() const { return system->decomposition().rank(); }
     int ranks() const { return system->decomposition().size(); }
 
-    // Whether a node, or an image of it, lies within `away` of the brick of that rank.
+    // Whether a node of the cell, or an image of it, lies within `away` of the brick of rank r.
     bool isNear(const Cell& cell, int r, double away) const {
         const particles::Brick& brick = system->decomposition().brick(r);
         for (const Vec3& x : cell.membrane.position) {
@@ -72,7 +73,7 @@ struct Population {
         }
         return false;
     }
-    // Who owns each cell: its rank, counted from 1, on every rank.
+    // The owner of each cell, its rank counted from 1; the same on every rank.
     std::vector<double> owners() const {
         std::vector<double> all(cells.count(), 0.0);
         for (const Cell& cell : cells)
@@ -82,7 +83,7 @@ struct Population {
     }
 };
 
-// The state of a cell as numbers that depend on its own alone, and on how far it has come.
+// Stands for the state of a cell: depends only on the cell's number, the node and the step.
 Vec3 velocityOf(int cell, std::size_t node, int step) {
     return {0.01 * cell, 1.0 / static_cast<double>(node + 1), 0.1 * step};
 }
@@ -125,7 +126,7 @@ TEST(Cells, holdersAreThoseNearAndOneOfThemOwns) {
         std::vector<char> before(p.cells.count() + 1, 0);
         for (Cell& cell : p.cells) {
             before[static_cast<std::size_t>(cell.membrane.cell)] = 1;
-            const Vec3 way(0.45, 0.2 - 0.05 * cell.membrane.cell, 0.1);  // more than once round the box
+            const Vec3 way(0.45, 0.2 - 0.05 * cell.membrane.cell, 0.1);  // in 60 steps more than once through the box
             cell.arc = {.centre = velocityOf(cell.membrane.cell, 7, step), .turn = way};
             for (std::size_t n = 0; n < cell.membrane.position.size(); ++n) {
                 cell.membrane.position[n] += way;
@@ -170,7 +171,7 @@ TEST(Cells, holdersAreThoseNearAndOneOfThemOwns) {
     }
 }
 
-// A torn cell has a network of its own, and is known as torn to new holders; the others of its type stay whole.
+// A torn cell has a network of its own, and arrives torn at new holders; the others of its type stay whole.
 TEST(Cells, aTornCellIsTheOnlyOne) {
     Population p;
     const membrane::Network& whole = p.cells.types()[0].membrane->network();
@@ -194,7 +195,7 @@ TEST(Cells, aTornCellIsTheOnlyOne) {
     }
 }
 
-// Parts with all kinds of rounding: every holder finds the bits of the sum in the order of the ranks.
+// Summands of very different size: every holder gets the same bits, those of the sum in the order of the ranks.
 TEST(HolderSums, areThoseInTheOrderOfTheRanks) {
     Population p;
     constexpr std::size_t width = 3;

@@ -12,7 +12,7 @@ using namespace corpuscle::coupling::testing;
 
 namespace {
 
-// Two cells; densities have wandered, differently inside and outside, and the first cell has been stretched.
+// Two cells: densities have drifted, differently inside and outside, and the first cell is stretched.
 struct Wandered : SphereScene {
     static constexpr double fluidVolume = 14 * 8 * 8;
     NodeExchange exchange;
@@ -27,7 +27,8 @@ struct Wandered : SphereScene {
                 1 + 0.02 * static_cast<double>(s.side[i]) - 0.01 + 0.005 * std::sin(static_cast<double>(s.id[i]));
     }
 
-    // sum m/rho of a region over sum m/rho0: fluid with side `inside`, and the named share of each listed cell's nodes.
+    // sum m/rho over sum m/rho0 of a region: the fluid of the given sides, and the given share of the nodes of each
+    // cell.
     double expansion(std::vector<std::int64_t> sides, std::vector<double> shareOfNodes) const {
         const ParticleStore& s = system->store();
         double space = 0, mass = 0;
@@ -53,7 +54,7 @@ TEST(DensityBalance, densityOfEachRegionFollowsItsVolume) {
     const double wrong = scene.expansion({1}, {0.5, 0}), outside = Wandered::fluidVolume - 2 * scene.sphereVolume();
     scene.balance.apply(*scene.system, scene.cells);
     EXPECT_NEAR(scene.balance.largest(), std::abs(wrong / 1.1 - 1), 1e-12);
-    // One factor for the fluid of each region.
+    // The density of all fluid in a region changes by the same factor.
     double factor[3] = {0, 0, 0};
     for (std::size_t i = 0; i < s.size(); ++i) {
         if (s.kindOf(i) != Kind::fluid) continue;

@@ -12,7 +12,7 @@ using namespace corpuscle::coupling::testing;
 
 namespace {
 
-// Off centre and across a periodic corner, stretched.
+// A stretched cell across a periodic edge of the box.
 struct Stretched : SphereScene {
     DualIdentity coupling{cells, 1, DensityBalance(12 * 8 * 8, 1), {10, 0}};
     Stretched() : SphereScene({12, 8, 8}, {Vec3(6, 0.2, 7.5)}) {

@@ -1,5 +1,5 @@
 // Weights of the nodes of a flat membrane between two fluids. References: the exact flow, and
-// benchmarks/placement/plane.py (-weights kink -mean laminate -R 2), which has the same model in another program.
+// benchmarks/placement/plane.py (-weights kink -mean laminate -R 2), an independent program of the same model.
 #include "coupling/flatMembrane.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,8 @@ TEST(FlatMembrane, nodesMoveAsInTheExactFlow) {
     }
 }
 
-// One layer and half way between two are where the errors are largest (plane.py: from -0.0167 to +0.0151).
+// Errors are largest for a membrane on a layer of particles, and halfway between two (plane.py: from -0.0167 to
+// +0.0151).
 TEST(FlatMembrane, placeBetweenLayersChangesLittle) {
     const FlatMembrane plane = between(1);
     const NodeConditions conditions = plane.conditions(0);

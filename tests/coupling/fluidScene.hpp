@@ -1,4 +1,4 @@
-// A scene of fluid alone for the steps on adjoint operators. Lengths in spacings, density 1, kernel support 2.4.
+// A scene of fluid alone for time steps with adjoint operators. Lengths in spacings, density 1, kernel support 2.4.
 #pragma once
 #include "coupling/scene.hpp"
 #include "sph/samples.hpp"
@@ -13,7 +13,8 @@ inline std::vector<sph::testing::Particle> still(const Index3& size, double diso
     return all;
 }
 
-// Off its lattice between walls that are on theirs, moving with the walls and the flow.
+// Fluid on a disordered lattice, moving with the flow, between walls whose particles are on the undisturbed lattice and
+// move with the walls.
 template <class Flow>
 std::vector<sph::testing::Particle> sheared(const Index3& size, double jitter, const boundary::Walls& walls,
                                             Flow&& flow) {
@@ -46,7 +47,7 @@ struct FluidScene {
         scene.flow.length = static_cast<double>(size[2]);
         scene.forces = std::make_unique<sph::FluidForces>(model, *scene.system);
     }
-    // sum of f(place in the store) over all ranks of the world
+    // sum of f(index in the store) over the particles of all ranks
     template <class F>
     double sum(F&& f) const {
         double total = 0;

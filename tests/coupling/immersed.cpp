@@ -18,10 +18,10 @@ constexpr double reach = Immersed::radiusInSpacings;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 const Index3 size{14, 12, 12};
 
-// Two cells, the first across a periodic edge of the box, stretched; the second some boxes away from it.
+// Two stretched cells: the first across a periodic edge of the box, the second some periods outside the box.
 struct InFluid : SphereScene {
     std::vector<sph::testing::Particle> all = sph::testing::lattice(size, 0.1);
-    std::vector<double> volumes;  // by number
+    std::vector<double> volumes;  // of the particles, by id
     Immersed immersed;
 
     InFluid()
@@ -50,7 +50,7 @@ struct InFluid : SphereScene {
         m.restore(alive);
     }
     std::size_t nodes() const { return start[0].size() + start[1].size(); }
-    std::vector<Vec3> elastic() const {  // forces of the membranes alone, of all nodes
+    std::vector<Vec3> elastic() const {  // elastic forces of the membranes alone, on all nodes
         std::vector<Vec3> all;
         for (const Cell& cell : cells) {
             std::vector<Vec3> f(cell.membrane.position.size(), Vec3::Zero());
@@ -65,7 +65,7 @@ struct InFluid : SphereScene {
         return x;
     }
 
-    // f(id, place) -> the velocity of a particle; as the fields of the implicit step are.
+    // Velocities f(id, position) of the particles, four numbers each, as in the fields of the implicit step.
     template <class Real, class F>
     std::vector<Real> field(F&& f) const {
         const ParticleStore& s = system->store();
@@ -82,13 +82,14 @@ struct InFluid : SphereScene {
         return v;
     }
 
-    // The weights of the header, from all particles and images: of each node, by the number of the particle.
+    // Weights w, w' and grad of coupling/nodeFluidMap.hpp for each node, from all particles and their images; particles
+    // by id.
     struct Weight {
         std::size_t particle;
         double along, across;
         Vec3 slope;  // of the gradient
     };
-    // What a node's velocity is the mean of, over all nodes of its cell.
+    // The mean M along the membrane (coupling/nodeFluidMap.hpp) at a node, over all nodes of its cell.
     struct Mean {
         std::vector<std::pair<std::size_t, double>> of;
         Vec3 shift = Vec3::Zero();
@@ -97,7 +98,7 @@ struct InFluid : SphereScene {
     std::vector<Mean> means() const;
     std::vector<Vec3> expected(const std::vector<std::vector<Weight>>& weights, const std::vector<Vec3>& u) const;
     std::vector<std::vector<Weight>> weights(long& shepard) const;
-    // What a node finds by them of velocities by number.
+    // Velocity at a node by its weights; u: velocities of the particles, by id.
     static Vec3 mean(const std::vector<Weight>& weights, const Vec3& normal, const std::vector<Vec3>& u) {
         Vec3 along = Vec3::Zero(), across = Vec3::Zero();
         for (const Weight& w : weights) along += w.along * u[w.particle], across += w.across * u[w.particle];
@@ -125,7 +126,7 @@ double integral(double low, double high, F&& f) {
     return sum;
 }
 
-// E|z - y| of the header.
+// E|z - y| of coupling/nodeBasis.hpp.
 double kink(double z) {
     const auto W = [](double q) { return std::pow(1 - q, 4) * (1 + 4 * q); };
     const auto moment = [&](int p) { return integral(0, 1, [&](double q) { return std::pow(q, p) * W(q); }); };
@@ -185,7 +186,7 @@ std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const 
     return result;
 }
 
-// Of spheres, on which nodes within 1.2 spacings are joined by edges.
+// For spheres, on which nodes within 1.2 spacings are joined by edges.
 std::vector<InFluid::Mean> InFluid::means() const {
     std::vector<Mean> all;
     std::size_t first = 0;
@@ -209,7 +210,7 @@ std::vector<InFluid::Mean> InFluid::means() const {
     return all;
 }
 
-// Velocities of the nodes, by these weights and means.
+// Velocities of the nodes, from these weights and means.
 std::vector<Vec3> InFluid::expected(const std::vector<std::vector<Weight>>& weights, const std::vector<Vec3>& u) const {
     const std::vector<Vec3> at = normals();
     const std::vector<Mean> mean = means();
@@ -229,7 +230,7 @@ double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 }  // namespace
 
-// Of an opened cell, where nothing is projected; both cells, images and ranks.
+// Both cells are opened, so that no projection changes the velocities; across images and ranks.
 TEST(Immersed, weightsAreThoseOfTheMomentMatrix) {
     InFluid scene;
     scene.open(0), scene.open(1);
@@ -306,17 +307,17 @@ TEST(Immersed, spreadIsTheTransposeOfInterpolate) {
     MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     EXPECT_NEAR(sph::testing::sumOverRanks(power), atNodes, 1e-14 * sph::testing::sumOverRanks(magnitude));
     EXPECT_GT(std::abs(atNodes), 0.01);
-    // Projection leaves the sum, as the gradient of the volume of a closed cell has none.
+    // The projection keeps the sum of forces, as the gradient of a closed cell's volume sums to zero over its nodes.
     EXPECT_LT((total - std::accumulate(f.begin(), f.end(), Vec3(Vec3::Zero()))).norm(), 1e-12 * std::sqrt(dot(f, f)));
 }
 
-// Forces by differences of the energy; stiffness by differences of forces, of membranes at rest, where no part of it is
-// left out.
+// Forces against differences of the energy; stiffness against differences of forces, for membranes at rest, where no
+// part of the stiffness is left out.
 TEST(Immersed, forcesAndStiffnessAreThoseOfTheMembranes) {
     InFluid scene;
     const std::vector<Vec3> u = scene.random(scene.nodes(), 6);
     const double step = 1e-5;
-    const auto moved = [&](double along, auto&& f) {  // with the nodes that far along u
+    const auto moved = [&](double along, auto&& f) {  // calls f with the nodes moved by `along` times u
         std::vector<std::vector<Vec3>> before;
         for (Cell& cell : scene.cells) {
             before.push_back(cell.membrane.position);
@@ -386,7 +387,7 @@ TEST(Immersed, volumeIsRestoredAlongItsGradient) {
         << "an opened cell has no volume to keep";
 }
 
-// Fluid only well outside of the first cell: whole weights would extrapolate.
+// With fluid only well outside the first cell, the full weights would extrapolate, and Shepard's replace them.
 TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
     InFluid scene;
     const particles::Box& box = scene.system->box();
@@ -406,7 +407,8 @@ TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
     for (std::size_t m = 0; m < weights.size(); ++m) EXPECT_LT((found[m] - expected[m]).norm(), 1e-10);
 }
 
-// Weights that find linear fields exactly hand a force to the fluid with its torque; forces of a membrane have none.
+// Weights that reproduce linear fields exactly pass a force to the fluid with its torque; the forces of a membrane have
+// no net torque.
 TEST(Immersed, spreadForcesKeepTheirTorque) {
     InFluid scene;
     ASSERT_EQ(scene.immersed.fallbacks(), 0) << "Shepard's weights keep the force alone";
@@ -438,8 +440,8 @@ TEST(Immersed, spreadForcesKeepTheirTorque) {
     }
 }
 
-// Where each rank holds what is near its brick, sums go among holders: the same weights, velocities and forces as where
-// every rank holds every cell, to rounding, and the same bits on all holders.
+// Where a rank holds only the cells near its brick, sums are exchanged among holders: weights, velocities and forces
+// are the same as where every rank holds every cell, up to rounding, and the same bits on all holders.
 TEST(Immersed, isTheSameWhereRanksHoldOnlyWhatIsNear) {
     const auto scene = [](double margin) {
         SphereScene s({14, 12, 12}, {Vec3(3.5, 0.2, 9.5), Vec3(10.5, 5, 5)}, true, margin);
@@ -462,7 +464,8 @@ TEST(Immersed, isTheSameWhereRanksHoldOnlyWhatIsNear) {
     const Immersed::Vectors v = one.interpolate(u.data()), w = other.interpolate(u.data());
     Immersed::Vectors f = v, g = w;
     one.addResistance(0.1, v, f), other.addResistance(0.1, w, g);
-    std::vector<double> bits(6 * 2 * all.start[0].size(), 0.0), least = bits;  // of holders; what others have not
+    // Least and greatest value over the ranks; a rank without the cell leaves both at their bounds.
+    std::vector<double> bits(6 * 2 * all.start[0].size(), 0.0), least = bits;
     std::fill(least.begin(), least.end(), 1e300);
     auto most = bits;
     std::fill(most.begin(), most.end(), -1e300);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int length = 16;
 
-// An oblate spheroid in lattice fluid of which each particle has the volume 1.
+// A cell in the shape of an oblate spheroid in fluid on a lattice, every particle of volume 1.
 struct Inclusion : FluidScene {
     Inclusion(double radius, double ratio, const Vec3& centre, double viscosityRatio)
         : FluidScene(
@@ -64,7 +64,8 @@ struct Inclusion : FluidScene {
 
 }  // namespace
 
-// By planes alone the sums are too large by 1/(4 a^2), 1.9 % for the sphere and 2.1 % for the spheroid.
+// Without the curvature term of the shares the sums would be too large by 1/(4 a^2), 1.9 % for the sphere and 2.1 % for
+// the spheroid.
 TEST(InsideShares, addUpToWhatTheMembraneEncloses) {
     for (const auto& [radius, ratio] : {std::pair{3.6, 1.0}, std::pair{6.0, 0.3}})
         for (const double viscosityRatio : {0.2, 5.0}) {

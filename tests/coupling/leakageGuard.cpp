@@ -21,8 +21,8 @@ struct Guarded : SphereScene {
         exchange.gather(*system, cells, 0);
         guard.findCandidates(*system, cells);
     }
-    // The fluid particle of this side that is nearest to the membrane from there, on the rank that owns it: its number,
-    // or -1.
+    // Index of the fluid particle of this side that is nearest to the membrane, on the rank that owns it; -1 on other
+    // ranks.
     int nearest(int side) const {
         const ParticleStore& s = system->store();
         double best = INFINITY;

@@ -26,7 +26,7 @@ struct Watched : SphereScene {
     Watched() : SphereScene({12, 8, 8}, {centre}, true) {
         for (std::size_t n = 0; n < start[0].size(); ++n) {
             cells[0].membrane.velocity[n] = flow(start[0][n]);
-            cells[0].membrane.position[n] += Vec3(24, -8, 0);  // some boxes away
+            cells[0].membrane.position[n] += Vec3(24, -8, 0);  // some periods away
         }
         ParticleStore& s = system->store();
         for (std::size_t i = 0; i < s.size(); ++i) s.side[i] = nearest(i).second < 0;
@@ -45,7 +45,7 @@ struct Watched : SphereScene {
         return system->periodicity().shortest(system->store().position(i) - centre);
     }
 
-    // Nearest point of the mesh, triangle by triangle: its place from the centre, and the distance from it, positive
+    // Nearest point of the mesh, from a search over all triangles, and the particle's distance from it, positive
     // outside.
     std::pair<Vec3, double> nearest(std::size_t i) const {
         const Vec3 x = fromCentre(i) + centre;
@@ -58,7 +58,7 @@ struct Watched : SphereScene {
         }
         return {at, (x - at).dot(at - centre) > 0 ? best : -best};
     }
-    // The fluid particle of this side nearest to the membrane, on the rank that owns it: its number, or -1.
+    // Index of the fluid particle of this side nearest to the membrane, on the rank that owns it; -1 on other ranks.
     int nearestOf(int side) const {
         const ParticleStore& s = system->store();
         struct {
@@ -74,7 +74,7 @@ struct Watched : SphereScene {
         MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, MPI_COMM_WORLD);
         return least.rank == self ? found : -1;
     }
-    // Puts a particle at this distance from the membrane, along the normal at its nearest point.
+    // Moves a particle to this distance from the membrane, along the normal at its nearest point.
     void put(int particle, double distance) {
         if (particle < 0) return;
         const auto i = static_cast<std::size_t>(particle);

@@ -38,7 +38,7 @@ TEST(NodeExchange, aCellTravellingThroughThePeriodicBoxStaysInOnePiece) {
     const Vec3 velocity(0.14, -0.03, 0.02);
     int ranks = 1, handOvers = 0, notHeld = 0;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    for (int step = 1; step <= 200; ++step) {  // 28 spacings along x: once round the box
+    for (int step = 1; step <= 200; ++step) {  // 28 spacings along x: once through the box
         ParticleStore& s = scene.system->store();
         const Vec3 travelled = step * velocity;
         scene.moveNodes([&](const Vec3& x) -> Vec3 { return x + travelled; });

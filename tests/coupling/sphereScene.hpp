@@ -1,5 +1,5 @@
-// Spheres of membrane in a box of lattice fluid. Lengths in spacings, density 1. Nodes are particles, or lie in the
-// fluid (immersed).
+// Spherical cells in a periodic box of fluid on a disordered lattice. Nodes are particles (dual identity), or immersed
+// in the fluid. Lengths in spacings, density 1.
 #pragma once
 #include "coupling/scene.hpp"
 #include "membrane/meshes.hpp"
@@ -25,10 +25,10 @@ Choice<Family> choice(const std::string& text) {
 struct SphereScene {
     std::unique_ptr<ParticleSystem> system;
     Cells cells;
-    std::vector<std::vector<Vec3>> start;  // nodes at first, by cell
+    std::vector<std::vector<Vec3>> start;  // nodes at the start, by cell
     int fluidCount = 0;
 
-    // margin: within which ranks hold cells. change: what their laws have more.
+    // margin: a rank holds the cells within this distance of its brick. change: adds laws of the membranes.
     SphereScene(const Index3& size, const std::vector<Vec3>& centres, bool immersed = false,
                 double margin = Cells::everywhere,
                 const std::function<void(membrane::MembraneSettings&)>& change = {}) {
@@ -51,7 +51,7 @@ struct SphereScene {
         for (const Vec3& centre : centres) type.places.push_back({.centre = centre});
         cells = Cells({type}, margin);
         for (std::size_t c = 0; c < centres.size(); ++c) start.push_back(cells.startingNodes(static_cast<int>(c) + 1));
-        // The root holds everything at first; the system sends it to its owners.
+        // The root makes all particles; start() sends them to their owners.
         int rank = 0;
         MPI_Comm_rank(MPI_COMM_WORLD, &rank);
         ParticleStore& s = system->store();
@@ -66,7 +66,7 @@ struct SphereScene {
         if (rank == 0) {
             for (const sph::testing::Particle& p : sph::testing::lattice(size, 0.1)) {
                 int side = 0;
-                bool free = true;  // not where the membrane's nodes and facets are
+                bool free = true;  // not too close to the membrane's nodes and facets
                 for (std::size_t c = 0; c < centres.size(); ++c) {
                     const double distance = box.periodicity().shortest(p.x - centres[c]).norm();
                     if (distance < radius) side = static_cast<int>(c) + 1;
@@ -82,8 +82,8 @@ struct SphereScene {
         cells.placeAtStart(*system);
     }
 
-    // A scene of these membranes immersed, their nodes moved to f(place from the middle of the cell), whose volumes
-    // they keep. Nothing is left here.
+    // Moves the system and the cells into a scene with immersed membranes, after their nodes have been moved to
+    // f(position relative to the middle of the cell); the volumes after that are the ones kept.
     template <class F>
     Scene immersedScene(double rate, F&& f) && {
         for (Cell& cell : cells) {
@@ -110,7 +110,8 @@ struct SphereScene {
             if (s.node[i] >= 0) {
                 const auto [cell, n] = cells.cellOfNode(s.node[i]);
                 const Vec3& began = start[static_cast<std::size_t>(cell) - 1][static_cast<std::size_t>(n)];
-                // The image nearest to where the particle is: it moves continuously between builds.
+                // The image nearest to the particle's position, so that the particle moves continuously between
+                // rebuilds.
                 s.setPosition(i, s.position(i) + system->periodicity().shortest(f(began) - s.position(i)));
             }
     }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Every command of the documentation does what it says: the shell blocks of its pages are run as they stand, on cases made coarse and short.
+"""Every command of the documentation works: the shell blocks of its pages are run unchanged, on cases made coarse and short.
 
     commands.py BIN SOURCE
 
-A shell block that nothing here runs is a fault, and so is an option of a program, anywhere in the pages, that the program does not know.
+A shell block that is not run here is a fault, and so is an option, anywhere in the pages, that its program does not know.
 """
 import json
 import os
@@ -27,7 +27,7 @@ ELSEWHERE = {
     "cmake -S . -B build -G Ninja -DCORPUSCLE_BENCHMARKS=ON": "benchmarks are run by hand",
     "./Allrun                                                    # haematocrits": "tutorials.bloodViscosity",
 }
-# What stands in a page before its blocks are run: functions and cases. `here` is a folder that looks like the repository.
+# Preparation before the blocks of a page are run: functions and cases. `here` is a folder that looks like the repository.
 CLONE = """
 cloneCase() { command cloneCase "$@" && [[ $1 == *tweezers* ]] || coarse "$2"; }
 coarse() { caseDict -quiet -case "$1" %s; }
@@ -91,7 +91,7 @@ def isShell(block):
 
 
 def programs():
-    """The options of each program, by its own word."""
+    """The options of each program, as it lists them itself."""
     known = {}
     for path in sorted(BIN.iterdir()):
         if path.name.startswith(("test_", "fuzz")) or not os.access(path, os.X_OK) or path.is_dir():
@@ -140,7 +140,7 @@ def uncovered(page, text):
 
 
 def unknownOptions(page, text):
-    """Of commands in blocks and in sentences."""
+    """Unknown options of commands, in blocks and in sentences."""
     found = []
     commands = [line for block in blocks(text) if isShell(block) for line in block.splitlines()] + re.findall(r"(?<!`)`([^`\n]+)`(?!`)", text)
     for command in commands:

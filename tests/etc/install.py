@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`cmake --install`: the tree is moved, and then its programs, data, pages and CMake package do their work without the build folder.
+"""`cmake --install`: the installed tree is moved; its programs, data, pages and CMake package must then work without the build folder.
 
     install.py BUILD SOURCE
 """
@@ -42,7 +42,7 @@ def refused(words, cwd, environment, *messages):
 
 
 def plugin(folder, root, environment):
-    """A law of a user's own: from the template to a run with it, on one and two ranks, and what is refused."""
+    """A user's own law: from the template to a run with it, on one and two ranks, and errors."""
     run(["newModel", "law", "ownSpring", "-plugin", "own"], folder, environment)
     run(["cmake", "-S", "own", "-B", "own/build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={root}"], folder, environment)
     run(["ninja", "-C", "own/build"], folder, environment)
@@ -80,7 +80,7 @@ def main():
         folder = pathlib.Path(temporary)
         environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
         run(["cmake", "--install", BUILD, "--prefix", folder / "first"], folder, environment)
-        # As packages are made: the same files below another root.
+        # As for packages: the same files below another root.
         run(["cmake", "--install", BUILD, "--prefix", "/usr"], folder, dict(environment, DESTDIR=str(folder / "package")))
         files = [sorted(str(path.relative_to(top)) for path in top.rglob("*") if path.is_file()) for top in (folder / "first", folder / "package/usr")]
         assert files[0] == files[1] and len(files[0]) > 500, set(files[0]) ^ set(files[1])
@@ -96,7 +96,7 @@ def main():
         for program in ("membraneMesh", "particleFill", "dmpFlow"):
             run([program, "-quiet", "-case", "case"], folder, environment)
         assert "0.1" in run(["listTimes", "-latest", "-case", "case"], folder, environment)
-        # Ready cells lie beside the programs, and the sources are not looked at before them.
+        # Ready cells lie beside the programs, and take precedence over those of the sources.
         run(["cloneCase", "case", "ready", "-set", "system/mesh.yaml:/cells=[{name: rbc, cell: healthyRBC, edge: 1 um}]"], folder, environment)
         run(["membraneMesh", "-quiet", "-case", "ready"], folder, environment)
         assert (tutorial / "Allrun").stat().st_mode & 0o111 and not (tutorial / "0").exists()

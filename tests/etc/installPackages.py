@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What etc/functions.sh does where apt cannot install the packages, with stand-ins for apt-get and dpkg-query: it says why, offers a way, and never
+"""etc/functions.sh where apt cannot install the packages, with stand-ins for apt-get and dpkg-query: it gives the reason, offers a solution, and never
 removes a package.
 
     installPackages.py ROOT    ROOT: the repository
@@ -20,7 +20,7 @@ UNKNOWN = "E: Unable to locate package libvtk9-dev\n"
 
 
 def install(plan, status=0, installed=()):
-    """Exit code, what was said, and the calls that change the machine."""
+    """Exit code, output, and the calls that change the machine."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         (folder / "plan").write_text(plan)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""etc/newModel: a model of each kind in a copy of the repository, built with its test and run; and what it refuses.
+"""etc/newModel: a model of each kind in a copy of the repository, built with its test and run; and arguments that it rejects.
 
     newModel.py REPOSITORY
 """
@@ -23,7 +23,7 @@ def run(command, folder, code=0):
 def main():
     root = pathlib.Path(sys.argv[1])
     with tempfile.TemporaryDirectory() as temporary:
-        # Under the name that a clone has: what the compiler's cache holds counts in any folder.
+        # The folder has the name of a clone, so that entries of the compiler's cache are valid in it.
         copy = pathlib.Path(temporary) / "corpuscle"
         shutil.copytree(root, copy, ignore=lambda folder, names: [n for n in names if SKIPPED.fullmatch(n)])
         script = copy / "etc/newModel"
@@ -47,7 +47,7 @@ def main():
         others = [kind for kind in KINDS if kind != "kernel"]
         for kind in others:
             write(kind)
-        # The observer and the scheme on 1 and 2 ranks. Tests that look at all models of a family hold with one more.
+        # The observer and the scheme on 1 and 2 ranks. Tests of all models of a family pass with one more model.
         families = {"test_membrane": "Registry.*", "test_observers.models": "Tables.*:Observers.EveryModelIsThere"}
         build_and_test("build", others, len(others) + 2, targets=["listModels", *families])
         for program, chosen in families.items():
@@ -55,7 +55,7 @@ def main():
         listed = run([copy / "build/bin/listModels"], copy)
         for kind in others:
             assert names[kind] in listed, (kind, listed)
-        # A kernel is in every pair loop: all that includes them is compiled anew, here for one instruction set alone.
+        # A kernel is compiled into every pair loop, so all that includes these is compiled again; here for one instruction set only.
         write("kernel")
         build_and_test("build-kernel", ["kernel"], 1, ["-DCORPUSCLE_BASELINE_ONLY=ON"])
     print("passed")

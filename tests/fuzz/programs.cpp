@@ -1,10 +1,11 @@
-// Corpuscle's programs on many inputs, each in a fork of this process: no start of a program and of MPI for each.
+// Runs Corpuscle's programs on many inputs, each in a fork of this process, so that neither the program nor MPI has to
+// be started for each.
 //
 // Every line on standard input is one run,
 //     PROGRAM SECONDS ARGUMENT...          membraneMesh 20 -case dir
-// separated by tabs, and is answered by one line of JSON: the exit code or the signal, the seconds, whether it ran over
-// them, and the end of what it said. PROGRAM is one of those below, with its own main(); `digest FILE` says a number
-// for the content of a .vtp file. A run may take 4 GiB of address space.
+// with words separated by tabs, and is answered by one line of JSON: the exit code or the signal, the run time in
+// seconds, whether it exceeded SECONDS, and the end of the output. PROGRAM is one of those below, each with its own
+// main(); `digest FILE` prints numbers that identify the content of a .vtp file. A run may use 4 GiB of address space.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <mpi.h>
@@ -101,7 +102,7 @@ std::vector<std::string> split(const std::string& line) {
     _exit(code);
 }
 
-// The last 4,000 bytes.
+// The last 4,000 bytes of the output.
 std::string endOf(int said) {
     const off_t size = lseek(said, 0, SEEK_END), begin = std::max<off_t>(0, size - 4000);
     std::string text(static_cast<std::size_t>(size - begin), '\0');

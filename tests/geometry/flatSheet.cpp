@@ -1,4 +1,5 @@
-// Flat sheets: exact area, one border, normals along z, good triangles; disorder that leaves the border alone.
+// Flat sheets: exact area, one border, normals along z, well-shaped triangles; random displacements that do not move
+// the border.
 #include "geometry/flatSheet.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ struct Border {
     int edges = 0, inside = 0;
 };
 
-// Fails where an edge has triangles on the same side, or more than two.
+// Fails if two triangles lie on the same side of an edge, or if more than two share it.
 Border borderOf(const TriangleMesh& mesh) {
     std::map<std::pair<int, int>, int> sides;
     for (const Index3& t : mesh.triangles) {

@@ -50,7 +50,7 @@ TEST(LatticeFill, adjustsTheSpacingWithinATenthOfAPercent) {
     }
 }
 
-// Plane walls at the box's ends across an axis, with particles in this many layers behind them.
+// Plane walls at both ends of the box along an axis, with this many layers of particles behind them.
 LatticeBox walled(int axis, int layers) {
     LatticeBox box = periodicBox();
     box.layers[static_cast<std::size_t>(axis)] = layers;
@@ -78,7 +78,7 @@ TEST(LatticeFill, wallLayersBeyondTheWalls) {
     EXPECT_NEAR(lattice.points.front().z(), -4.25 * um, 1e-18);
 }
 
-// A tube along x, its wall three spacings thick, leaves the corners of the box empty.
+// A tube along x, with a wall three spacings thick, leaves the corners of the box empty.
 TEST(LatticeFill, leavesOutWhereNothingIs) {
     LatticeBox box = periodicBox();
     const double radius = 2 * um, thickness = 1.5 * um;
@@ -158,7 +158,7 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
     const Periodicity period = Periodicity::centred({20 * um, 10 * um, 0});
     const KuchelFackerell shape(8 * um, 2.12 * um, 1 * um);
     std::vector<TriangleMesh> cells(2, meshSurface(shape, 0.5 * um));
-    cells[1].translate({9 * um, 1 * um, 0});  // sticks out of the box at x = 10 um
+    cells[1].translate({9 * um, 1 * um, 0});  // extends beyond the box at x = 10 um
     const std::vector<int> side = tagSides(lattice.points, cells, period);
     for (int n = 1; n <= 2; ++n)
         EXPECT_NEAR(static_cast<double>(std::count(side.begin(), side.end(), n)) * 0.125, cells[n - 1].volume() * 1e18,
@@ -168,7 +168,7 @@ TEST(TagSides, cellsAcrossAPeriodicFace) {
             EXPECT_GT(std::abs(lattice.points[i].x()), 5 * um - 1e-12);
         }
 
-    // Those nearer than 0.1 um go out to it, on their sides; nothing else moves.
+    // Points nearer than 0.1 um are moved out to this distance, on their own side; no other point moves.
     std::vector<Vec3> held = lattice.points;
     const double least = 0.1 * um;
     const std::size_t moved = holdOff(held, side, cells, least, period);

@@ -47,7 +47,7 @@ TEST(Mesher, redCellAtFourEdgeLengths) {
         EXPECT_LT(q.edgeMax, 1.75 * edge * micro);
         EXPECT_LT(residual, 1e-10);
         if (edge < 1) {
-            // An edge of 1 um is as long as the rim's radius of curvature, where the order is not reached yet.
+            // An edge of 1 um equals the radius of curvature of the rim; there the asymptotic order is not reached yet.
             const double tolerance = edge > 0.4 ? 0.7 : 0.2;
             EXPECT_NEAR(areaOrder, 2, tolerance);
             EXPECT_NEAR(volumeOrder, 2, tolerance);
@@ -60,8 +60,8 @@ TEST(Mesher, redCellAtFourEdgeLengths) {
     EXPECT_LT(lastVolume, 1e-3);
 }
 
-// The mesh that encloses the volume of the shape, and what becomes of its area: volumes and areas of the shapes by
-// quadrature or formula, not by meshes.
+// The mesh encloses the volume of the shape; its area is compared too. Volumes and areas of the shapes come from
+// quadrature or formulas, not from meshes.
 TEST(EnclosedVolume, isThatOfTheShape) {
     const Sphere ball(3e-6);
     const Spheroid flat(4e-6, 1.2e-6);
@@ -87,7 +87,7 @@ TEST(EnclosedVolume, isThatOfTheShape) {
         std::printf("%-14s edge %.2f um: volume %+.2e -> %+.1e, area %+.2e -> %+.2e, nodes moved by %.3f edges\n",
                     one.name, one.edge / micro, volumeBefore, mesh.volume() / one.volume - 1, areaBefore, area,
                     furthest / one.edge);
-        EXPECT_NEAR(mesh.volume() / one.volume, 1, 1e-7) << one.name;  // the reference's digits
+        EXPECT_NEAR(mesh.volume() / one.volume, 1, 1e-7) << one.name;  // the reference has no more digits
         EXPECT_NEAR(mesh.volume() / one.shape.volume(), 1, 1e-10) << one.name;
         EXPECT_LT(volumeBefore, -1e-3);
         EXPECT_LT(std::abs(area), 0.6 * std::abs(areaBefore)) << one.name;
@@ -171,7 +171,7 @@ TEST(Mesher, sameInputSameMesh) {
     for (std::size_t n = 0; n < first.nodes.size(); ++n) EXPECT_EQ(first.nodes[n], second.nodes[n]);
 }
 
-// A closed surface in micrometres in each format that is read.
+// Writers for a closed surface in micrometres, one for each format that can be read.
 void writeLines(const TriangleMesh& mesh, std::ofstream& file) {
     for (const Vec3& x : mesh.nodes) file << x.transpose() * 1e6 << '\n';
     for (const Index3& t : mesh.triangles) file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
@@ -205,7 +205,7 @@ void writeBinaryStl(const TriangleMesh& mesh, std::ofstream& file) {
         const auto putVector = [&](const Vec3& x) {
             for (int k = 0; k < 3; ++k) put(static_cast<float>(x[k]));
         };
-        putVector(Vec3::Zero());  // no normal
+        putVector(Vec3::Zero());  // no normal given
         for (const int node : t) putVector(mesh.nodes[static_cast<std::size_t>(node)] * 1e6);
         put(std::uint16_t{0});
     }
@@ -238,7 +238,8 @@ TEST(Mesher, remeshesAFileOfEveryFormat) {
 TEST(Mesher, refusesAnEdgeThatDoesNotSuit) {
     EXPECT_THROW(meshSurface(redCell, 3 * micro), Failure);
     EXPECT_THROW(meshSurface(redCell, 0), Failure);
-    try {  // within half the radius, but as long as the dimples are apart
+    // Less than half the radius, but as long as the distance between the dimples.
+    try {
         meshSurface(redCell, 1.4 * micro);
         ADD_FAILURE() << "meshed at 1.4 um";
     } catch (const Failure& failure) {

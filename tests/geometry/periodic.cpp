@@ -1,5 +1,5 @@
-// Cells that reach further than half a box from their centroid, and surfaces that meet: sides, distances and crossings
-// through periodic boundaries against sums over all images.
+// Cells that extend more than half a box from their centroid, and surfaces that meet: sides, distances and crossings
+// through periodic boundaries, compared with sums over all images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ TriangleMesh ball(double radius, double edge, const Vec3& centre = Vec3::Zero())
     return mesh;
 }
 
-// A ball of radius 2.5 um whose upper half is drawn out to a tail of 8.5 um.
+// A ball of radius 2.5 um, of which the upper half is stretched to a tail of 8.5 um.
 TriangleMesh tailed(const Vec3& axis, const Vec3& centre) {
     static const TriangleMesh straight = [] {
         TriangleMesh mesh = ball(2.5 * um, 0.6 * um);
@@ -48,7 +48,7 @@ std::vector<Vec3> lattice(const Vec3& size, double spacing) {
     return fillLattice(box).points;
 }
 
-// By the solid angles of all 7 x 7 x 7 images of the surface.
+// By the solid angles of the surface, for all 7 x 7 x 7 images of the point.
 bool insideAnyImage(const TriangleMesh& mesh, const Vec3& x, const Periodicity& period) {
     Vec3 low = mesh.nodes.front(), high = low;
     for (const Vec3& n : mesh.nodes) low = low.cwiseMin(n), high = high.cwiseMax(n);
@@ -118,7 +118,7 @@ TEST_P(Tailed, theNearestImageIsTheNearestOfAll) {
     EXPECT_GT(found, 100);
 }
 
-// Particles within 0.1 um go out to that on their own side, in the tail too.
+// Particles within 0.1 um are moved out to this distance on their own side, also in the tail.
 TEST_P(Tailed, particlesAreHeldOffOnTheirOwnSide) {
     const TriangleMesh mesh = tailed(GetParam().axis, GetParam().centre);
     std::vector<Vec3> points = lattice(GetParam().size, 0.5 * um);
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
                     TailedCase{{1, -1, 1}, {4 * um, 4 * um, 4 * um}, {10 * um, 10 * um, 10 * um}, alongAll},
                     TailedCase{{1, 1, 1}, {0, 0, 0}, {16 * um, 9 * um, 9 * um}, alongAll}));
 
-// A rod longer than the box on the slant, which passes its own images without touching them.
+// An inclined rod longer than the box, which passes its own images without touching them.
 TEST(PeriodicSurface, surfacesLongerThanTheBoxHaveTheirSidesToo) {
     TriangleMesh rod = ball(1 * um, 0.35 * um);
     for (Vec3& x : rod.nodes) x.z() *= 7;
@@ -221,8 +221,8 @@ TEST(Crossings, aSurfaceAndItsOwnImage) {
     }
 }
 
-// Each pair of images once, whatever boxes the cells have drifted to, and the number of pairs grows with the number of
-// cells.
+// Each pair of images is found once, however many box lengths the cells have drifted, and the number of pairs is
+// proportional to the number of cells.
 TEST(Crossings, neighboursOfALattice) {
     for (const int n : {3, 6}) {
         std::vector<Bounds> bounds;
@@ -243,7 +243,7 @@ TEST(Crossings, neighboursOfALattice) {
     EXPECT_TRUE(neighbours({empty, empty}, Periodicity::centred(box)).empty());
 }
 
-// Against every image counted out, where images slide: cuboids anywhere, some longer than half the box.
+// Comparison with every image, enumerated, where images slide: cuboids anywhere, some longer than half the box.
 TEST(Crossings, neighboursWhereImagesSlide) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -99,7 +99,7 @@ TEST(TriangleTree, agreesWithBruteForce) {
     EXPECT_GT(within, 300);
 }
 
-// A spike: at its tip the nearest triangle alone would give the wrong side.
+// A spike: at its tip, the nearest triangle alone would give the wrong side.
 TEST(TriangleTree, signAtNodesAndEdges) {
     TriangleMesh spike;
     spike.nodes = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {3, 0, 6}};
@@ -127,7 +127,8 @@ TEST(TriangleTree, followsTheMovedMesh) {
     EXPECT_NEAR(grid.nearest(x).distance, 0, 1e-18);
 }
 
-// A run that goes on from a checkpoint has a tree of the shape there, one that was not stopped has that of its start.
+// A run that continues from a checkpoint builds its tree from the shape at that time, an uninterrupted run from the
+// initial shape: both must give the same answers.
 TEST(TriangleTree, answersDoNotDependOnTheTree) {
     TriangleMesh turned = cell();
     for (Vec3& x : turned.nodes) x = {x[1] + 0.3 * x[2], -x[0], 0.7 * x[2] + 0.2 * x[1]};
@@ -135,7 +136,8 @@ TEST(TriangleTree, answersDoNotDependOnTheTree) {
     TriangleTree moved(turned, 1e-6);
     moved.update(cell().nodes);
     const std::vector<Vec3> away = randomPoints(static_cast<int>(cell().nodes.size()), 0.3e-6);
-    for (std::size_t m = 0; m < away.size(); ++m) {  // most are nearest to a node or an edge, which triangles share
+    // Most points are nearest to a node or an edge that several triangles share.
+    for (std::size_t m = 0; m < away.size(); ++m) {
         const SurfacePoint a = own.nearest(cell().nodes[m] + away[m]), b = moved.nearest(cell().nodes[m] + away[m]);
         ASSERT_TRUE(a && b);
         EXPECT_EQ(a.triangle, b.triangle);
@@ -145,13 +147,13 @@ TEST(TriangleTree, answersDoNotDependOnTheTree) {
     }
 }
 
-// Against all surfaces, with all images; some reach across faces, one is longer than the box, one stands some boxes
-// away.
+// Comparison with all surfaces and all their images; some extend across faces, one is longer than the box, one lies
+// several boxes away.
 void namesEverySurfaceAroundAPoint(const Vec3& low, const Vec3& high, const Periodicity& period) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto vector = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
-    std::vector<Bounds> bounds(1);  // the first lies nowhere
+    std::vector<Bounds> bounds(1);  // the first is empty
     for (int n = 0; n < 40; ++n) {
         const Vec3 corner = low + vector().cwiseProduct(high - low);
         bounds.emplace_back(corner, corner + 1.5 * vector());

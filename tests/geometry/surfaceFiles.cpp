@@ -1,4 +1,5 @@
-// Surfaces from other programs' files: each valid dialect is read, each invalid one is named for what is wrong with it.
+// Surfaces from files of other programs: each valid dialect is read; for each invalid one the message states what is
+// wrong.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -264,7 +265,8 @@ TEST(SurfaceFile, PlyFaultsAreNamed) {
 
 TEST(SurfaceFile, VtpDialectsAreRead) {
     expectBall(vtp(ball()), ".vtp", "polygons");
-    // Each triangle as a strip of its own, and pairs in one: (a b c), (b d c) is the strip a b c d.
+    // Each triangle as its own strip where no neighbour is left, otherwise pairs in one strip: (a b c), (b d c) is the
+    // strip a b c d.
     std::string strips = R"(<Strips><DataArray type="Int32" Name="connectivity" format="ascii">)", ends;
     int total = 0, count = 0;
     std::vector<bool> used(ball().triangles.size(), false);
@@ -305,7 +307,7 @@ TEST(SurfaceFile, PolygonsAreCut) {
     const SurfaceFromFile surface = parseSurface(cube, ".off", "cube.off");
     EXPECT_EQ(surface.mesh.triangles.size(), 12u);
     EXPECT_NEAR(surface.mesh.volume(), 1, 1e-14);
-    // A prism over an L: its top and bottom are not convex, and a fan around their first corner would leave them.
+    // A prism over an L: its top and bottom are not convex, and a fan around their first corner would extend outside.
     const std::string prism =
         "OFF\n12 8 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n0 0 0\n2 0 1\n2 1 1\n1 1 1\n1 2 1\n0 2 1\n0 0 1\n"
         "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n";
@@ -335,7 +337,8 @@ TEST(SurfaceFile, LeftoversAreLeftOutAndNamed) {
     expectBall(off(mesh), ".off", "leftovers", "1 point that belongs to no triangle was left out");
 }
 
-// What is read but is no cell: the message has count, first place and, for a size, the key.
+// Surfaces that can be read but are not valid cells: the message states the number of faults, the place of the first
+// and, for a wrong size, the key.
 std::string faultOf(const std::string& bytes, const std::string& ending, double scale = 1e-6) {
     const std::string name = "corpuscleFault" + ending;
     std::ofstream(testing::TempDir() + name, std::ios::binary) << bytes;
@@ -402,7 +405,7 @@ TEST(SurfaceFile, SurfacesThatAreNotOneClosedOneAreNamed) {
     expectIn(faultOf(off(mesh), ".off"), "non-manifold");
 }
 
-// Closed, but every node at a place of its own making: nearly all triangles cut each other.
+// Topologically closed, but with every node at an unrelated place: nearly all triangles cut each other.
 TEST(SurfaceFile, ACrumpledSurfaceIsNamedInTime) {
     TriangleMesh mesh = starSurface([](const Vec3& x) { return x.norm() - 4; }, Vec3::Constant(4), 5);
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i)

@@ -104,7 +104,7 @@ TEST(CheckClosedManifold, namesEachFault) {
     EXPECT_TRUE(mentions(checkClosedManifold(mesh), "belong to no triangle"));
 
     mesh = sound;
-    mesh.nodes[7] = Vec3(-0.5, -0.5, -0.5);  // the far corner pulled through the opposite one
+    mesh.nodes[7] = Vec3(-0.5, -0.5, -0.5);  // the far corner is pulled through the opposite one
     EXPECT_TRUE(mentions(checkClosedManifold(mesh), "cut each other"));
 }
 

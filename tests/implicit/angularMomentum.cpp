@@ -1,6 +1,6 @@
-// What the forces of each scheme do to angular momentum, and what is left of it after a turn. In a compact flow or
-// pressure in a periodic box, at rest near its faces, neither viscosity nor pressure has a torque as a whole; that of
-// the pairs shows how far the scheme is from it. Lengths in spacings.
+// Torque of the forces of each scheme, and the change of angular momentum over a turn. For a flow or a pressure that
+// vanishes near the faces of a periodic box, viscosity and pressure exert no net torque; the torque of the pair forces
+// is the error of the scheme. Lengths in spacings.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -25,11 +25,11 @@ const Vec3 centre(10.2, 9.9, 10.05);
 const double volume = 4 * std::numbers::pi / 3 * R * R * R;
 
 double bump(double r2) { return r2 < R * R ? std::pow(1 - r2 / (R * R), 4) : 0; }
-Vec3 vortex(const Vec3& x) {  // turns about z, without divergence
+Vec3 vortex(const Vec3& x) {  // about z, divergence-free
     const Vec3 d = x - centre;
     return bump(d.squaredNorm()) * omega * Vec3::UnitZ().cross(d);
 }
-double pressure(const Vec3& x) {  // an ellipsoid that no plane of the lattice halves
+double pressure(const Vec3& x) {  // an ellipsoid of which no lattice plane is a plane of symmetry
     const Vec3 d = x - centre;
     const double a = 0.8 * d[0] + 0.6 * d[1], b = -0.6 * d[0] + 0.8 * d[1];
     return bump(a * a + 2.2 * b * b + 1.4 * d[2] * d[2]);
@@ -62,7 +62,8 @@ double torque(const FluidScene& f, Force&& force) {
     return sum.norm();
 }
 
-// Over mu omega V, or the largest pressure times V: by the plain pair law, and by operators.
+// Torque over mu omega V (viscosity) or over the largest pressure times V: by the plain pair law, and by adjoint
+// operators.
 double ofPairs(double disorder, bool viscous, double inside = 1) {
     std::vector<Particle> all = fluid(disorder, viscous, inside);
     if (!viscous)
@@ -126,7 +127,7 @@ TEST(AngularMomentum, torqueOfPairs) {
     }
 }
 
-// The middle of the vortex turns by a radian, nu t/R^2 = 0.02.
+// The middle of the vortex turns by a radian; nu t/R^2 = 0.02.
 TEST(AngularMomentum, keptOverATurn) {
     const double time = 1 / omega, viscosity = 0.02 * R * R / time;
     std::printf("change of angular momentum over omega t = %g, nu t/R^2 = 0.02, from disorder 0.1\n", time * omega);

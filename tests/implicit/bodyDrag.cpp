@@ -1,4 +1,4 @@
-// Drag and torque on a sphere in a periodic box by the implicit step against Stokes flow.
+// Drag and torque on a sphere in a periodic box, computed by the implicit step, against Stokes flow.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,9 +34,9 @@ RigidSphereScene sphereInCube(double radius, int length, const std::string& beha
     return {std::move(sphere), tolerance};
 }
 
-// tests/bodies/drag.cpp has the same of the explicit step.
-// The force is so small that particles keep their places: nothing shifts them here. expected: of K, for the time it
-// takes; ofMesh: radius of the sphere on which the mesh's nodes lie.
+// tests/bodies/drag.cpp has the same test of the explicit step. The force is so small that particles hardly move, so no
+// shifting is needed. expected: estimate of K, which sets the time to steady flow. ofMesh: radius of the sphere on
+// which the nodes of the mesh lie.
 double dragFactor(double radius, int length, double expected, double ofMesh) {
     RigidSphereScene s = sphereInCube(ofMesh, length, "held", 1e-3, Vec3(1e-5, 0, 0));
     const double drag = 6 * pi * s.scene.model().viscosity * radius, volume = std::pow(length, 3);
@@ -63,8 +63,9 @@ TEST(BodyDrag, ofACubicArrayIsHasimotos) {
     }
 }
 
-// Zick and Homsy, J. Fluid Mech. 115:13 (1982). Spheres are 0.8 dx apart; the mesh encloses the sphere's volume, and
-// its particles make up 0.7 % more. With the continuation alone, linear across gaps, K is too small by some per cent.
+// Zick and Homsy, J. Fluid Mech. 115:13 (1982). The gap between spheres is 0.8 dx. The mesh encloses the volume of the
+// sphere; the particles in it have 0.7 % more volume. With the linear continuation across gaps alone, K would be too
+// small by some per cent.
 TEST(BodyDrag, ofADenseArrayIsZickAndHomsys) {
     constexpr double c = 0.45, K = 28.1;
     constexpr int length = 16;
@@ -74,7 +75,7 @@ TEST(BodyDrag, ofADenseArrayIsZickAndHomsys) {
     EXPECT_NEAR(measured / K, 1, 0.025);
 }
 
-// Images turn the fluid backwards: T = 8 pi mu a^3 Omega/(1 - c).
+// The periodic images turn the fluid backwards: T = 8 pi mu a^3 Omega/(1 - c).
 TEST(BodyDrag, torqueOnATurningSphereIsStokes) {
     for (const auto& [radius, length, allowed] : {std::tuple{3.0, 15, 0.02}, std::tuple{4.5, 22, 0.01}}) {
         const double measured = torqueFactor(radius, length) * (1 - fraction(radius, length));

@@ -1,6 +1,6 @@
-// The budget of energy (sph/budget.hpp) by each scheme: on a swirl in a periodic box what it dissipates is v.L v
-// computed by itself, and the energies of the state change by what forces did, to the order of the scheme; walls work
-// as much as Couette flow dissipates. Lengths in spacings, density 1.
+// The energy budget (sph/budget.hpp) of each scheme. For a swirl in a periodic box, the dissipation is v.L v as
+// computed separately, and the energies of the state change by the work of the forces, up to the order of the scheme.
+// In Couette flow the work of the walls equals the dissipation. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -72,7 +72,7 @@ struct Fluid : FluidScene {
             return model.equationOfState->energy(scene.store().density[i], model.density, model.soundSpeed);
         });
     }
-    // v.L v of the velocities now, by an application of viscosity alone.
+    // v.L v of the present velocities, from viscosity applied alone.
     double dissipation(const std::string& name) {
         const ParticleStore& s = scene.store();
         const std::size_t n = s.size();
@@ -109,7 +109,7 @@ struct Outcome {
 };
 Outcome run(const std::string& name, double time, int steps) {
     Fluid fluid(name, swirl::particles(), swirl::size, thin());
-    if (Fluid::isImplicit(name))  // past the first steps, which are of first order
+    if (Fluid::isImplicit(name))  // beyond the first steps, which are of first order
         for (int k = 0; k < steps / 4; ++k) fluid.advance(time / steps);
     const Budget::Values before = [&] {
         Budget::Values values = Budget::zero(0);
@@ -138,9 +138,9 @@ TEST(Budget, dissipationIsThatOfTheOperator) {
     }
 }
 
-// From rest, with membranes pulled out of shape and a solver that stops early: in the first step everything is taken
-// where it stands, so v.L v can be computed by itself. Whatever the solver leaves, over refinements too, must be in the
-// budget.
+// From rest, with membranes pulled out of shape and a solver that stops early. In the first step all terms are taken at
+// the initial positions, so v.L v can be computed separately. The residual that the solver leaves, through refinements
+// as well, must be in the budget.
 TEST(Budget, dissipationBesideMembranesWhateverTheSolverLeaves) {
     using coupling::testing::SphereScene;
     const auto build = [] {
@@ -194,13 +194,15 @@ TEST(Budget, closesToTheOrderOfTheScheme) {
         const Outcome coarse = run(name, 0.4, 32), fine = run(name, 0.4, 64);
         std::printf("%-16s lost %.6g, residual %.3g and %.3g of it\n", name.c_str(), coarse.lost,
                     coarse.residual / coarse.lost, fine.residual / fine.lost);
-        // The implicit step takes volumes from the step's beginning: of first order in it where density varies.
+        // The implicit step uses the volumes at the beginning of the step: an error of first order where density
+        // varies.
         const bool first = Fluid::isImplicit(name), firstInTime = name == "backwardEuler";
         EXPECT_LT(std::abs(fine.residual), (firstInTime ? 0.01 : 2e-4) * fine.lost) << name;
         if (!first) {
             EXPECT_NEAR(coarse.residual / fine.residual, 4, 0.6) << name;
         }
-        if (name != "rkl2") {  // whose parts of inertia and compression are of first order in opposite ways
+        // The errors of rkl2 in inertia and in compression are of first order and cancel.
+        if (name != "rkl2") {
             EXPECT_NEAR(coarse.ofInertia / fine.ofInertia, firstInTime ? 2 : 4, 0.6) << name;
         }
         EXPECT_NEAR(coarse.residual, coarse.ofParts, 1e-9 * coarse.lost) << name << ": made of its parts";
@@ -219,7 +221,7 @@ TEST(Budget, mixedPrecisionDissipatesAsMuch) {
     }
 }
 
-// Developed, on disordered particles: mu rate^2 in every unit of volume, put in by the walls.
+// Developed flow on disordered particles: the walls supply mu rate^2 per volume.
 TEST(Budget, wallsWorkAsMuchAsCouetteFlowDissipates) {
     const int layers = 3;
     const Index3 size{6, 6, 12 + 2 * layers};
@@ -242,7 +244,7 @@ TEST(Budget, wallsWorkAsMuchAsCouetteFlowDissipates) {
         EXPECT_NEAR(walls / expected, 1, plain ? 0.03 : 0.015) << name;
         EXPECT_NEAR(dissipated / expected, 1, plain ? 0.03 : 0.015) << name;
         EXPECT_NEAR(dissipated / walls, 1, 0.01) << name;
-        // Forces on both walls are opposite, those on the lower one act against the flow.
+        // The forces on the two walls are opposite; those on the lower wall act against the flow.
         const double lower = sph::testing::sumOverRanks(box.scene.budget.total[Budget::wall(0)]),
                      upper = sph::testing::sumOverRanks(box.scene.budget.total[Budget::wall(1)]);
         EXPECT_LT(lower, 0);

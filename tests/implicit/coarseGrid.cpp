@@ -11,9 +11,9 @@ namespace {
 
 constexpr double inertia = 0.7, viscosity = 1.3, lambda = 9;
 
-// The same operator by another way: elements with trilinear shape functions, integrated by 2 x 2 x 2 Gauss points, in
-// one dense matrix over all nodes; nodes at walls are taken out by the caller.
-// toBox: derivatives along the box from those along the grid.
+// The same operator assembled independently: elements with trilinear shape functions, integrated with 2 x 2 x 2 Gauss
+// points, in one dense matrix over all nodes; the caller removes nodes at walls.
+// toBox: from derivatives along the grid's axes to those along the box's axes.
 Eigen::MatrixXd assemble(const std::array<int, 3>& cells, const std::array<int, 3>& nodes, const Vec3& step,
                          const Mat3& toBox = Mat3::Identity()) {
     const auto number = [&](int i, int j, int k) {
@@ -60,10 +60,10 @@ void solvesTheFiniteElements(int wall) {
     const std::array<int, 3> cells{5, 6, 3};
     const Vec3 step = box.size().cwiseQuotient(Vec3(5, 6, 3));
     std::array<int, 3> nodes = cells;
-    if (wall >= 0) ++nodes[static_cast<std::size_t>(wall)];  // those at both walls
+    if (wall >= 0) ++nodes[static_cast<std::size_t>(wall)];  // nodes at both walls
     Eigen::MatrixXd A = assemble(cells, nodes, step);
 
-    // One particle at each free node: P is the unit matrix there.
+    // One particle at each free node, so that P is the unit matrix there.
     std::vector<int> freeNodes;
     std::vector<Vec3> places;
     for (int i = 0; i < nodes[0]; ++i)
@@ -99,7 +99,8 @@ TEST(CoarseGrid, solvesTheFiniteElementsBetweenWalls) {
     for (const int wall : {0, 1, 2}) solvesTheFiniteElements(wall);
 }
 
-// On parallelepipeds: nodes lie where the coordinates in which the box is periodic say, in any of their images.
+// Elements are parallelepipeds: nodes lie on a grid in the oblique coordinates in which the box is periodic, each in
+// one of its images.
 TEST(CoarseGrid, solvesTheFiniteElementsWhereImagesSlide) {
     const particles::Box box{{-1, 2, 0.5}, {5, 10, 4.5}, {true, true, true}};
     const std::array<int, 3> cells{5, 6, 3};
@@ -135,7 +136,7 @@ TEST(CoarseGrid, solvesTheFiniteElementsWhereImagesSlide) {
     }
 }
 
-// Between nodes too P and its transpose belong together, and coefficients that change are taken up.
+// For particles between nodes too, P and its transpose are consistent; new coefficients take effect.
 TEST(CoarseGrid, isSymmetricAndPositiveForParticlesAnywhere) {
     const particles::Box box{{0, 0, 0}, {6, 8, 4}, {true, true, false}};
     CoarseGrid grid(box, 1.3);
@@ -163,8 +164,8 @@ TEST(CoarseGrid, isSymmetricAndPositiveForParticlesAnywhere) {
     }
 }
 
-// What acts in some planes gives there what it gives without this being known, wherever they are, for coefficients that
-// change.
+// For forces on particles near some planes of the grid only, the solution restricted to these planes equals that on the
+// whole grid, wherever the planes lie, also after coefficients have changed.
 void someOfTheParticles(int wall) {
     particles::Box box{{0, 0, 0}, {9, 10, 11}, {true, true, true}};
     if (wall >= 0) box.periodic[static_cast<std::size_t>(wall)] = false;

@@ -1,4 +1,4 @@
-// Against a dense solve, the rows dealt to the ranks.
+// Conjugate gradients against a dense solve, with the rows distributed over the ranks.
 #include "implicit/conjugateGradients.hpp"
 
 #include <fmt/core.h>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr Eigen::Index size = 60;
 
-// A chain of springs held to the ground by `hold`: the weaker, the larger the condition number, and smooth modes are
-// what is left last.
+// A chain of springs, each node tied to the ground with stiffness `hold`: the weaker, the larger the condition number,
+// and the smooth modes converge last.
 struct Problem {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd b{size}, exact{size};
@@ -50,8 +50,8 @@ struct Problem {
                        MPI_DOUBLE, MPI_COMM_WORLD);
         return all;
     }
-    // unsteady: by which the preconditioner, in turns stronger and weaker from row to row, differs from one application
-    // to the next.
+    // unsteady: relative amplitude by which the preconditioner varies from row to row and from one application to the
+    // next.
     template <class Real>
     Convergence solve(double reference, double tolerance, Eigen::VectorXd& x, double unsteady = 0) const {
         using Field = typename ConjugateGradients<Real>::Field;
@@ -93,7 +93,7 @@ TEST(ConjugateGradients, equalTheDenseSolve) {
     EXPECT_LE(c.iterations, size + 5);
 }
 
-// What is reported and what stops it is the energy of the error.
+// The energy of the error is what the solver reports and what stops it.
 TEST(ConjugateGradients, stopByTheEnergyOfTheError) {
     const Problem problem;
     const double whole = problem.energy(problem.exact);
@@ -111,8 +111,8 @@ TEST(ConjugateGradients, stopByTheEnergyOfTheError) {
     }
 }
 
-// An error that is the same everywhere leaves a residual of a thousandth of its energy, and the first steps find little
-// of it: the estimate is a bound from below. What is overlooked stays below three times the tolerance.
+// A uniform error has a residual of only a thousandth of its energy, and the first iterations find little of it: the
+// estimate is a lower bound. The error that remains stays below three times the tolerance.
 TEST(ConjugateGradients, aSmoothErrorIsHardlyOverlooked) {
     Problem problem(0.003);
     problem.exact.setOnes();
@@ -123,8 +123,9 @@ TEST(ConjugateGradients, aSmoothErrorIsHardlyOverlooked) {
     EXPECT_LT(problem.energy(problem.exact - x), 9 * tolerance * tolerance * reference);
 }
 
-// A preconditioner that iterates is never quite the same: what it is off costs iterations, not the end. Conjugate
-// gradients whose coefficients take it to be the same reach the most that are allowed, or a product of the wrong sign.
+// A preconditioner that itself iterates varies between applications. This costs iterations but not convergence;
+// conjugate gradients whose coefficients assume a fixed preconditioner would reach the iteration limit, or a product of
+// the wrong sign.
 TEST(ConjugateGradients, bearAPreconditionerThatChanges) {
     const Problem problem;
     Eigen::VectorXd x;

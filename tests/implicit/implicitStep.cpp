@@ -1,4 +1,5 @@
-// Fluid alone: decay of a shear wave, start-up of plane Couette flow, momentum, ranks. Lengths in spacings, density 1.
+// Fluid alone: decay of a shear wave, start-up of plane Couette flow, conservation of momentum, independence of the
+// number of ranks. Lengths in spacings, density 1.
 #include "implicit/implicitStep.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ struct ImplicitFluid : FluidScene {
         : FluidScene(all, size, model, rate, 0, comm, precision) {
         ImplicitStep::Options options;
         options.settings = settings;
-        options.settings.step = 0.1;  // of a case; here a step is given to advance()
+        options.settings.step = 0.1;  // the key of a case; here advance() is given the step
         step = ImplicitStep::make(scene, options);
     }
     void run(double time, int steps) {
@@ -37,7 +38,7 @@ struct ImplicitFluid : FluidScene {
 
 ImplicitSettings exactly(const std::string& method) { return {.step = 0, .tolerance = 1e-9, .method = method}; }
 
-// u = U sin(k z): its amplitude goes down as exp(-rate t), with the rate that the operator has on the lattice.
+// u = U sin(k z): its amplitude decays as exp(-rate t), with the rate that the operator has on the lattice.
 struct ShearWave {
     static constexpr double amplitude = 1e-4, length = 12;
     const Index3 size{4, 4, 12};
@@ -58,7 +59,8 @@ struct ShearWave {
         rate = -lattice.sum([&](std::size_t i) { return u[4 * i] * operators.force()[4 * i]; }) /
                lattice.sum([&](std::size_t i) { return u[4 * i] * u[4 * i]; });
     }
-    // Of the amplitude in the end, or `before` it, back along the acceleration.
+    // Relative error of the amplitude at the end, or at a time `before` the end, extrapolated back with the
+    // acceleration.
     double error(const std::string& method, double time, int steps, double before = 0) const {
         ImplicitFluid wave(all, size, model, 1e-4, exactly(method));
         wave.run(time, steps);
@@ -78,8 +80,8 @@ TEST(ImplicitStep, shearWaveDecaysAtTheRateOfTheFluid) {
     EXPECT_GT(wave.rate, 0.1);
 }
 
-// The formulas of the header for du/dt = -rate u: from rest of the history, half a step first; on from the last middle
-// to the end.
+// The formulas of implicit/timeDifference.hpp, applied to du/dt = -rate u: without a history, first over half a step,
+// then from middle to middle, and at last from the last middle to the end.
 TEST(ImplicitStep, midpointStepsAsItsFormulasSay) {
     const ShearWave wave;
     const double time = 1 / wave.rate, dt = time / 8;
@@ -102,16 +104,16 @@ TEST(ImplicitStep, midpointIsOfSecondOrder) {
     EXPECT_NEAR(std::log2(fine / finest), 2, 0.1);
 }
 
-// A wave starts fully developed: already after the first step the store has the velocity of its end, not that of its
-// middle.
+// A wave starts fully developed: already after the first step the store has the velocity at the end of the step, not
+// that at its middle.
 TEST(ImplicitStep, firstStepOfADecayingFlowEndsAtItsEnd) {
     const ShearWave wave;
     const double step = 0.1;  // of 1/rate
     EXPECT_NEAR(wave.error("midpoint", step / wave.rate, 1), 0, step * step);
 }
 
-// The wave decays alike everywhere: v - v0 is (rate dt)^2 of its root mean square, and the next step is what makes a
-// 24th of that, over the length and the rate of the flow, the error that is allowed.
+// The wave decays at the same rate everywhere: v - v0 is (rate dt)^2 times its root mean square. The next step is that
+// for which a 24th of this, over the length and the rate of the flow, is the allowed error.
 TEST(ImplicitStep, stepOfAFluidIsAsLongAsItsErrorAllows) {
     const ShearWave wave;
     const double dt = 0.05 / wave.rate, flowRate = 0.3, length = 2;
@@ -127,7 +129,7 @@ TEST(ImplicitStep, stepOfAFluidIsAsLongAsItsErrorAllows) {
     EXPECT_EQ(fluid.step->allowed().bond, 0);
 }
 
-// Its local error is of the first difference of velocity, not of the second.
+// The local error of backward Euler is that of the first difference of velocity, not of the second.
 TEST(ImplicitStep, stepOfAFluidByBackwardEulerIsAsLongAsItsErrorAllows) {
     const ShearWave wave;
     const double dt = 0.05 / wave.rate, flowRate = 0.3, length = 2;
@@ -151,7 +153,7 @@ TEST(ImplicitStep, backwardEulerIsOfFirstOrder) {
         << "1/(1 + rate dt) a step";
 }
 
-// The series of the text books: u/U = z/h - sum 2/(n pi) (-1)^(n+1) exp(-(n pi/h)^2 nu t) sin(n pi z/h).
+// The textbook series: u/U = z/h - sum 2/(n pi) (-1)^(n+1) exp(-(n pi/h)^2 nu t) sin(n pi z/h).
 TEST(ImplicitStep, plateFlowStartsAsItShould) {
     const Index3 size{4, 4, 22};
     const double low = 3, gap = 16, speed = 1e-3, nu = 0.7, time = 0.1 * gap * gap / nu;
@@ -182,7 +184,8 @@ TEST(ImplicitStep, plateFlowStartsAsItShould) {
     EXPECT_LT(worst, 0.01);
     EXPECT_GT(exact(0.25 * gap, time), 0.02);
     EXPECT_LT(exact(0.25 * gap, time), 0.24) << "still on its way to 0.25";
-    // The lower wall is drawn along: the force on it is that of the profile's slope there, in the middle of the step.
+    // The fluid drags the lower wall along: the force on the wall follows from the slope of the profile there, in the
+    // middle of the step.
     const double onWall = sph::testing::sumOverRanks(couette.scene.forces->wallForces()[0][0]);
     EXPECT_NEAR(onWall / (size[0] * size[1]), -stress, 0.05 * std::abs(stress));
 }

@@ -1,12 +1,13 @@
-// What a load on a membrane does to its nodes through the fluid: a sphere in fluid at rest, loaded by one spherical
-// harmonic of degree l, against Stokes flow, where a traction f moves the sphere itself with
+// Velocity of the nodes of a loaded membrane in fluid: a sphere in fluid at rest, loaded by one spherical harmonic of
+// degree l, against Stokes flow, where the points of the sphere move under a traction f with
 //
 //     u = a/mu f/(2l + 1)                                        for f = r x grad Y                (a twist)
 //     u = a/mu l/((2l + 1)(2l + 3)) f                            for f = grad_s Y - (l + 1) Y n
 //     u = a/mu (l + 1)/((2l + 1)(2l - 1)) f                      for f = grad_s Y + l Y n
 // (equal viscosities; single-layer operator on vector spherical harmonics, for example Veerapaneni et al., J. Comput.
-// Phys. 230 (2011) 5610), so that of loads along grad_s Y and along n what is along either is known. It is these
-// responses that the moments of the weights are chosen by (coupling/immersed.hpp). Lengths in spacings, viscosity 1.
+// Phys. 230 (2011) 5610). Combinations of the last two give, for a load along grad_s Y or along n, the velocity along
+// each. The moments v', r, r' of the weights (coupling/nodeFluidMap.hpp) are chosen by these responses. Lengths in
+// spacings, viscosity 1.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -26,7 +27,7 @@ using Vectors = coupling::Immersed::Vectors;
 
 namespace {
 
-constexpr double a = 6, jitter = 0.1, bulk = 500, tolerance = 1e-4;  // bulk: time K/mu, as good as incompressible
+constexpr double a = 6, jitter = 0.1, bulk = 500, tolerance = 1e-4;  // bulk: time x K/mu, practically incompressible
 constexpr int length = 36;
 
 struct Legendre {
@@ -66,10 +67,10 @@ struct LoadedSphere {
     FluidTerm<double> term{f.scene, sph::OperatorForm::corrected};
     coupling::Cells cells;
     Vectors unit, areas;
-    double area = 0;  // of the mesh over that of the sphere
+    double area = 0;  // of the mesh, over that of the sphere
     std::unique_ptr<coupling::Immersed> immersed;
     CoarseGrid grid{f.scene.system->box(), CoarseGrid::spacingInParticles};
-    particles::RealArray rows;  // diagonal and place of every entry
+    particles::RealArray rows;  // diagonal and position of every entry
 
     static sph::FluidModel fluid() {
         sph::FluidModel m = sph::testing::model("wendlandC2", "linear");
@@ -104,7 +105,7 @@ struct LoadedSphere {
     }
     particles::SharedParticles& shared() { return term.operators().shared(); }
 
-    // Velocity of the nodes over a/mu, for a traction.
+    // Velocity of the nodes over a/mu, under a traction.
     Vectors response(Vectors load) {
         for (std::size_t m = 0; m < load.size(); ++m) load[m] *= areas[m].norm();
         const std::size_t n = shared().entries();
@@ -132,7 +133,7 @@ struct LoadedSphere {
         for (Vec3& u : found) u /= a * area;
         return found;
     }
-    // Part of v along the field, over the field.
+    // Projection of v on the field: the factor of the field in v.
     double part(const Vectors& v, const Vectors& field) const {
         double both = 0, square = 0;
         for (std::size_t m = 0; m < v.size(); ++m) {
@@ -142,7 +143,7 @@ struct LoadedSphere {
         return both / square;
     }
 
-    static constexpr double inertia = 1e-6;  // that the mean velocity of the box is none
+    static constexpr double inertia = 1e-6;  // makes the mean velocity of the box zero
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Messages between ranks: one to each neighbour for each iteration of the solver, whatever its preconditioner and
-// whatever is in the scene, and one to each other holder of a cell each time that its nodes ask the fluid. They are
-// counted by standing in for MPI's own function (its profiling interface).
+// Messages between ranks: one to each neighbour for each iteration of the solver, whatever its preconditioner and the
+// contents of the scene, and one to each other holder of a cell each time that velocities are interpolated to its
+// nodes. They are counted by a replacement of MPI's own function (its profiling interface).
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -47,7 +47,8 @@ long neighbours(particles::ParticleSystem& system) {
     return sent - before;
 }
 
-// What more iterations cost in messages. make(): a scene, and what holds it. otherHolders: of its cell.
+// The number of messages that additional iterations cost. make() returns an object with the member `scene`.
+// otherHolders: of its cell.
 template <class Make>
 void expectOneMessageAnIteration(Make&& make, const char* preconditioner, long otherHolders) {
     auto rough = make(), fine = make();
@@ -58,7 +59,7 @@ void expectOneMessageAnIteration(Make&& make, const char* preconditioner, long o
     EXPECT_GE(many.iterations, few.iterations + 4) << preconditioner;
     EXPECT_EQ(many.refinements, few.refinements);
     const long more = many.iterations - few.iterations;
-    long asked = more;  // by the system; by the preconditioner at first, and in each iteration of its own
+    long asked = more;  // by the system; by withMembrane once and in each inner iteration
     if (preconditioner == std::string("withMembrane")) asked += more + many.innerIterations - few.innerIterations;
     EXPECT_EQ(many.messages - few.messages, each * more + otherHolders * asked) << preconditioner;
 }

@@ -1,5 +1,5 @@
-// The parts of the implicit step, each alone: time difference, preconditioners, movement, what the solver carries
-// along. Lengths in spacings, density 1.
+// The parts of the implicit step, each alone: time difference, preconditioners, movement of particles, and quantities
+// that the solver updates along with the velocity. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -18,7 +18,7 @@ using particles::vectorAt;
 
 namespace {
 
-// Velocity of second degree in time; places, and averages, follow exactly.
+// A velocity of second degree in time, for which the midpoint formula is exact (implicit/timeDifference.hpp).
 double velocityAt(double t) { return 2 + 3 * t - 0.7 * t * t; }
 
 struct Fluid : coupling::testing::FluidScene {
@@ -70,10 +70,10 @@ struct Fluid : coupling::testing::FluidScene {
 
 }  // namespace
 
-// Steps of unequal length: the middles at which velocities are known, and where the velocity belongs after each.
+// Steps of unequal length; velocities are known at their middles.
 TEST(TimeDifference, isExactForWhatItShouldBe) {
     StepState last;
-    double t = 0, middle = 0, a = 3;  // a: acceleration between the last two middles, at first any
+    double t = 0, middle = 0, a = 3;  // a: acceleration between the last two middles; any value at first
     for (const double dt : {0.3, 0.5, 0.2, 0.4}) {
         const TimeDifference d = TimeDifference::midpoint(dt, last, true);
         const double now = t + 0.5 * dt, v = velocityAt(now), u = velocityAt(middle);
@@ -94,7 +94,8 @@ TEST(TimeDifference, isExactForWhatItShouldBe) {
     EXPECT_EQ(end.reach.lead, 0);
 }
 
-// Mass is kept: d(ln rho)/dt = -div v, to second order at the middle, and there and back to rounding.
+// Conservation of mass, d(ln rho)/dt = -div v: of second order with the midpoint rule; a step forward and back restores
+// the density up to rounding.
 TEST(TimeDifference, density) {
     const auto error = [](bool atEnd, double dt) {
         const TimeDifference d =
@@ -123,8 +124,8 @@ TEST(Preconditioners, areSymmetricAndPositive) {
     EXPECT_THROW(makePreconditioner("multigrid", f.system), std::invalid_argument);
 }
 
-// In a viscous fluid the grid has what is smooth, which the diagonal lacks; without cells the others are the same as
-// it.
+// In a viscous fluid the grid corrects smooth errors, which the diagonal does not; without cells the other
+// preconditioners are the same as twoLevel.
 TEST(Preconditioners, theGridSavesIterations) {
     Fluid f(100);
     f.prepare();
@@ -155,7 +156,7 @@ TEST(Movement, goesThereAndBackAndArrives) {
     const TimeDifference time = TimeDifference::midpoint(Fluid::dt, {}, false);
     movement.depart(time);
     movement.takeBack(time);
-    for (const auto& [id, x] : places())  // those that are still here
+    for (const auto& [id, x] : places())  // particles that are still on this rank
         if (const auto was = before.find(id); was != before.end()) {
             EXPECT_LT(distance(x, was->second), 1e-14);
         }
@@ -177,8 +178,8 @@ TEST(Movement, goesThereAndBackAndArrives) {
         EXPECT_LT((scene.store().velocity(i) - (v + 0.1 * (v - u) / time.h)).norm(), 1e-14);
 }
 
-// w.A w with A by another application, for a fluid at rest that is disturbed: then b - A affine is M (c1 u + c2 a),
-// which v = A^-1 b makes A v.
+// w.A w (implicit/disturbance.hpp) with A applied separately, for a disturbed fluid at rest: then w = v, and b - A
+// affine is M (c1 u + c2 a), which equals A v for v = A^-1 b.
 TEST(Disturbance, isTheEnergyOfTheSystem) {
     Fluid f;
     coupling::Scene& scene = f.scene;

@@ -1,4 +1,5 @@
-// Rigid bodies in the implicit step: symmetry, balances, what must stay as it is, ranks.
+// Rigid bodies in the implicit step: symmetry of system and preconditioner, conservation of momentum, steps taken back,
+// limits of the step, independence of the number of ranks.
 #include "implicit/preconditioner.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,8 @@ Vec3 someVelocity(std::size_t id, const Vec3& arm) {
     return 0.01 * Vec3(std::sin(n), std::cos(2 * n), std::sin(3 * n)) + Vec3(0.01 * arm[2], 0, 0);
 }
 
-// The system of a first step, which has c1 = 3 and takes pressure a third of a second on, and its preconditioner.
+// The system of a first step of 2/3 s, where c1 = 3 and pressure is extrapolated by a third of a second, and its
+// preconditioner.
 struct SphereSystem {
     using Field = System<double>::Field;
     RigidSphereScene sphere;
@@ -42,7 +44,7 @@ struct SphereSystem {
     RigidUnknowns<double>& rigid() { return *system.rigid(); }
     std::size_t size() const { return sphere.scene.store().size(); }
 
-    // Of the allowed velocities: from numbers that do not depend on ranks.
+    // An allowed velocity, from random numbers that do not depend on the number of ranks.
     Field velocity(unsigned seed, const RigidMotion& motion) {
         sphere.body().state.motion = motion, sphere.body().acceleration = {};
         Field u(system.length(), 0.0);
@@ -70,7 +72,7 @@ struct SphereSystem {
         system.copies().forCounted(a.size(), [&](std::size_t k) { sum += a[k] * b[k]; });
         return Communicator(sphere.scene.system->comm()).sum(sum);
     }
-    // Force and torque that resist the velocity u of fluid and body: what the body's rows have but for inertia.
+    // Force and torque that resist the velocity u of fluid and body: the body's rows of A u, without inertia.
     sph::Wrench resistance(const RigidMotion& motion, const Field& u) {
         const Field w = times(u);
         std::vector<double> row(w.end() - 8, w.end());
@@ -112,7 +114,8 @@ TEST(RigidBodies, bodiesThatDoNotYieldAreTakenOut) {
     for (std::size_t k = 4 * s.system.entries(); k < w.size(); ++k) EXPECT_EQ(w[k], 0);
 }
 
-// Pairs within the body take the place of D Omega: on a lattice nothing is left over.
+// The torque D Omega is that of the pairs within the body (implicit/rigidUnknowns.hpp): on a lattice, fluid that turns
+// with the body exerts neither force nor torque.
 TEST(RigidBodies, fluidThatTurnsWithTheBodyExertsNothing) {
     SphereSystem s("free", 0, "twoLevel", 18);  // the seam of the periodic velocity is far from the body
     const RigidMotion spin{Vec3::Zero(), turning.angular};
@@ -141,7 +144,7 @@ TEST(RigidBodies, aStepTakenBackLeavesThemAsTheyWere) {
     EXPECT_EQ(s.sphere.body().state.orientation.coeffs(), before.orientation.coeffs());
 }
 
-// Particles have changed their order, and their ranks, since bodies knew which are theirs.
+// Particles have changed their order and their ranks since the bodies' lists of particles were made.
 TEST(RigidBodies, aStepTakenBackAfterNewListsMovesBodiesAlone) {
     SphereSystem s("free");
     s.sphere.body().state.motion = turning;
@@ -187,7 +190,7 @@ TEST(RigidBodies, fluidAndFreeBodyKeepTheirMomentum) {
                 (s.body().solid.mass * (s.body().state.motion.linear - lastVelocity) - s.body().wrench.force).norm(),
                 1e-8 * s.body().solid.mass);
         }
-        // Its particles stand where it does.
+        // The body's particles are at their places in the body.
         const auto& store = s.scene.store();
         for (std::size_t i = 0; i < store.size(); ++i) {
             if (store.kindOf(i) != particles::Kind::body) continue;
@@ -225,7 +228,8 @@ TEST(RigidBodies, aDrivenBodyKeepsItsRates) {
 }
 
 namespace {
-// The step that `error` allows after steps of dt, beside a sphere of this velocity and behaviour in fluid of another.
+// The step that `error` allows after steps of dt, for a sphere of this behaviour and velocity in fluid of another
+// velocity.
 double allowedStep(const char* behaviour, double sphereVelocity, double fluidVelocity, double error, double dt) {
     SphereInFluid f({12, 12, 12}, Vec3(6, 6, 6), behaviour, 2.5);
     f.setVelocities([&](std::size_t, const Vec3&) { return Vec3(fluidVelocity, 0, 0); },
@@ -238,8 +242,8 @@ double allowedStep(const char* behaviour, double sphereVelocity, double fluidVel
 }
 }  // namespace
 
-// A sphere that the fluid slows down. The step found must not depend on the one that it was found with: the error is of
-// second order.
+// A sphere that the fluid slows down. The allowed step must not depend on the step from which it was estimated: the
+// error is of second order.
 TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
     const double fine = allowedStep("free", 0.02, 0, 1e-4, 0.2);
     EXPECT_NEAR(allowedStep("free", 0.02, 0, 1e-4, 0.4), fine, 0.35 * fine);
@@ -247,7 +251,7 @@ TEST(RigidBodies, stepOfABodyIsAsLongAsItsErrorAllows) {
     EXPECT_LT(fine, 0.4);
 }
 
-// Where no body is free, the fluid's error is what counts: here it comes to rest around a sphere that is held.
+// Where no body is free, the fluid's error limits the step: here the fluid comes to rest around a sphere that is held.
 TEST(RigidBodies, stepBesideAHeldBodyIsAsLongAsTheFluidsErrorAllows) {
     const double fine = allowedStep("held", 0, 0.02, 3e-5, 0.2);
     EXPECT_NEAR(allowedStep("held", 0, 0.02, 3e-5, 0.4), fine, 0.3 * fine);

@@ -33,7 +33,7 @@ struct RigidSphereScene {
         return ImplicitStep::make(scene, options);
     }
 
-    // sum of f(place in the store) over the fluid particles of all ranks
+    // sum of f(index in the store) over the fluid particles of all ranks
     template <class F>
     double ofFluid(F&& f) const {
         double total = 0;

@@ -1,5 +1,5 @@
-// A stiff membrane pulled out of shape, in fluid at rest, by steps far longer than the time in which it comes back:
-// what the midpoint rule leaves of its deformation turns over from step to step and must be gone within a few steps.
+// A stiff membrane, pulled out of shape in fluid at rest, with steps far longer than its relaxation time: the
+// deformation that the midpoint rule leaves changes its sign from step to step, and must vanish within a few steps.
 // Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ TEST(Ringing, ofAStiffMembraneDiesAway) {
     EXPECT_EQ(step->statistics.halvings, 0);
 }
 
-// The error of a step is estimated from the change of velocities, which a displacement that turns over makes the larger
-// the shorter the step: if steps shrink faster than it dies away, they stay short.
+// The error of a step is estimated from the change of velocities. A displacement that changes its sign makes this
+// change the larger, the shorter the step: if steps shrink faster than the ringing decays, they stay short.
 TEST(Ringing, letsShortenedStepsGrowAgain) {
     coupling::Scene scene = pulledSphere(0.01);
     ImplicitStep::Options options;
@@ -49,5 +49,5 @@ TEST(Ringing, letsShortenedStepsGrowAgain) {
         shortest = std::min(shortest, dt);
     }
     EXPECT_LT(shortest, 0.1 * longest);
-    EXPECT_GT(dt, 0.9 * longest);  // by steps of a fifth of the one before at the least: 0.02
+    EXPECT_GT(dt, 0.9 * longest);  // with steps of at least a fifth of the one before: 0.02
 }

@@ -41,12 +41,12 @@ struct ShearedBox : FluidScene {
         step = ImplicitStep::make(scene, options);
     }
 
-    // Mean force per area that drags on the two walls, in units of mu gammadot.
+    // Mean shear stress on the two walls, in units of mu gammadot.
     double stress() const {
         const double both = scene.forces->wallForces()[0][0] - scene.forces->wallForces()[1][0];
         return sph::testing::sumOverRanks(both) / (2 * size[0] * size[1]);
     }
-    // Root mean square of what the velocity is off the flow, in units of that between the walls.
+    // Root mean square deviation of the velocity from the flow, in units of the velocity difference of the walls.
     double noise() const {
         const ParticleStore& s = scene.store();
         double square = 0, count = 0;

@@ -1,5 +1,5 @@
-// A rigid sphere in a sheared box, whose images slide past each other: the same wherever the faces are. Lengths in
-// spacings, density and mu gammadot 1.
+// A rigid sphere in shear flow in a box whose images slide past each other: results do not depend on where the faces
+// are. Lengths in spacings, density and mu gammadot 1.
 #include <gtest/gtest.h>
 
 #include "implicit/rigidSphereScene.hpp"
@@ -35,7 +35,7 @@ struct SphereInShear : RigidSphereScene {
         body().state.motion = {flow(centre), Vec3(0, 0.5 * rate, 0)};
         made = step(1e-7);
     }
-    // Mean power of the images from this step on, over mu gammadot^2 V: the relative viscosity.
+    // Mean power of the images over the next steps, over mu gammadot^2 V: the relative viscosity.
     double stress(int steps) {
         const auto work = [&] {
             return Communicator(scene.system->comm()).sum(scene.budget.total[sph::Budget::ofImages]);
@@ -61,13 +61,14 @@ TEST(SlidingBodies, aSphereOnTheFacesTurnsAsOneInTheMiddle) {
         EXPECT_NEAR(state.motion.angular[1] / rate, 0.5, 0.02);
         const Vec3 moved = state.centre - start - steps * dt * rate * (start[2] - 6) * Vec3::UnitX();
         EXPECT_LT(moved.norm(), 0.05) << moved.transpose();
-        // Einstein's 2.5 phi is 0.196; the neighbours in the lattice and the particles change a few hundredths.
+        // Einstein's 2.5 phi is 0.196; the neighbours in the lattice and the discretisation change this by a few
+        // hundredths.
         EXPECT_NEAR(stress, 1.2, 0.06);
         if (first == 0) first = stress;
         EXPECT_NEAR(stress, first, 3e-3 * first);
         EXPECT_NEAR(state.motion.angular[1], inside.body().state.motion.angular[1], 1e-3 * rate);
     }
-    // The sphere's particles have the velocity of their image.
+    // Each of the sphere's particles has the velocity of the image of the sphere in which it lies.
     const particles::ParticleStore& s = across.scene.store();
     double furthest = 0;
     for (std::size_t i = 0; i < s.size(); ++i)

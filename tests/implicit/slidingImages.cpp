@@ -1,4 +1,4 @@
-// Shear without walls, of images that slide past each other. Lengths in spacings, density and shear rate 1.
+// Shear without walls, by images that slide past each other. Lengths in spacings, density and shear rate 1.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double rate = 1;
 
-// Sets the images of a box moving, whose velocities are those of the flow.
+// Makes the images of the box slide past each other with the velocities of the shear flow.
 void slide(coupling::Scene& scene, double rate = ::rate) {
     const double length = scene.system->box().size()[2], middle = scene.system->box().middle()[2];
     scene.flow.shearRate = scene.flow.rate = rate;
@@ -37,7 +37,7 @@ sph::FluidModel fluid(double viscosity, double bulkModulus = 500) {
 struct SlidingFluid : FluidScene {
     std::unique_ptr<ImplicitStep> step;
 
-    // disturbance(x): of the velocity at the start.
+    // disturbance(x): added to the velocity of the flow at the start.
     template <class F>
     SlidingFluid(const Index3& size, double jitter, const sph::FluidModel& model, const ImplicitSettings& settings,
                  F&& disturbance)
@@ -83,10 +83,10 @@ TEST(SlidingImages, shearStaysUniform) {
     EXPECT_NEAR(box.scene.system->periodicity().offset()[0], 36 - 40, 1e-9) << "at least, of 36 in periods of 10";
 }
 
-// A wave in a shear (Kelvin): its crests turn with the flow, k = (q, 0, k0 - gammadot t q), viscosity takes it away.
-// Along y it is carried and smoothed,    u_y = U exp(-nu int k^2 dt) cos(k.x)
-// in the shear plane so is its vorticity, and its velocity is (k_z, 0, -k_x)/k^2 times that.
-// x from the middle of the box, k.x then is the same for all images at all times.
+// A wave in a shear flow (Kelvin): its crests turn with the flow, k = (q, 0, k0 - gammadot t q); viscosity damps it.
+// The velocity along y is advected and damped,    u_y = U exp(-nu int k^2 dt) cos(k.x)
+// and so is the vorticity of the velocity in the shear plane, which is (k_z, 0, -k_x)/k^2 times the vorticity.
+// x is measured from the middle of the box, so that k.x is the same for all images at all times.
 TEST(SlidingImages, wavesTurnWithTheFlowAndDecay) {
     constexpr int length = 24;
     constexpr double q = 2 * std::numbers::pi / length, viscosity = 0.25 / (q * q), amplitude = 1e-3, end = 2;
@@ -120,8 +120,8 @@ TEST(SlidingImages, wavesTurnWithTheFlowAndDecay) {
 
 namespace {
 
-// A cell in a box of sliding images, everything moved by half a period across, to see it on the faces. slower: with a
-// viscosity as many times as high, for less inertia.
+// A cell in a box of sliding images. up: how far everything is moved along z; half a period puts the cell on the faces.
+// slower: factor by which the viscosity is higher and the shear rate lower, for less inertia.
 struct CellInShear {
     static constexpr double length = 10;
     coupling::Scene scene;
@@ -189,15 +189,16 @@ TEST(SlidingImages, aCellOnTheFacesDeformsAsOneInTheMiddle) {
     EXPECT_GT(sph::testing::sumOverRanks(seen), 0);
 }
 
-// The attempt has moved images, particles that passed the faces, and their velocities.
+// The failed attempt has moved images, and particles across the faces, and has changed the velocities of these
+// particles.
 TEST(SlidingImages, aStepThatFailsPutsEverythingBack) {
-    constexpr double up = 0.5 * CellInShear::length, bondStrain = 0.04;  // by the shear: 0.025 in a step of 0.05
+    constexpr double up = 0.5 * CellInShear::length, bondStrain = 0.04;  // the shear gives 0.025 in a step of 0.05
     CellInShear failing(up, bondStrain), parts(up, bondStrain);
     for (int k = 0; k < 10; ++k) failing.step->advance(0.05 / rate), parts.step->advance(0.05 / rate);
     ASSERT_EQ(failing.step->statistics.halvings, 0);
     for (int k = 0; k < 5; ++k) {
         failing.step->advance(0.1 / rate);
-        parts.step->damped = true;  // as the halves of a step are
+        parts.step->damped = true;  // as the halves of a halved step are
         for (int half = 0; half < 2; ++half) parts.step->advance(0.05 / rate);
     }
     EXPECT_EQ(failing.step->statistics.halvings, 5);
@@ -218,7 +219,7 @@ TEST(SlidingImages, aStepThatFailsPutsEverythingBack) {
 
 namespace {
 
-// Mean power of the images from this step on, over mu gammadot^2 V.
+// Mean power of the images over the next steps, over mu gammadot^2 V.
 template <class Box>
 double powerOfImages(Box& box, int steps, double dt) {
     const auto work = [&] { return sph::testing::sumOverRanks(box.scene.budget.total[sph::Budget::ofImages]); };
@@ -230,7 +231,7 @@ double powerOfImages(Box& box, int steps, double dt) {
 
 }  // namespace
 
-// What the images do is the shear stress that the fluid has.
+// The power of the images corresponds to the shear stress of the fluid.
 TEST(SlidingImages, workAsMuchAsTheFluidDissipates) {
     constexpr double dt = 0.05 / rate;
     SlidingFluid box({10, 8, 12}, 0.2, fluid(40), {.step = 0.05, .tolerance = 1e-7},
@@ -239,8 +240,8 @@ TEST(SlidingImages, workAsMuchAsTheFluidDissipates) {
     EXPECT_NEAR(powerOfImages(box, 10, dt), 1, 0.03);
 }
 
-// A stream across the faces, and a wave along it that it carries: momentum changes by what crosses, and energy by what
-// the images do and the fluid dissipates.
+// A stream across the faces carries a wave along: momentum changes by what crosses the faces, and energy by the work of
+// the images less what the fluid dissipates.
 TEST(SlidingImages, whatCrossesTheFacesGainsMomentumAndEnergy) {
     constexpr double dt = 0.01 / rate;
     constexpr int length = 12;
@@ -272,8 +273,8 @@ TEST(SlidingImages, whatCrossesTheFacesGainsMomentumAndEnergy) {
     EXPECT_NEAR(energy() - energyBefore, work - left, 0.01 * work);
 }
 
-// Forces across a face through a cell are those of its membrane, too: the stress by images is that of fluid and
-// membrane, wherever the faces are.
+// Across a face that cuts a cell, the forces include those of its membrane: the stress from the power of the images is
+// that of fluid and membrane, wherever the faces are.
 TEST(SlidingImages, stressByImagesIsThatOfFluidAndCell) {
     constexpr double slower = 30, dt = 0.05 * slower / rate;
     const double bondStrain = ImplicitSettings{}.bondStrain;

@@ -1,5 +1,5 @@
-// How long the next step may be: what counts of many cells, and the solver's tolerance in short steps. Lengths in
-// spacings, density 1.
+// Length of the next step: the error of many cells that limits it, and the solver's tolerance in short steps. Lengths
+// in spacings, density 1.
 #include "implicit/stepControl.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Terms of the implicit system: symmetric and semi-definite, linear about their load; the defect of the membranes, and
-// the step they refuse. Lengths in spacings, density 1.
+// Terms of the implicit system: they are symmetric, semi-definite, and linear about their load. The defect of the
+// membranes, and steps that the membranes reject. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include "coupling/fluidScene.hpp"
@@ -17,14 +17,14 @@ namespace {
 constexpr double duration = 0.2;
 using Field = Term<double>::Field;
 
-// The particles of a scene, and those of others for a term that needs them.
+// The particles of a scene, with the shared particles of other ranks for a term that needs them.
 struct Particles {
     const ParticleStore& store;
     particles::SharedParticles* shared = nullptr;
     std::size_t entries() const { return shared ? shared->entries() : store.size(); }
 };
 
-// Numbers that do not depend on ranks.
+// Random numbers that do not depend on the number of ranks.
 Field field(const Particles& p, unsigned seed, double size) {
     const ParticleStore& s = p.store;
     Field v(4 * p.entries(), 0.0);
@@ -64,8 +64,8 @@ void expectSymmetricAndLinear(Term<double>& term, const Particles& p) {
     EXPECT_LE(worst, 1e-11 * largest);
 }
 
-// With a lead A is that of a reach as long as both together; the force at the extrapolated velocity is what it is
-// without, and further on as stiff as A says.
+// With a lead, A is that of a reach of both durations together. The force at the extrapolated velocity is the same as
+// without a lead; from there it changes by -A times the change of velocity.
 void expectLeadFromTheExtrapolated(Term<double>& term, const Particles& p) {
     const Field v0 = field(p, 1, 1e-3), v = field(p, 2, 1e-3);
     RealArray without(v.size(), 0.0), first(v.size(), 0.0), forces(v.size(), 0.0), again(v.size(), 0.0);
@@ -124,7 +124,7 @@ struct Membranes : coupling::testing::SphereScene {
         for (std::size_t i = 0; i < s.size(); ++i) v[4 * i] = rate * (s.x[i] - 5), v[4 * i + 2] = -rate * (s.z[i] - 5);
         return v;
     }
-    // Largest force of the defect when nodes have moved by `strain`, of the velocity `strain/duration`.
+    // Largest force of the defect when nodes have moved by `strain`, at the rate `strain/duration`.
     double defect(double strain) {
         EXPECT_EQ(term.whyNot(stretching(strain / duration), 0), "");
         RealArray forces(4 * system->store().size(), 0.0);
@@ -146,7 +146,7 @@ TEST(Terms, fluidIsSymmetricAndLinear) {
     expectLeadFromTheExtrapolated(f.term, f.particles);
 }
 
-// What an earlier term gave to own particles is in the sum, and those of others have what their own ranks have of it,
+// Forces that an earlier term added to own particles stay in the sum; the entries of ghosts equal those on their owners
 // to the last bit.
 TEST(Terms, forcesOnOthersParticlesAreThoseOfTheirRanks) {
     Fluid f;
@@ -181,9 +181,9 @@ TEST(Terms, membranesAreSymmetricAndLinearAboutTheirLoad) {
     expectLeadFromTheExtrapolated(m.term, particles);
 }
 
-// What is left out of a linear force is of second order in the displacement, once it is linear at all: partwise
-// stiffness leaves out parts that are not definite, so the defect has a part of first order too
-// (membrane/stiffness.hpp), small beside the force.
+// What the linear force leaves out is of second order in the displacement. Partwise stiffness also leaves out parts
+// that are not positive semi-definite, so the defect has a part of first order too (membrane/stiffness.hpp), small
+// compared with the force.
 TEST(Terms, defectOfMembranesGoesWithTheDisplacement) {
     Membranes m;
     const double small = m.defect(0.001), large = m.defect(0.1);
@@ -194,7 +194,8 @@ TEST(Terms, defectOfMembranesGoesWithTheDisplacement) {
     EXPECT_LT(m.defect(0.1), 1e-12) << "what has been taken into the load is no defect any more";
 }
 
-// At the extrapolated velocity a lead changes neither the linear force nor the places that the defect is taken at.
+// At the extrapolated velocity a lead changes neither the linear force nor the positions at which the defect is
+// evaluated.
 TEST(Terms, defectAtTheExtrapolatedVelocityIsThatWithoutALead) {
     Membranes m;
     const double without = m.defect(0.1);

@@ -1,6 +1,6 @@
-// A cell that nothing deforms turns as a rigid body, by a fifth of a radian in a step. It has to have its size at the
-// end of every step, however long that step was: what a step leaves of the chord (coupling/arc.hpp) it would have to
-// take back where the next one has another length. Lengths in spacings, density 1.
+// A cell that nothing deforms turns as a rigid body, by a fifth of a radian in a step. It must have its size at the end
+// of every step, however long the step was: the excess of size from a step along the chord (coupling/arc.hpp) would
+// have to be undone when the next step has another length. Lengths in spacings, density 1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,7 +19,8 @@ namespace {
 constexpr double rate = 0.01;  // [1/s]
 const Vec3 centre(5.1, 4.9, 5);
 
-// A sphere of stiff membrane in a column of fluid that turns about z as one piece, to rest near the faces of the box.
+// A stiff spherical membrane in a column of fluid that rotates rigidly about z, with fluid at rest near the faces of
+// the box.
 coupling::Scene turningSphere() {
     coupling::Scene scene =
         SphereScene({10, 10, 6}, {centre}, true).immersedScene(rate, [](const Vec3& d) { return d; });
@@ -39,7 +40,7 @@ coupling::Scene turningSphere() {
     return scene;
 }
 
-// Of the nodes, across the axis over along it.
+// Width of the nodes across the axis over that along it.
 double widthOf(const std::vector<Vec3>& nodes) {
     Vec3 mean = Vec3::Zero(), square = Vec3::Zero();
     for (const Vec3& x : nodes) mean += x / static_cast<double>(nodes.size());

@@ -33,10 +33,10 @@ constexpr double rate = 1e-6, stepStrain = 0.02, jitter = 0.1;  // Re below 1e-4
 constexpr int layers = 3;
 
 struct Inclusion {
-    double strain, rotation;  // of the inside over those of the flow
+    double strain, rotation;  // of the inside, over those of the flow
 };
 
-// By particles well inside, and by the membrane.
+// within: from particles well inside; mean: from the velocities of the membrane.
 struct Measured {
     Inclusion within, mean;
 };
@@ -55,7 +55,7 @@ struct Spheroid {
     }
 };
 
-// The membrane, which says how much of a particle lies inside; its volume is that of the shape.
+// The membrane, which determines how much of a particle lies inside; it encloses the volume of the shape.
 coupling::Cells passive(const Spheroid& shape, double lambda, const Vec3& centre) {
     membrane::MembraneSettings laws;
     laws.bonds = coupling::testing::choice<membrane::BondLaw>(
@@ -87,7 +87,7 @@ Measured measure(const Spheroid& shape, double lambda) {
     const auto flow = [&](const Vec3& x) { return Vec3(rate * (x[2] - centre[2]), 0, 0); };
     sph::FluidModel model = sph::testing::model("wendlandC2", "linear");
     model.viscosity = 1,
-    model.soundSpeed = std::sqrt(2e4 * rate);  // what the first step compresses is below 1 % of the strain
+    model.soundSpeed = std::sqrt(2e4 * rate);  // compression in the first step is below 1 % of the strain
     const double low = layers, high = layers + length;
     model.walls = boundary::testing::planes(2, low, high, flow({0, 0, low}), flow({0, 0, high}));
 
@@ -111,7 +111,7 @@ Measured measure(const Spheroid& shape, double lambda) {
     options.shifting = 1;
     ImplicitStep::make(f.scene, options)->advance(stepStrain / rate);
 
-    // Least squares of a linear velocity over what is well inside.
+    // Least squares fit of a linear velocity to the particles well inside.
     Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, 4, 3> b = Eigen::Matrix<double, 4, 3>::Zero();
     const ParticleStore& s = f.scene.store();
@@ -125,7 +125,7 @@ Measured measure(const Spheroid& shape, double lambda) {
     MPI_Allreduce(MPI_IN_PLACE, b.data(), 12, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     const Mat3 within = (A.ldlt().solve(b)).bottomRows<3>();  // of component j along axis i
 
-    // The mean gradient inside, by the velocities of the membrane: 1/V sum A u^T.
+    // The mean gradient inside, from the velocities of the membrane: 1/V sum A u^T.
     Mat3 mean = Mat3::Zero();
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -151,8 +151,8 @@ void compare(const char* what, const Inclusion& found, const Inclusion& exact, c
     EXPECT_NEAR(found.rotation, exact.rotation, allowed.rotation) << what;
 }
 
-// Errors are fractions of the flow's strain rate, or of the inside's where that is larger. What is left at eight
-// spacings is the box: its walls and images change the rotation by the same 1 %, which does not depend on the
+// Errors are fractions of the flow's strain rate, or of the inside's where that is larger. The error that remains at a
+// = 8 spacings is due to the finite box: its walls and images change the rotation by 1 %, independently of the
 // resolution.
 TEST(ViscousInclusion, strainsAsItsViscosityLetsIt) {
     for (const double lambda : {1.0, 0.2, 5.0, 50.0})
@@ -164,8 +164,8 @@ TEST(ViscousInclusion, strainsAsItsViscosityLetsIt) {
         }
 }
 
-// 4.8 spacings thick, its rim less than a spacing: a mean over all of it, since the velocity of its few layers is not
-// linear.
+// The disc is 4.8 spacings thick, and thinner than a spacing at its rim: the mean over all of it is compared, since the
+// velocity in its few layers is not linear.
 TEST(ViscousInclusion, aThinSpheroidTurnsAsItsViscosityLetsIt) {
     const Spheroid disc{8, 0.3};
     EXPECT_NEAR(disc.exact(1e9).rotation, 2 * 0.3 * 0.3 / (1 + 0.3 * 0.3), 1e-6);

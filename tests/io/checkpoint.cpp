@@ -1,4 +1,5 @@
-// Checkpoints: the same ranks get their own bits back, other ranks even slabs; no changed byte passes unseen.
+// Checkpoints: on the same number of ranks every rank reads back its own bits, on another number evenly sized slabs; no
+// changed byte goes unnoticed.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -59,7 +60,7 @@ void flipBit(const std::filesystem::path& path, std::size_t byte) {
     file.put(static_cast<char>(old ^ 0x10));
 }
 
-// The place of the first number of `values` in the file.
+// The position in the file of this number.
 std::size_t placeOf(const std::filesystem::path& path, double value) {
     std::ifstream file(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
@@ -101,7 +102,7 @@ TEST(Checkpoint, OtherRanksGetEvenSlabs) {
     EXPECT_EQ(alone.readDistributed<double>("fluid/velocity", 3), all);
     MPI_Barrier(MPI_COMM_WORLD);
 
-    // Written by one rank, read by all.
+    // Written by one rank and read by all.
     const auto serial = folder.path() / "checkpoints" / "000001.h5";
     if (rankOf(MPI_COMM_WORLD) == 0) {
         CheckpointWriter writer(MPI_COMM_SELF, serial);
@@ -158,7 +159,7 @@ TEST(Checkpoint, AChangedByteIsFoundAndAnOlderOneNamed) {
 }
 
 TEST(Checkpoint, NoByteOfTheFileCanChangeUnseen) {
-    TemporaryFolder folder;  // each rank has a file of its own in it
+    TemporaryFolder folder;  // each rank has its own file in it
     const auto own = folder.path() / std::to_string(rankOf(MPI_COMM_WORLD)), path = own / "000000.h5";
     std::filesystem::create_directories(own);
     {
@@ -220,11 +221,12 @@ TEST(Checkpoint, ListsFindsAndKeepsTheLatest) {
     EXPECT_EQ(list[0].number, 2);
     EXPECT_EQ(list[1].time, 0.1 * 3);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.3).path, list[1].path);
-    // The nearest before; what lies just after because it was rounded counts as at the time.
+    // The latest one before the given time is found; one slightly after it, because the time was rounded, counts as at
+    // that time.
     EXPECT_EQ(findCheckpoint(folder.path(), 0.7).path, list[1].path);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.29).path, list[0].path);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.1 * 3 * (1 - 1e-7)).path, list[1].path);
-    EXPECT_EQ(findCheckpoint(folder.path(), 0.29998).path, list[1].path);  // as a table may print it
+    EXPECT_EQ(findCheckpoint(folder.path(), 0.29998).path, list[1].path);  // rounded as in a table
     EXPECT_EQ(findCheckpoint(folder.path(), 0.2999).path, list[0].path);
     EXPECT_EQ(findCheckpoint(folder.path(), 0.19999).path, list[0].path);
     const std::string message = messageOf<Failure>([&] { findCheckpoint(folder.path(), 0.1); });
@@ -257,7 +259,7 @@ TEST(MemoryCheckpoint, GivesBackWhatWasPutInLast) {
         EXPECT_EQ(memory.attribute<std::int64_t>("step"), 7 + pass);
     }
     EXPECT_TRUE(memory.has("ids"));
-    EXPECT_FALSE(memory.has("time"));  // as of a file: datasets only
+    EXPECT_FALSE(memory.has("time"));  // as for a file, only datasets count
     EXPECT_THROW(memory.readReplicated<double>("none"), std::out_of_range);
     EXPECT_THROW(memory.readReplicated<double>("ids"), std::bad_variant_access);
 }

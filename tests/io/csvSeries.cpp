@@ -1,4 +1,4 @@
-// Tables in time: their head, restarts, rollbacks, what earlier runs have left, and what a killed program leaves.
+// Tables of time series: headers, restarts, rollbacks, leftovers of earlier runs and of killed programs.
 #include "io/csvSeries.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ CsvHead leak() {
             {{"time", "s", "time of the flow"}, {"count", "", "particles on the wrong side"}}};
 }
 
-// Times 0, 1 ..., as a run writes them from `restart` on.
+// Writes times 0, 1 ..., as a run does from `restart` on.
 void run(const fs::path& caseDir, std::optional<double> restart, int rows, double value, const CsvHead& head = leak()) {
     clearTables(MPI_COMM_WORLD, caseDir, "observer", restart);
     CsvSeries csv(MPI_COMM_WORLD, caseDir, head, restart);
@@ -47,7 +47,7 @@ std::vector<double> counts(const fs::path& caseDir) {
     return column;
 }
 
-// Rank 0 writes, all wait.
+// Rank 0 writes; all ranks wait for it.
 void put(const fs::path& path, const std::string& text) {
     if (rankHere() == 0) {
         fs::create_directories(path.parent_path());
@@ -179,7 +179,7 @@ TEST(CsvSeries, ADamagedTableIsKeptAndItsGoodRowsGoOn) {
     }
 }
 
-// Tables of earlier runs go, whatever else lies there stays.
+// Tables of earlier runs are removed; all other files stay.
 TEST(CsvSeries, AStartAfreshClearsTablesAndNothingElse) {
     TemporaryFolder folder;
     const fs::path all = folder.path() / "postProcessing";
@@ -210,7 +210,7 @@ TEST(CsvSeries, AStartAfreshClearsTablesAndNothingElse) {
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
-// What an observer wrote after the time of the restart, which this run no longer has, is not of its history.
+// Rows after the time of the restart are removed, also those of observers that this run no longer has.
 TEST(CsvSeries, ARestartCutsTheTablesOfObserversThatAreGone) {
     TemporaryFolder folder;
     run(folder.path(), {}, 4, 1);

@@ -61,7 +61,7 @@ State load(const fs::path& path) {
 }
 
 struct Damage {
-    long accepted = 0, found = 0, changed = 0;  // accepted: what is read is what was written
+    long accepted = 0, found = 0, changed = 0;  // accepted: the values read are those that were written
 };
 
 // check(): 0 accepted, 1 found, 2 changed.
@@ -94,10 +94,11 @@ TEST(Damage, ofACheckpointIsHarmlessOrFound) {
         const bool found = !checkCheckpoint(path).empty();
         try {
             const State read = load(path);
-            // What a search for an intact one would accept must be so.
+            // If the file can be loaded, its values must be those that were written.
             return read == state ? 0 : 2;
         } catch (const Failure&) {
-            return found ? 1 : 2;  // or it would block a restart instead of being passed over
+            // Otherwise a restart would stop at this file instead of skipping it.
+            return found ? 1 : 2;
         }
     });
     EXPECT_GT(damage.found, 300);
@@ -155,8 +156,8 @@ TEST(Damage, ofAStartIsHarmlessOrFound) {
     writeVtp(path, before);
     ASSERT_TRUE(readVtp(path).verified);
     const std::string whole = dataChecksum(before);
-    // The text's structure, which VTK's parser believes, is left to tests/fuzz: here are the numbers, the names and the
-    // values.
+    // The structure of the XML text, which VTK's parser trusts, is covered by tests/fuzz; here bytes of the numbers,
+    // names and values are changed.
     const std::string bytes = readFile(path);
     const std::size_t data = bytes.find("<AppendedData");
     const Damage damage = flipAll(path, 1, [&, at = std::size_t{0}]() mutable {

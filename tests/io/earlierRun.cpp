@@ -1,4 +1,4 @@
-// What an earlier run left after the start of a new one goes, and nothing else.
+// Output of an earlier run that lies after the start of a new one is removed, and nothing else.
 #include "io/earlierRun.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class EarlierRun : public testing::Test {
     TemporaryFolder folder;
     std::filesystem::path results = folder.path() / "results";
 
-    // A run of five results, one each 0.1 s from 0, and checkpoints at 0.15 and 0.35 s.
+    // A run with five results, every 0.1 s from 0 s, and checkpoints at 0.15 and 0.35 s.
     void SetUp() override {
         for (const char* stream : {"fluid", "rbc", "oldCell"}) {
             VtkSeries series(MPI_COMM_WORLD, folder.path(), stream, 0, 0);
@@ -38,7 +38,7 @@ class EarlierRun : public testing::Test {
             std::ofstream(results / "notes.txt") << "mine";
             std::ofstream(results / "mine.pvd") << "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" "
                                                    "file=\"../elsewhere/a.vtp\"/></Collection></VTKFile>";
-            // Of a write that was killed: no index names it.
+            // Left by a write that was killed: no index names it.
             std::filesystem::create_directories(results / "rbc" / "rbc_000005");
             std::ofstream(results / "rbc" / "my_rbc_000009.pvtp") << "mine";
         }
@@ -85,7 +85,8 @@ TEST_F(EarlierRun, ARestartLeavesWhatCameBeforeAndTheEntryAtItsTime) {
         double start;
         std::size_t times, checkpoints;
     };
-    // In order: each goes further back. 0.2 s is in the results as 0.1*2, to rounding.
+    // The order matters: each start is earlier than the one before. 0.2 s is stored in the results as 0.1*2, equal up
+    // to rounding.
     for (const auto& [start, kept, left] :
          {Expected{0.35, 4, 2}, Expected{0.2 * (1 + 1e-15), 3, 1}, Expected{0.15, 2, 1}, Expected{0.05, 1, 0}}) {
         const ClearedOutput cleared = clearAfter(MPI_COMM_WORLD, folder.path(), start);

@@ -1,4 +1,4 @@
-// .vtp files: every bit comes back, and every fault of a file is named.
+// .vtp files: every bit is read back as written, and every fault of a file is named.
 #include "io/polyData.hpp"
 
 #include <gtest/gtest.h>

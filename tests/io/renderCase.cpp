@@ -1,4 +1,4 @@
-// The picture tool, run as a user runs it, on spheres whose projected area is known.
+// renderCase, run as a user runs it, on spheres whose projected area is known.
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr double radius = 4e-6;
 
-// Longitudes and latitudes; triangles outwards. Those around the point nearest to the eye of the xz view are broken
-// when asked.
+// A sphere meshed by longitudes and latitudes, triangles facing outwards. If `ruptured`, the triangles around the point
+// nearest to the camera of the xz view are broken.
 PolyData sphere(const Vec3& centre, double strain, bool ruptured) {
     constexpr int n = 48, m = 96;
     PolyData data;
@@ -72,7 +72,7 @@ void writeIndex(const std::filesystem::path& caseDir, const std::string& name, c
     index << "</Collection>\n</VTKFile>\n";
 }
 
-// Eleven times from 0 to 1 s, strains from 0 to 5, a membrane that ruptures at strain 3.
+// Eleven times from 0 to 1 s, with strains from 0 to 5 and a membrane that ruptures at strain 3.
 void writeCase(const std::filesystem::path& caseDir) {
     std::filesystem::create_directories(caseDir / "results" / "rbc");
     std::vector<double> times;
@@ -107,7 +107,7 @@ Outcome renderCase(const std::filesystem::path& caseDir, const std::string& opti
     return {WEXITSTATUS(status), text.str()};
 }
 
-// What the pixels of a panel are; rows count from the top.
+// The pixels of a panel; rows count from the top.
 struct Pixels {
     vtkNew<vtkPNGReader> reader;
     explicit Pixels(const std::filesystem::path& path) {
@@ -128,7 +128,7 @@ struct Pixels {
         }
         return number;
     }
-    // The mean column, from the left of the panel.
+    // Mean column of the pixels that satisfy `is`, counted from the left of the panel.
     template <class Is>
     double meanColumn(const nlohmann::json& panel, Is&& is) {
         double sum = 0, number = 0;
@@ -144,7 +144,7 @@ struct Pixels {
     }
 };
 bool isReddish(const unsigned char* c) { return c[0] > c[1] + 15; }
-// Of the membrane; its inside is darker.
+// The outside of the membrane; its inside is darker.
 bool isOutside(const unsigned char* c) { return c[0] > 95 && c[0] > c[1] + 50; }
 bool isWhite(const unsigned char* c) { return c[0] == 255 && c[1] == 255 && c[2] == 255; }
 
@@ -206,7 +206,7 @@ TEST_F(RenderCase, ARuptureShowsAsAHole) {
     const double hole = M_PI * radius * radius * (1 - 0.8 * 0.8) / (scale * scale);
     const int whole = pixels.count(report["panels"][0], isOutside), open = pixels.count(report["panels"][1], isOutside);
     EXPECT_NEAR((whole - open) / hole, 1, 0.2) << "the inside is dark";
-    // The same triangles, kept and in the colour of what is broken.
+    // The same triangles, now kept and shown in the colour of broken ones.
     const auto marked =
         draw("-view xz -strain 2.5,3 -field broken -size 900 -output " + (caseDir() / "broken.png").string());
     Pixels broken(caseDir() / "broken.png");
@@ -228,7 +228,7 @@ TEST_F(RenderCase, FieldsViewsAndFluid) {
     }
 }
 
-// The least-squares fit is exact for a linear field, up to the walls, half a spacing beyond the last particles.
+// The least-squares fit is exact for a linear field, also up to the walls, half a spacing beyond the last particles.
 TEST_F(RenderCase, TheSliceOfALinearFlowIsExact) {
     TemporaryFolder sheared;
     writeCase(sheared.path());
@@ -246,7 +246,8 @@ TEST_F(RenderCase, TheSliceOfALinearFlowIsExact) {
     EXPECT_NE(outside.text.find("the box reaches from -6 um to 6 um"), std::string::npos) << outside.text;
 }
 
-// A linear pressure and a shear flow that are the same in all images, if these have their offset and their velocity.
+// A linear pressure and a shear flow that continue in all images, provided that the images have their offset and
+// velocity.
 TEST_F(RenderCase, TheSliceKnowsThatImagesSlide) {
     TemporaryFolder sheared;
     writeCase(sheared.path());
@@ -264,7 +265,7 @@ TEST_F(RenderCase, TheSliceKnowsThatImagesSlide) {
     EXPECT_NEAR(velocity["fluid"]["low"].get<double>(), -100 * 6e-6, 1e-9);
 }
 
-// A cell that has gone round and round in a periodic box, in a flow that has no strain.
+// A cell that has crossed the periodic box many times, in a flow without strain.
 TEST_F(RenderCase, CellsAreDrawnInTheBoxAndLabelledByTime) {
     TemporaryFolder channel;
     std::filesystem::create_directories(channel.path() / "results" / "rbc");
@@ -297,7 +298,7 @@ TEST_F(RenderCase, CellsAreDrawnInTheBoxAndLabelledByTime) {
 }
 
 // Two cells of one type share a stream. They have left the box by different numbers of box lengths, so that their
-// common mean says nothing of where either belongs.
+// common mean does not tell where either of them belongs.
 TEST_F(RenderCase, EachCellOfAStreamIsMovedIntoTheBoxByItself) {
     TemporaryFolder crowd;
     std::filesystem::create_directories(crowd.path() / "results" / "rbc");
@@ -316,7 +317,7 @@ TEST_F(RenderCase, EachCellOfAStreamIsMovedIntoTheBoxByItself) {
     expectTwoCells(crowd.path(), 12e-6);
 }
 
-// Two cells in the view along y, whole and so far apart [m].
+// Expects two whole cells at this distance [m] in the view along y.
 void RenderCase::expectTwoCells(const std::filesystem::path& folder, double apart) {
     const auto report = drawIn(folder, "-view xz -count 1 -size 900");
     Pixels pixels(folder / "postProcessing" / "renderCase.png");
@@ -337,8 +338,8 @@ void RenderCase::expectTwoCells(const std::filesystem::path& folder, double apar
     EXPECT_NEAR((rightMean - leftMean) * scale, apart, 0.1e-6);
 }
 
-// The mesh in 0/ of a type that is placed by a list stands around the origin; before a run the picture has its cells
-// where the case puts them.
+// The mesh in 0/ of a type that is placed by a list is centred on the origin; before a run the picture shows the cells
+// at their places in the case.
 TEST_F(RenderCase, BeforeARunCellsStandAtTheirPlaces) {
     const std::string x = "[{centre: [-5 um, 0 um, 0 um]}, {centre: [6 um, 0 um, 0 um], axis: [1, 0, 1]}]";
     for (const std::string& entry : {"places: " + x, std::string("table: cells.csv")}) {
@@ -402,7 +403,8 @@ TEST_F(RenderCase, ASeriesHasOneCameraAndOneRange) {
     EXPECT_NEAR(asked["field"]["high"].get<double>(), 5e-5, 1e-12);
 }
 
-// In place of ffmpeg, so that it need not be installed: what it is given is looked at, and what it says is passed on.
+// A script takes the place of ffmpeg, which need not be installed: its arguments are checked, and its messages must be
+// passed on.
 TEST_F(RenderCase, AMovieHasAPictureForEachTime) {
     const TemporaryFolder folder;
     const auto program = folder.path() / "ffmpeg", film = folder.path() / "film.mp4";
@@ -446,7 +448,7 @@ TEST_F(RenderCase, BeforeAnyRunTheStartIsShown) {
     const Outcome run = renderCase(fresh.path(), "-size 500");
     EXPECT_EQ(run.exitCode, 0) << run.text;
     EXPECT_TRUE(std::filesystem::exists(fresh.path() / "postProcessing" / "renderCase.png"));
-    // A fluid alone is a slice.
+    // A case with fluid only is shown as a slice.
     std::filesystem::remove(fresh.path() / "0" / "rbc.vtp");
     writeVtp(fresh.path() / "0" / "fluid.vtp", shearedFluid());
     EXPECT_EQ(drawIn(fresh.path(), "-time first -size 500")["fluid"]["title"], "velocity u, \u00b5m/s");
@@ -497,7 +499,7 @@ TEST_F(RenderCase, WhatCannotBeReadIsNamed) {
     const Outcome text = renderCase(damaged.path(), "-size 300");
     EXPECT_EQ(text.exitCode, 4);
     EXPECT_NE(text.text.find("0/rbc.vtp"), std::string::npos) << text.text;
-    // A box that cannot be read is left out, with a warning.
+    // A box that cannot be read is not drawn; a warning says so.
     writeVtp(damaged.path() / "0" / "rbc.vtp", sphere(Vec3::Zero(), 0, false));
     writeBox(damaged.path(), "[16, 4, 12]", "[true, true, false]");
     const Outcome box = renderCase(damaged.path(), "-size 300");

@@ -1,4 +1,4 @@
-// Streams in time on any number of ranks: pieces, restart, keeping the latest.
+// Time series of results on any number of ranks: pieces, restart, rollback, keeping only the latest.
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <vtkFieldData.h>

@@ -1,4 +1,4 @@
-// A folder of a test's own, the same on all ranks, empty at the start and gone at the end.
+// A folder for one test, the same on all ranks, empty at the start and removed at the end.
 #pragma once
 #include <mpi.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ class TemporaryFolder {
     int rank_ = 0;
 };
 
-// The message of the Error that work() throws, or an empty text.
+// The message of the Error that work() throws; empty if it throws none.
 template <class Error, class Work>
 std::string messageOf(Work&& work) {
     try {

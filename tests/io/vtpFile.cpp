@@ -1,4 +1,4 @@
-// Foreign .vtp files in every encoding, and files that say of themselves what is not so.
+// .vtp files of other programs in every encoding, and files that describe their own content wrongly.
 #include "io/vtpFile.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ struct Form {
     bool little = true, wide = false, appended = false, raw = false, headerApart = false;
 };
 
-// Four points and two triangles.
+// Writes a file with four points and two triangles.
 class Writer {
   public:
     explicit Writer(Form form) : form_(form) {}
@@ -162,7 +162,7 @@ TEST(VtpFile, XmlThatIsNoneIsNamed) {
     expectFault(deep, "nested too deeply");
 }
 
-// The same for a file of our own: no change of a byte may end in anything but the same data or a message.
+// The same for a file written by Corpuscle: whichever byte is changed, the result must be the same data or a message.
 TEST(VtpFile, AChangedByteNeverEndsTheProgram) {
     TemporaryFolder folder;
     PolyData data;

@@ -1,5 +1,5 @@
-// A held area above its target is a tension, and the stiffness that the implicit step asks for resists displacements
-// across it.
+// A constrained area above its target is under tension, and the stiffness that the implicit step uses resists
+// displacements normal to the membrane.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -16,7 +16,7 @@ Eigen::MatrixXd stiffnessOf(const AreaConstraint& area, const Mesh& mesh, Defini
     Network network(mesh.nodes, mesh.triangles);
     AssembledStiffness stiffness(mesh.nodes.size());
     for (const auto& term : area.makeTerms(network)) term->addStiffness(mesh.nodes, definiteness, stiffness);
-    return stiffness.sparse();  // without the rank-one part, which is in both
+    return stiffness.sparse();  // without the rank-one part, which both have
 }
 
 double areaOf(const Mesh& mesh) {
@@ -26,8 +26,8 @@ double areaOf(const Mesh& mesh) {
     return sum;
 }
 
-// Along the normals of a sphere the exact second derivative less what the curvature of the sphere takes from it: 2/R^2
-// of the tension each area.
+// For displacements along the normals of a sphere, the stiffness is the exact second derivative but for the
+// contribution of the sphere's curvature, 2/R^2 times the tension per area.
 TEST(AreaTension, ResistsDisplacementsAcross) {
     for (const Mesh& mesh : {testing::icosphere(2), testing::irregular(2)}) {
         const double rest = 0.5 * areaOf(mesh);
@@ -35,7 +35,7 @@ TEST(AreaTension, ResistsDisplacementsAcross) {
         const Eigen::MatrixXd exact = stiffnessOf(area, mesh, Definiteness::exact),
                               partwise = stiffnessOf(area, mesh, Definiteness::partwise);
         Eigen::VectorXd u = Eigen::VectorXd::Zero(exact.rows());
-        for (std::size_t n = 0; n < mesh.nodes.size(); ++n)  // of the scale of the mesh
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n)  // varies on the scale of the mesh
             u.segment<3>(static_cast<Eigen::Index>(3 * n)) =
                 std::cos(7.0 * static_cast<double>(n)) * mesh.nodes[n].normalized();
         const double found = u.dot(partwise * u), expected = u.dot(exact * u);
@@ -52,7 +52,7 @@ TEST(AreaTension, IsNothingUnderCompression) {
     EXPECT_EQ(stiffnessOf(area, mesh, Definiteness::partwise).cwiseAbs().maxCoeff(), 0);
 }
 
-// Of triangles held one by one the tension is that of each.
+// Where the area of each triangle is constrained, each triangle has its own tension.
 TEST(AreaTension, OfTriangles) {
     const Mesh mesh = testing::irregular(1);
     const AreaConstraint held{.local = 1.0, .global = {}, .rest = 0.5 * areaOf(mesh)},

@@ -13,7 +13,7 @@
 namespace corpuscle::membrane {
 namespace {
 
-// A cone of sheet through the mouth, nodes in the glass, on both sides of it and below.
+// A conical sheet through the mouth, with nodes in the glass, on both sides of the glass and below.
 TEST(Pipette, ForcesAndStiffnessAreTheDerivativesOfItsEnergies) {
     const geometry::TriangleMesh mesh = geometry::disc(2, 0.25);
     const Network network(mesh.nodes, mesh.triangles);
@@ -69,8 +69,8 @@ double capCurvature(const std::vector<Vec3>& x, double side, double reach) {
     return 1 / std::sqrt(fit[1] + fit[0] * fit[0]);
 }
 
-// A drop of tension T, T = K (A/A0 - 1), drawn into a pipette up to half a bore: P = T (sum of curvatures of the cap
-// less that of the body), Laplace's law on both sides of the inner pressure.
+// A drop with the tension T = K (A/A0 - 1), drawn into a pipette by up to half a bore: P = T (sum of curvatures of the
+// cap less that of the body), from Laplace's law for the cap and for the body, which have the same inner pressure.
 TEST(Aspiration, OfADropFollowsLaplace) {
     const auto aspiration =
         testing::chosen<Protocol>("{type: aspiration, radius: 0.6 m, wall: 0.4 m, pressures: [0.8 Pa, 1.6 Pa]}");
@@ -93,11 +93,11 @@ TEST(Aspiration, OfADropFollowsLaplace) {
     }
 }
 
-// A second method for the flat sheet: the equations of an axisymmetric membrane without bending, of a neo-Hookean law
-// with a modulus K of area, from a hemispherical cap of uniform tension P R/2 down the bore, round the lip and out to
-// the border, where the tension ends:
+// A second method for the flat sheet: the equations of an axisymmetric membrane without bending, with a neo-Hookean law
+// and an area modulus K, from a hemispherical cap of uniform tension P R/2 down the bore, round the lip and out to the
+// border, where the tension is zero:
 //     dT1/ds = -(T1 - T2) cos(psi)/rho,   dr0/ds = 1/l1,   l2 = rho/r0,   T1(l1, l2) known
-// with the arc length s, the distance rho from the axis, r0 at rest.
+// with the arc length s, the distance rho from the axis, and r0, this distance at rest.
 struct AxisymmetricSheet {
     double G, K, R, lip, border;
 
@@ -114,7 +114,7 @@ struct AxisymmetricSheet {
         }
         return low;
     }
-    // Less the tension at the border, with a bore covered over this length.
+    // Minus the tension at the border, where the sheet covers the bore over this length.
     double excess(double P, double covered) const {
         constexpr int parts = 300;
         double T = 0.5 * P * R, rho = R;
@@ -141,7 +141,7 @@ struct AxisymmetricSheet {
 };
 
 TEST(Aspiration, OfAFlatSheetIsThatOfAnAxisymmetricOne) {
-    // Evans' relation, where area is kept, without a lip, of a large sheet.
+    // Evans' relation holds for a large sheet of constant area without a lip.
     const AxisymmetricSheet kept{.G = 1, .K = 1e4, .R = 1, .lip = 1e-6, .border = 20};
     EXPECT_NEAR(kept.length(4), 1.8467, 0.02);  // 2 L - 1 + ln(2 L) = 4
 

@@ -1,4 +1,4 @@
-// Area and volume: moduli, targets, what happens on an open cell.
+// Area and volume constraints: moduli, targets, and their end on an open cell.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -58,7 +58,7 @@ TEST(Area, ModuliOfAFlatSheet) {
     }
 }
 
-// Two triangles change by +10 % and -10 %: the whole does not.
+// Two triangles change by +10 % and -10 %; the total area does not change.
 TEST(Area, LocalSeesWhatGlobalDoesNot) {
     const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 1}}};
     Network network(mesh.nodes, mesh.triangles);
@@ -158,7 +158,8 @@ TEST(OpenCell, GlobalTermsLetGoAndTheLocalOneOfBrokenTriangles) {
     }
 }
 
-// A membrane of a case: the volume's target follows the area's, and nothing named is nothing done.
+// A membrane from a case's settings: the target of the volume follows that of the area, and a constraint that is not
+// named has no effect.
 TEST(MembraneLaws, AreaAndVolume) {
     const Mesh mesh = testing::icosphere(2);
     const auto energyWith = [&](const std::string& text) {

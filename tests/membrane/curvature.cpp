@@ -37,9 +37,9 @@ TEST(Curvature, areaGradientIsTheDerivativeOfTheArea) {
             EXPECT_NEAR(gradient[node][k], difference(mesh.nodes, mesh.triangles, Vec3::Unit(k), node), 1e-8);
 }
 
-// Of the spheroid x^2 + y^2 + (z/c)^2 = 1: h^3 (2 + c^2 - r^2)/c^2 with h = (x^2 + y^2 + z^2/c^4)^(-1/2), and r the
-// distance from the centre. Single nodes whose triangles differ in size are off by up to 15 %, means over bands are
-// not.
+// Sum of the principal curvatures of the spheroid x^2 + y^2 + (z/c)^2 = 1: h^3 (2 + c^2 - r^2)/c^2 with h = (x^2 + y^2
+// + z^2/c^4)^(-1/2), and r the distance from the centre. Single nodes whose triangles differ in size have errors of up
+// to 15 %, means over bands do not.
 TEST(Curvature, ofASpheroidIsThatOfTheFormula) {
     constexpr std::size_t bands = 5;
     for (const double c : {1.0, 0.4, 2.0}) {

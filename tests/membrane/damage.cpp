@@ -1,4 +1,4 @@
-// The law of damage: time to failure, gathering, its limits, its state.
+// The damage law of rupture: time to failure, accumulation of damage, limits of the law, its state.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ TEST(Damage, TimeToFailureAtConstantStrain) {
     }
 }
 
-// Strain that grows as r t: D = r^n (t - t0)^(n+1)/((n+1) ec^n tau), t0 = e0/r; the sum over steps meets it with an
-// error of the first order.
+// Strain that grows as r t: D = r^n (t - t0)^(n+1)/((n+1) ec^n tau), t0 = e0/r. The sum over steps has an error of
+// first order in the step.
 TEST(Damage, GathersWithAGrowingStrain) {
     const double rate = 100, onset = 0.02, scale = 0.05, tau = 2e-4, n = 2;
     const double expected =
@@ -60,8 +60,8 @@ TEST(Damage, GathersWithAGrowingStrain) {
     EXPECT_LT(error, 2e-3);
 }
 
-// Both limits of the law are the threshold: the same bonds at the same step, with the same stretch, all the way through
-// a tear.
+// In both of its limits the law is the threshold law: the same bonds break at the same step with the same stretch,
+// throughout a tear.
 TEST(Damage, ReducesToTheThreshold) {
     const std::string bonds = "{bonds: {type: harmonic, k: 1 N/m}, rupture: ";
     const auto settings = [&](const std::string& rupture) {
@@ -100,7 +100,8 @@ TEST(Damage, ReducesToTheThreshold) {
     }
 }
 
-// Below the onset nothing gathers, beyond it damage stays when the strain goes; a threshold law keeps none.
+// Below the onset no damage accumulates; damage from beyond the onset stays when the strain is gone. A threshold law
+// has no damage.
 TEST(Damage, IsStateOfTheMembrane) {
     const std::string laws =
         "{triangles: {type: neoHookean, Gs: 1 N/m}, rupture: {type: damage, onset: 0.05, scale: 0.05, time: 1 ms}}";

@@ -29,8 +29,7 @@ double largest(const std::vector<Vec3>& vectors) {
     return most;
 }
 
-// A sphere of springs under pressure: p dV = dE for the change of size, whatever the mesh; the same for any other
-// change.
+// A sphere of springs under pressure: p dV = dE for a change of size, whatever the mesh, as for any other change.
 TEST(Equilibrium, PressureDoesTheWorkThatSizeTakes) {
     for (const testing::Mesh& mesh : {testing::icosphere(2), testing::irregular(2)}) {
         Membrane cell = membraneOf(mesh, springs());
@@ -53,8 +52,8 @@ TEST(Equilibrium, PressureDoesTheWorkThatSizeTakes) {
     }
 }
 
-// Pulled apart at two nodes, with springs and bending, no coordinate held: forces balance the loads, and every small
-// change of shape takes work.
+// A cell with springs and bending, pulled apart at two nodes with no coordinate held: forces balance the loads, and
+// every small change of shape costs work.
 TEST(Equilibrium, OppositeLoadsDrawACellOutToAMinimum) {
     const testing::Mesh mesh = testing::irregular(2);
     Membrane cell = membraneOf(mesh, springs(", bending: {type: dihedral, kappa: 0.05 J}"));
@@ -92,7 +91,8 @@ TEST(Equilibrium, OppositeLoadsDrawACellOutToAMinimum) {
     }
 }
 
-// The border of a regular lattice held at a homogeneous strain: the inside follows, from a start in disorder.
+// The border of a regular lattice is held at a homogeneous strain: the inside takes this strain, starting from
+// disorder.
 TEST(Equilibrium, HeldBorderOfALatticeStrainsTheInsideHomogeneously) {
     const testing::Mesh mesh = testing::hexagonalPatch(6);
     Membrane sheet = membraneOf(mesh, springs());

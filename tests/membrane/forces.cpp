@@ -27,7 +27,7 @@ using testing::Mesh;
 struct LawCase {
     const char* name;
     std::function<std::unique_ptr<Term>(Network&)> make;
-    bool restsInMesh = true;  // the stress-free mesh is free of force
+    bool restsInMesh = true;  // no forces in the stress-free mesh
 };
 
 std::unique_ptr<Term> helfrich(Network& n, double c0, std::optional<double> reduced) {
@@ -42,7 +42,7 @@ std::unique_ptr<Term> helfrich(Network& n, double c0, std::optional<double> redu
 
 std::unique_ptr<Term> area(Network& n, const AreaConstraint& law) { return std::move(law.makeTerms(n).front()); }
 
-// x0 and m such that the strongest deformation here, 2.6 times, stays within the contour length.
+// x0 and m are such that the largest stretch here, 2.6, stays within the contour length.
 template <class Law>
 std::unique_ptr<Term> contour(Network& n, double m, bool scaled) {
     Law law;
@@ -127,7 +127,7 @@ double differenceForce(const Term& term, std::vector<Vec3>& x, std::size_t node,
     return -(8 * (energyAt(h) - energyAt(-h)) - (energyAt(2 * h) - energyAt(-2 * h))) / (12 * h);
 }
 
-// For the table of docs/theory/membrane.md: relative errors.
+// Records a relative error for the table of docs/theory/membrane.md.
 void record(const LawCase& law, const Mesh& mesh, const std::string& what, double error) {
     std::ostringstream text;
     text << error;
@@ -165,7 +165,7 @@ void checkForces(const Mesh& mesh, double edge, const LawCase& law) {
     if (!law.restsInMesh) {
         return;
     }
-    // No force at rest, to the bit: rest values come from the same arithmetic.
+    // Forces at rest are exactly zero: rest values come from the same arithmetic.
     std::vector<Vec3> rest(x.size(), Vec3::Zero());
     term->addForces(mesh.nodes, rest);
     for (const Vec3& force : rest) {
@@ -185,7 +185,7 @@ TEST(Forces, AreMinusTheGradientOnAnIrregularMesh) {
     }
 }
 
-// With broken bonds: what is gone exerts nothing, rims and all, and terms of the whole cell have let go.
+// With broken bonds: broken elements exert no force, also at rims, and terms of the whole cell have ended.
 TEST(Forces, AreMinusTheGradientOnAnOpenCell) {
     const Mesh mesh = testing::irregular(1);
     for (const LawCase& law : laws()) {
@@ -217,14 +217,14 @@ Eigen::MatrixXd stiffnessOf(const Term& term, const std::vector<Vec3>& x, Defini
     return matrix;
 }
 
-// Rows of the stiffness against differences of the force, and the projected ones have no negative eigenvalue.
+// The stiffness against differences of the force; its semi-definite and partwise forms have no negative eigenvalue.
 void checkStiffness(const Mesh& mesh, double edge, const LawCase& law, const std::vector<int>& broken = {}) {
     Network network(mesh.nodes, mesh.triangles);
     const auto term = law.make(network);
     network.breakBonds(broken);
     std::vector<Vec3> x = testing::deformed(mesh.nodes, edge);
     if (!broken.empty() && term->energy(x) == 0) {
-        return;  // a term of the whole cell has let go
+        return;  // a term of the whole cell, which ends when the cell opens
     }
     const auto size = static_cast<Eigen::Index>(3 * x.size());
     AssembledStiffness exact(x.size());
@@ -270,7 +270,7 @@ TEST(Stiffness, IsTheDerivativeOfTheForce) {
     }
 }
 
-// Without stress there is no geometric part, and nothing for partwise to leave out.
+// Without stress there is no geometric stiffness, hence nothing that the partwise form leaves out.
 TEST(Stiffness, PartwiseIsExactAtRest) {
     for (const LawCase& law : laws()) {
         if (!law.restsInMesh) {
@@ -286,9 +286,9 @@ TEST(Stiffness, PartwiseIsExactAtRest) {
     }
 }
 
-// A bond under tension, and a triangle in biaxial tension whose law is convex in the strain, have nothing that is not
-// positive: partwise is exact there too, to half the digits of the closed form of eigenvalues. (Skalak's law is not
-// convex.)
+// A bond under tension, and a triangle in biaxial tension whose law is convex in the strain, have positive
+// semi-definite stiffness: the partwise form is exact there too, to half the digits, because of the closed form of the
+// eigenvalues. (Skalak's law is not convex.)
 TEST(Stiffness, PartwiseIsExactUnderTension) {
     for (const LawCase& law : laws()) {
         const std::string name = law.name;
@@ -310,7 +310,7 @@ TEST(Stiffness, PartwiseIsExactUnderTension) {
     }
 }
 
-// Blocks against the sparse matrix: products, diagonal, and a second filling.
+// BlockStiffness against the assembled sparse matrix: products, diagonal, and filling a second time.
 TEST(Stiffness, BlocksEqualTheAssembledMatrix) {
     const Mesh mesh = testing::irregular(1);
     const std::size_t nodes = mesh.nodes.size();
@@ -339,8 +339,8 @@ TEST(Stiffness, BlocksEqualTheAssembledMatrix) {
     }
 }
 
-// Largest eigenvalue of the sum of E'' g g^T by power iteration on differences of the force at rest (where the
-// geometric part vanishes): below maxStiffness(), and not by more than the number of nodes of an element.
+// Largest eigenvalue of the sum of E'' g g^T, by power iteration on differences of the force at rest (where the
+// geometric part vanishes): it is below maxStiffness(), by a factor of at most the number of nodes of an element.
 TEST(Forces, MaxStiffnessBoundsTheStiffness) {
     const Mesh mesh = testing::irregular(1);
     for (const LawCase& law : laws()) {

@@ -1,5 +1,5 @@
-// Helfrich bending against the energies of sphere, cylinder and red cell; its errors and their orders on regular and
-// irregular meshes.
+// Helfrich bending against the energies of sphere, cylinder and red cell; errors and orders of convergence on regular
+// and irregular meshes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -29,7 +29,7 @@ double energyOf(const Mesh& mesh, double c0 = 0, std::optional<AreaDifference> d
     return law.makeTerm(network, {})->energy(mesh.nodes);
 }
 
-// Nodes of an icosphere moved along the sphere by up to `amplitude` edges.
+// An icosphere with nodes displaced along the sphere by up to `amplitude` edges.
 Mesh irregularSphere(int level, double amplitude) {
     Mesh mesh = testing::icosphere(level);
     testing::jitter(mesh.nodes, amplitude * 1.1 / (1 << level), 7);
@@ -82,14 +82,15 @@ TEST(Helfrich, IrregularSphere) {
         const double error = energyOf(mesh) / sphereEnergy - 1;
         RecordProperty("jitter 0.2 " + std::to_string(level), std::to_string(error));
         if (level > 2) {
-            EXPECT_GT(std::log2(before / error), level < 5 ? 1.7 : 1.2);  // a remainder of 1e-4 from obtuse triangles
+            // an error of 1e-4 from obtuse triangles remains
+            EXPECT_GT(std::log2(before / error), level < 5 ? 1.7 : 1.2);
         }
         before = error;
     }
     EXPECT_LT(before, 3e-4);
     EXPECT_GT(energyByThirds(irregularSphere(5, 0.2)) / sphereEnergy - 1, 3 * before);
 
-    // One triangle in six obtuse: the error stays at 0.16 %, of a third of each triangle at 0.3 %.
+    // With one triangle in six obtuse, the error stays at 0.16 %; with a third of each triangle as node area, at 0.3 %.
     const Mesh worse = irregularSphere(5, 0.3);
     EXPECT_LT(energyOf(worse) / sphereEnergy - 1, 0.002);
     EXPECT_GT(energyByThirds(worse) / sphereEnergy - 1, 0.003);
@@ -139,7 +140,7 @@ TEST(Helfrich, AreaDifferenceOfASphere) {
     EXPECT_NEAR(energyOf(mesh, 0, absolute), energyOf(mesh, 0, AreaDifference{.ratio = alpha, .reduced = 1.3}), 1e-9);
 }
 
-// Part of a flat lattice rolled up; `axis` turns it on the cylinder.
+// A piece of a flat lattice rolled up to a cylinder; `axis` is the angle between the lattice and the cylinder's axis.
 std::vector<Vec3> rolled(const std::vector<Vec3>& flat, double radius, double axis) {
     std::vector<Vec3> x;
     for (const Vec3& p : flat) {
@@ -150,7 +151,7 @@ std::vector<Vec3> rolled(const std::vector<Vec3>& flat, double radius, double ax
     return x;
 }
 
-// E/A = kappa/(2 R^2) in the bulk; also: nodes of a rim have no energy, so that (n - 1)^2 of (n + 1)^2 nodes count.
+// E/A = kappa/(2 R^2) in the bulk. Nodes of a rim have no energy, so that (n - 1)^2 of (n + 1)^2 nodes count.
 TEST(Helfrich, CylinderAndRim) {
     constexpr double radius = 200;
     for (const double axis : {0.0, 0.3, pi / 2}) {
@@ -161,12 +162,12 @@ TEST(Helfrich, CylinderAndRim) {
     }
 }
 
-// Area of the nodes that count, from the energies with c0, -c0 and without.
+// Total area of the nodes that have energy, from the energies with c0, with -c0 and without spontaneous curvature.
 double countedArea(const Mesh& mesh, double c0) {
     return (energyOf(mesh, c0) + energyOf(mesh, -c0) - 2 * energyOf(mesh)) / (c0 * c0);
 }
 
-// The edge is 1/400 of the radius: what is left does not come from its length.
+// The edge is 1/400 of the radius: the remaining error is not due to the edge length.
 TEST(Helfrich, IrregularCylinderKeepsAnError) {
     constexpr double radius = 400;
     for (const double amplitude : {0.0, 0.1, 0.2}) {
@@ -201,8 +202,8 @@ TEST(Helfrich, RedCellOfTheMesher) {
     }
 }
 
-// Icospheres moved along rays onto the red cell: a third of the triangles obtuse. Disordered on top of that, the energy
-// keeps an error.
+// Icospheres projected along rays onto the red cell have a third of their triangles obtuse. If the nodes are disordered
+// as well, an error of the energy remains.
 TEST(Helfrich, RedCellOnDistortedMeshes) {
     const geometry::KuchelFackerell shape = redCellShape();
     const auto onto = [&](Mesh mesh) {
@@ -222,7 +223,8 @@ TEST(Helfrich, RedCellOnDistortedMeshes) {
     }
 }
 
-// On a flat sheet the stiffness has no geometric part: its eigenvalue is below the bound, by less than a factor of 3.
+// On a flat sheet the stiffness has no geometric part: its largest eigenvalue is below the bound, by less than a factor
+// of 3.
 TEST(Helfrich, MaxStiffnessBoundsTheStiffness) {
     Mesh mesh = testing::hexagonalPatch(7);
     std::mt19937 random(5);
@@ -242,7 +244,8 @@ TEST(Helfrich, MaxStiffnessBoundsTheStiffness) {
     EXPECT_GE(3 * eigenvalue, term->maxStiffness(mesh.nodes));
 }
 
-// Shares of a triangle: positive, of sum its area; Voronoi's where angles are moderate.
+// The shares of a triangle's nodes are positive and add up to its area; where angles are moderate they are Voronoi
+// areas.
 TEST(Helfrich, SharesOfATriangle) {
     for (const Vec3& apex : {Vec3(0.5, 0.8, 0), Vec3(0.6, 0.3, 0), Vec3(-3, 0.2, 0), Vec3(0.3, 1e-6, 0)}) {
         const std::array<Vec3, 3> x{Vec3(0, 0, 0), Vec3(1, 0, 0), apex};

@@ -1,4 +1,4 @@
-// In-plane laws, patches and small tools that the tests of moduli, of finite strain and of costs share.
+// In-plane laws, patches and helper functions shared by the tests of moduli, of finite strain and of costs.
 #pragma once
 #include "cases.hpp"
 #include "membrane/fenePow.hpp"
@@ -55,7 +55,7 @@ inline LatticeSheet lattice() {
     return law;
 }
 
-// In its plane; the valence stays six.
+// A hexagonal patch with nodes displaced in its plane; the valence stays six.
 inline Mesh jitteredPatch(int n) {
     Mesh mesh = hexagonalPatch(n);
     jitter(mesh.nodes, 0.2, 5);

@@ -1,4 +1,4 @@
-// Bond and triangle laws: their limits, rupture, and what they do not cost.
+// Bond and triangle laws: their limits, rupture, and that laws that are not named cost nothing.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -65,7 +65,7 @@ TEST(InPlaneLaws, BrokenTrianglesLetGo) {
     EXPECT_LT(sum.norm(), 1e-10);
 }
 
-// Bonds are the network's edges: they break, and stretch is read off, where no law is on them.
+// Bonds are the network's edges: also where no law acts on them, they break, and their stretch is measured.
 TEST(InPlaneLaws, RuptureAndDiagnosticsWithoutBondLaw) {
     const Mesh mesh = icosphere(2);
     MembraneSettings laws = only(neoHookean());
@@ -98,7 +98,7 @@ class CountElements : public Stiffness {
     void addRankOne(double, std::span<const Vec3>) override { FAIL(); }
 };
 
-// Passes counted by the elements that they bring; storage by what the network and the terms hold.
+// Passes over elements are counted by the element matrices; storage by what the network and the terms hold.
 TEST(InPlaneLaws, WhatIsNotNamedCostsNothing) {
     const Mesh mesh = icosphere(1);
     for (const ModuliCase& c : moduliCases()) {

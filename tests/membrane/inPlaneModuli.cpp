@@ -36,8 +36,8 @@ TEST(InPlaneLaws, ModuliOnARegularMesh) {
     }
 }
 
-// Triangle laws have their moduli on any mesh, scaled bonds too as long as nodes move with the strain; bonds that are
-// not scaled have others.
+// Triangle laws have their moduli on any mesh, and so have scaled bonds as long as nodes move affinely with the strain;
+// the moduli of bonds that are not scaled differ.
 TEST(InPlaneLaws, ModuliOnAnIrregularMesh) {
     const Mesh mesh = jitteredPatch(12);
     const double area = areaOf(mesh);
@@ -54,7 +54,7 @@ TEST(InPlaneLaws, ModuliOnAnIrregularMesh) {
     }
 }
 
-// On closed meshes, where every bond has two triangles, from the stress-free mesh alone.
+// On closed meshes, where every bond has two triangles; the moduli follow from the stress-free mesh alone.
 TEST(InPlaneLaws, MeasuredModuliOfScaledBonds) {
     const Mesh mesh = irregular(3);
     const Network network(mesh.nodes, mesh.triangles);
@@ -70,8 +70,8 @@ TEST(InPlaneLaws, MeasuredModuliOfScaledBonds) {
     }
 }
 
-// Nodes off the border brought to balance under a small pure shear: triangle laws do not move, a network of bonds on an
-// irregular mesh gives way and is softer than its affine modulus.
+// Shear modulus after the inner nodes have relaxed under a small pure shear: with triangle laws nodes do not move; a
+// network of bonds on an irregular mesh relaxes and is softer than its affine modulus.
 double relaxedShear(const Mesh& mesh, int n, const MembraneSettings& laws) {
     constexpr double e = 1e-4;
     const auto membrane = membraneOf(mesh, laws);

@@ -1,4 +1,4 @@
-// Bond and triangle laws: response at finite strain against their own formulas, on a regular and an irregular mesh, and
+// Bond and triangle laws: response at finite strain against their formulas, on a regular and an irregular mesh, and
 // inflation of a sphere.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ Mat2 nominalStress(const Mesh& mesh, const MembraneSettings& laws, const Mat2& F
     return sum / areaOf(mesh);
 }
 
-// A law's own formulas, written down apart: dW/dl1 of W(l1, l2), and dW/dgamma of simple shear (I1 = gamma^2, I2 = 0).
+// Formulas of a law, written independently of it: dW/dl1 of W(l1, l2), and dW/dgamma of simple shear (I1 = gamma^2, I2
+// = 0).
 struct Response {
     const char* name;
     MembraneSettings laws;
@@ -76,9 +77,9 @@ double freeWidth(const Response& law, double l1) {
     return low;
 }
 
-// On the regular patch the twelve directions of the lattice law are the same in all triangles; on the irregular one
-// each triangle has its own, and the mean over all directions is met within what its header says: 1e-5 of the energy at
-// a stretch of 1.6.
+// On the regular patch the twelve directions of the lattice law are the same in all triangles. On the irregular one
+// each triangle has its own directions, and the result agrees with the mean over all directions within the error that
+// the law's header states: 1e-5 of the energy at a stretch of 1.6.
 TEST(InPlaneLaws, TriangleLawsAtFiniteStrain) {
     for (const bool regular : {true, false}) {
         const Mesh mesh = regular ? hexagonalPatch(5) : jitteredPatch(5);
@@ -106,7 +107,7 @@ TEST(InPlaneLaws, TriangleLawsAtFiniteStrain) {
             near(simple(0, 1), law.shear(0.7), "simple shear");
             RecordProperty(law.name + std::string(regular ? ", regular" : ", irregular"), std::to_string(worst));
 
-            // The same tension from the diagnostics, which need no bonds: T1 = l1/(l1 l2) dW/dl1.
+            // The same tension from principalTensions, which needs no bonds: T1 = l1/(l1 l2) dW/dl1.
             const Network network(mesh.nodes, mesh.triangles);
             const auto t = principalTensions(network, law.laws, mapped(mesh, Eigen::Vector2d(1.3, 0.9).asDiagonal()));
             near(t.tension1[7], law.stretch(1.3, 0.9) / 0.9, "tension1");
@@ -160,8 +161,8 @@ TEST(InPlaneLaws, BondLawsAtFiniteStrain) {
     }
 }
 
-// Pressure of a sphere of radius a blown up l times, dE/dV of a uniform radial scaling. Its nodes are off the mesher's
-// places along the surface by up to a quarter of an edge; its mean edge is a/15.2.
+// Pressure of a sphere of radius a inflated l times: dE/dV of a uniform radial scaling. Its nodes are displaced from
+// those of the mesher along the surface by up to a quarter of an edge; its mean edge is a/15.2.
 TEST(InPlaneLaws, InflationOfASphere) {
     const geometry::TriangleMesh made = geometry::meshSurface(geometry::Sphere(1), 1 / 15.5);
     Mesh mesh{made.nodes, made.triangles};
@@ -200,7 +201,7 @@ TEST(InPlaneLaws, InflationOfASphere) {
         RecordProperty(std::string(row.name), std::to_string(worst));
     }
     RecordProperty("edge", "a/" + std::to_string(1 / membraneOf(mesh, rows.front().laws)->network().meanBondLength()));
-    // The reference's own number (capsule table of the reference data): Skalak, C = 1, l = 1.2.
+    // The number in the capsule table of the reference data: Skalak, C = 1, l = 1.2.
     EXPECT_NEAR(2 * (1.2 - 1 / 1.2 + 1.2 * (std::pow(1.2, 4) - 1)), 3.3100, 5e-5);
 }
 

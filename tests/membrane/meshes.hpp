@@ -1,4 +1,4 @@
-// Meshes and small tools for the membrane tests. Lengths of order 1, so that errors read as relative ones.
+// Meshes and helper functions for the membrane tests. Lengths are of order 1, so that errors are relative ones.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -55,7 +55,7 @@ inline void jitter(std::vector<Vec3>& nodes, double amplitude, unsigned seed) {
     }
 }
 
-// Ellipsoidal, jittered by up to a fifth of an edge: unequal edges and angles.
+// An ellipsoid with nodes displaced by up to a fifth of an edge: unequal edges and angles.
 inline Mesh irregular(int level) {
     Mesh mesh = icosphere(level);
     const double edge = 1.1 / (1 << level);
@@ -66,7 +66,7 @@ inline Mesh irregular(int level) {
     return mesh;
 }
 
-// Stretched 1.6 times, flattened, bent into a banana, each node off its place.
+// The nodes stretched 1.6 times, flattened, bent into the shape of a banana, and displaced at random.
 inline std::vector<Vec3> deformed(const std::vector<Vec3>& nodes, double edge) {
     std::vector<Vec3> x;
     for (const Vec3& p : nodes) {

@@ -44,7 +44,7 @@ double energyPerArea(
 }
 
 // W = Ks/2 (tr eps)^2 + 2 Gs e^2 for eps = e diag(1, -1) or e (offdiagonal). Closed forms: analytic, spring_network
-// table of the reference data (harmonic: G/k = 0.4330127, K/k = 0.8660254); the angle law's is stated in its header.
+// table of the reference data (harmonic: G/k = 0.4330127, K/k = 0.8660254); that of the angle law is in its header.
 TEST(Moduli, HexagonalLatticeOfHarmonicBonds) {
     constexpr double e = 1e-5, k = 2;
     const HarmonicBond law = bondOf(k);
@@ -75,8 +75,8 @@ TEST(Moduli, MeasuredOnARegularPatch) {
     EXPECT_NE(describe(m).find("1.0000 of closed form"), std::string::npos);
 }
 
-// A lattice that is stretched at rest is anisotropic: measured least and greatest moduli against energies in all
-// directions.
+// A lattice whose rest state is stretched is anisotropic: least and greatest moduli of measureModuli against energies
+// in all directions.
 TEST(Moduli, MeasuredAnisotropyAgreesWithEnergies) {
     const auto stretch = [](Mesh& mesh) {
         for (Vec3& x : mesh.nodes) {

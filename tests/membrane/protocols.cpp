@@ -1,4 +1,5 @@
-// The protocols of membraneRelax on small meshes: loads in balance, and a sphere inflated by the law's own formula.
+// The protocols of membraneRelax on small meshes: loads in balance, and inflation of a sphere against the law's
+// formula.
 #include <gtest/gtest.h>
 
 #include "membrane/protocol.hpp"
@@ -49,7 +50,7 @@ TEST(Protocols, TweezersPullWithTheForceTheyName) {
     EXPECT_THROW(protocol("{type: inflation, pressures: []}"), CaseError);
 }
 
-// Shaken nodes of a sphere of springs go back to their places: to rest, but for a motion as a whole.
+// The displaced nodes of a sphere of springs return to their rest shape, up to a rigid motion.
 TEST(Protocols, AShakenCellComesToRestInItsShape) {
     const testing::Mesh mesh = testing::icosphere(1);
     Membrane cell = cellOf(mesh, "{bonds: {type: harmonic, k: 2 N/m}, bending: {type: dihedral, kappa: 0.1 J}}");

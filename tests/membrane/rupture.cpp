@@ -1,4 +1,4 @@
-// Broken bonds leave every law; holes, their rims and areas; restoring; the Membrane's own functions.
+// Broken bonds end in every law; holes, their rims and areas; restoring; the functions of Membrane.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ TEST(Network, RefusesBadMeshesByName) {
 }
 
 // Bonds and hinges after a break are those of the mesh without the broken triangles; of the broken triangles' corners
-// only the two that stand opposite the broken bond live on.
+// only the two opposite the broken bond remain.
 TEST(Rupture, OneBondLeavesEveryLaw) {
     const Mesh mesh = testing::irregular(2);
     const std::vector<Vec3> x = testing::deformed(mesh.nodes, 0.28);
@@ -97,7 +97,7 @@ TEST(Rupture, OneBondLeavesEveryLaw) {
     EXPECT_NEAR(bendingTerm->energy(x), bending.makeTerm(reduced, {})->energy(x), 1e-12);
     EXPECT_NEAR(angleTerm->energy(x), angles.makeTerm(reduced)->energy(x) + oppositeCorners, 1e-12);
 
-    // A second break elsewhere, and one that is broken already.
+    // A second break elsewhere, together with a bond that is broken already.
     network.breakBonds(std::array{number, 300});
     EXPECT_EQ(network.brokenBonds(), 2);
 }
@@ -170,7 +170,7 @@ TEST(Holes, RimsAndAreasOnAFlatPatch) {
         }
         network.breakBonds(numbers);
     };
-    EXPECT_TRUE(network.isOpen());  // a border
+    EXPECT_TRUE(network.isOpen());  // it has a border
     EXPECT_TRUE(network.rims().empty());
     const double hexagon = 6 * std::sqrt(3.0) / 4;
 

@@ -1,5 +1,5 @@
-// Flat sheets under the protocols uniaxial, equibiaxial and shear: tension against the laws' own closed formulas, on a
-// regular and an irregular mesh.
+// Flat sheets under the protocols uniaxial, equibiaxial and shear: tension against the closed formulas of the laws, on
+// a regular and an irregular mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -80,8 +80,9 @@ TEST_P(Sheets, AnswerAsTheirLawsSay) {
 
 INSTANTIATE_TEST_SUITE_P(RegularAndIrregular, Sheets, ::testing::Values(0.0, 0.2));
 
-// The lattice of harmonic bonds: the stretched lattice's own tension, 2/sqrt(3) k sum over its bonds, but for bonds on
-// the border, which belong to one triangle in place of two.
+// A sheet of harmonic bonds has the tension of the stretched infinite lattice, 2/sqrt(3) k sum over its bonds, except
+// for bonds on the border, which belong to one triangle instead of two; so the error decreases with the size of the
+// sheet.
 TEST(Sheet, OfBondsComesToItsLatticeWithTheSizeOfTheSheet) {
     const auto equibiaxial = testing::chosen<Protocol>("{type: equibiaxial, stretches: [1.2]}");
     double error = 1;

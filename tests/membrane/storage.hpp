@@ -1,4 +1,4 @@
-// Memory that this program holds now through operator new, which storage.cpp replaces. [bytes]
+// Memory that this program has now allocated with operator new, which storage.cpp replaces. [bytes]
 #pragma once
 #include <cstddef>
 

@@ -1,5 +1,5 @@
-// A law that the case does not name costs nothing: counted, not timed. Element matrices say what a membrane passes
-// over, bytes what it stores.
+// A law that the case does not name costs nothing. Costs are counted, not timed: the element matrices give the elements
+// that a membrane processes, the bytes what it stores.
 #include <gtest/gtest.h>
 
 #include "membrane/membrane.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using testing::Mesh;
 
-// Element matrices by their number of nodes, and parts of rank one.
+// Number of element matrices, by the number of their nodes, and of rank-one parts.
 struct Count : Stiffness {
     std::map<std::size_t, std::size_t> matrices;
     std::size_t rankOne = 0;
@@ -78,7 +78,8 @@ MembraneSettings settings(const std::string& law) {
     return testing::parsed<MembraneSettings>("{" + bonds + (law.empty() ? "" : ", ") + law + "}");
 }
 
-// Each beside bonds. `wanted` is the law's own, its bytes a bound: lists grow by doubling.
+// A law in addition to bonds. `wanted` is the additional cost of the law; its bytes are an upper bound, as lists grow
+// by doubling.
 struct Law {
     const char* text;
     Cost wanted;
@@ -94,7 +95,7 @@ std::vector<Law> laws() {
         return made;
     };
     Cost curvature{.hinges = edges, .bytes = hingeBytes + object + nodes * sizeof(int)};
-    // A node with its ring: twelve of the icosphere have five neighbours.
+    // A node with its ring of neighbours: twelve nodes of the icosphere have five neighbours.
     curvature.elastic.matrices = {{6, 12}, {7, nodes - 12}};
     return {
         {"triangles: {type: skalak, Gs: 1 N/m, C: 1}",
@@ -145,7 +146,7 @@ TEST(UnnamedLaws, TogetherTheyCostTheSum) {
     Cost wanted = costOf(settings(""));
     for (const Law& law : laws()) {
         const std::string key = std::string(law.text).substr(0, std::string(law.text).find(':') + 1);
-        if (all.find(key) == std::string::npos) {  // one law of each key
+        if (all.find(key) == std::string::npos) {  // only one law for each key
             all += (all.empty() ? "" : ", ") + std::string(law.text);
             wanted += law.wanted;
         }
@@ -155,7 +156,7 @@ TEST(UnnamedLaws, TogetherTheyCostTheSum) {
     EXPECT_LE(found.bytes, wanted.bytes);
 }
 
-// What is not asked for is not looked at either: NaN would show.
+// Velocities and rupture, which no law needs, are not evaluated: NaN would show in the results.
 TEST(UnnamedLaws, VelocitiesAndTearsAreNotLookedAt) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     Membrane membrane("cell", 1, mesh().nodes, mesh().triangles, settings("bending: {type: dihedral, kappa: 1 J}"), 1);

@@ -78,7 +78,8 @@ TEST(SurfaceViscosity, DissipatesTensionTimesRateInEveryHomogeneousFlowOfASheet)
     }
 }
 
-// Carreau's law with the rate of shear of the flow, whatever shape the triangles have; growth does not thin.
+// Carreau's law with the shear rate of the flow, whatever the shape of the triangles; dilatation does not reduce the
+// viscosity.
 TEST(SurfaceViscosity, ThinsWithTheRateOfShear) {
     const ShearThinning thinning = *thinningLaw.thinning;
     EXPECT_EQ(thinning.factor(0), 1);
@@ -123,7 +124,7 @@ TEST(SurfaceViscosity, RigidMotionsFeelNothingAndTheWholeFeelsNoForceAndNoTorque
     }
 }
 
-// Half the dissipated power is a potential of the forces, so the damping matrix is symmetric; it is not negative.
+// Half the dissipated power is a potential of the forces, so the damping matrix is symmetric; the power is positive.
 TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
     for (const auto& [name, mesh, x] : deformedMeshes()) {
         const Network network(mesh.nodes, mesh.triangles);
@@ -135,8 +136,8 @@ TEST(SurfaceViscosity, IsSymmetricAndNeverFeedsEnergy) {
     }
 }
 
-// The matrix is made from squares of rates, the forces from the metric: two ways to the same law. Holes are left out of
-// both.
+// The matrix is computed from squares of rates, the forces from the metric: two independent forms of the same law. Both
+// leave out holes.
 TEST(SurfaceViscosity, DampingMatrixGivesTheForcesAndIsSymmetricAndSemiDefinite) {
     for (const auto& [name, mesh, x] : deformedMeshes()) {
         for (const SurfaceViscosity& viscosity :

@@ -25,7 +25,7 @@ const geometry::TriangleMesh& sphere() {
     return mesh;
 }
 
-Vec3 turned(const Vec3& x, double angle) {  // with the flow about y
+Vec3 turned(const Vec3& x, double angle) {  // rotated about y, in the sense of the flow
     return {std::cos(angle) * x[0] + std::sin(angle) * x[2], x[1], -std::sin(angle) * x[0] + std::cos(angle) * x[2]};
 }
 
@@ -36,7 +36,7 @@ TEST(Shape, RigidTumbleTurnsTheMaterialAndNotTheMembrane) {
     const auto rest = shape->observe(scene, {});
     const double D = value(*shape, rest, "D12_extent"), phase = value(*shape, rest, "treadPhase_rad");
     EXPECT_NEAR(D, 0.581, 0.015);
-    EXPECT_NEAR(phase, 0, 0.2);  // the nearest node is within half an edge
+    EXPECT_NEAR(phase, 0, 0.2);  // the node nearest to the axis is within half an edge of it
     std::vector<Row> rows;
     for (int n = 1; n <= 25; ++n) {
         deform(scene, 0, [&](const Vec3& x) { return turned(x, 0.3 * n); });
@@ -48,8 +48,8 @@ TEST(Shape, RigidTumbleTurnsTheMaterialAndNotTheMembrane) {
     EXPECT_NEAR(value(*shape, rows, "inclination_rad"), value(*shape, rest, "inclination_rad") - 7.5 + 2 * pi, 1e-8);
 }
 
-// Material goes round the ellipse (1.2 a, a/1.2) whose shape stays, 1.8 times; after each half turn the marker is
-// where it was.
+// Material moves round an ellipse (1.2 a, a/1.2) of constant shape 1.8 times; after each half turn the marker is at the
+// same place of the ellipse or opposite.
 TEST(Shape, TankTreadingTurnsTheMembraneAndNotTheShape) {
     Scene scene = sampleScene({.cells = {{"capsule", Vec3::Zero()}}, .surface = &sphere()});
     couple(scene);
@@ -95,7 +95,7 @@ TEST(Conservation, FluidWithoutCells) {
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
     const auto rows = observation->observe(scene, {});
     ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(observation->tables()[0].columns.size(), 8u);  // nothing of cells
+    EXPECT_EQ(observation->tables()[0].columns.size(), 8u);  // no columns of cells
     EXPECT_NEAR(value(*observation, rows, "density_mean"), 1.005, 1e-13);
     EXPECT_EQ(value(*observation, rows, "density_min"), 1);
     EXPECT_EQ(value(*observation, rows, "density_max"), 1.01);
@@ -111,7 +111,7 @@ TEST(Conservation, FluidWithoutCells) {
 TEST(Conservation, CellsAcrossAPeriodicFace) {
     Scene scene =
         sampleScene({.cells = {{"a", Vec3(8 * um, 0, 0)}, {"b", Vec3(0.3 * um, 0, 0)}}, .surface = &sphere()});
-    // Cell a lies across the face; the lattice has fluid of its inside at both ends of the box.
+    // Cell a lies across the face, so fluid inside it is at both ends of the box.
     couple(scene);
     const auto observation = begin("{type: conservation, every: 10 steps}", scene);
     auto rows = observation->observe(scene, {});
@@ -127,8 +127,8 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.side[i] == 1) s.side[i] = 0, ++inside, left += s.x[i] > 0;
     inside = Communicator().sum(inside), left = Communicator().sum(left);
-    // Lattice points about the centre: 88 with r^2 <= 6.75, 48 more with 8.75, which are so near the surface at r = 3
-    // that chords may cut some off.
+    // Lattice points about the centre: 88 with r^2 <= 6.75, and 48 more with 8.75, so near the surface at r = 3 that
+    // flat facets may exclude some of them.
     EXPECT_GE(inside, 88);
     EXPECT_LE(inside, 136);
     EXPECT_NEAR(static_cast<double>(left), 0.5 * static_cast<double>(inside), 8);
@@ -151,8 +151,8 @@ TEST(Conservation, CellsAcrossAPeriodicFace) {
     EXPECT_NEAR(value(*observation, rows, "membraneEnergy_J"), energy, 1e-9 * energy);
 }
 
-// Energies and momentum of the state against what forces are said to have done, from a start at which both were not
-// zero.
+// Energies and momentum of the state against the work and impulse of the forces as given in the budget, from a start at
+// which the budget is not zero.
 TEST(Conservation, BudgetOfWorkAndState) {
     using sph::Budget;
     Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
@@ -210,7 +210,7 @@ TEST(Conservation, BudgetOfWorkAndState) {
     EXPECT_NEAR(summary->figures["residualShare"].get<double>(), 0.1 / 3, 1e-6);
     EXPECT_NE(summary->lines[0].find("closes to 3.3 %"), std::string::npos) << summary->lines[0];
 
-    // A restart goes on with its start; one that begins now begins at nothing.
+    // A new observation starts at zero; after a restart it continues from the original start.
     const auto restarted = begin("{type: conservation, every: 10 steps}", scene);
     EXPECT_EQ(now(restarted, "workOfWalls_J"), 0);
     restarted->restore(observation->state());
@@ -237,7 +237,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_EQ(value(*observation, rows, "released", 1), 0);
     EXPECT_EQ(observation->summary(scene, time)->lines.size(), 1u) << "no membrane broke";
 
-    // A particle of b outside the whole cell is a leak of the numerics, and no release.
+    // A particle of b outside the intact cell counts as a numerical leak, not as a release.
     particles::ParticleStore& s = scene.store();
     const auto sideOf = [&](std::int64_t id, int side) {
         for (std::size_t i = 0; i < s.size(); ++i)
@@ -279,7 +279,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_EQ(value(*observation, rows, "bondsBroken", 0), 0);
     EXPECT_EQ(value(*observation, rows, "bondsBroken", 1), static_cast<double>(expected));
     const double lost = value(*observation, rows, "trianglesLost", 1);
-    EXPECT_EQ(lost, static_cast<double>(expected));  // all triangles of the node: one per bond
+    EXPECT_EQ(lost, static_cast<double>(expected));  // all triangles of the node, as many as its bonds
     EXPECT_GT(value(*observation, rows, "holeArea_m2", 1), 0);
     EXPECT_NEAR(value(*observation, rows, "holeRestArea_m2", 1), value(*observation, rows, "holeArea_m2", 1),
                 0.2 * value(*observation, rows, "holeArea_m2", 1));
@@ -301,11 +301,12 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
                  area = value(*observation, rows, "area_m2", 3);
     EXPECT_GT(perimeter * perimeter, 4 * pi * area) << "longer than the circle of the same area";
     EXPECT_LT(perimeter * perimeter, 1.3 * 4 * pi * area);
-    EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the others are at rest
-    const double underTheCap = value(*observation, rows, "released", 1);   // beyond the fan that now closes the hole
+    EXPECT_NEAR(value(*observation, rows, "maxBondStrain", 1), 0, 1e-12);  // the other bonds are at rest
+    // outside the fan of triangles that now closes the hole
+    const double underTheCap = value(*observation, rows, "released", 1);
     EXPECT_LE(underTheCap, 6);
 
-    // Three particles at a corner of the box, said to be b's.
+    // Three particles at a corner of the box are assigned to b.
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.side[i] == 0 && s.kindOf(i) == particles::Kind::fluid && s.id[i] < 3) s.side[i] = 2;
     rows = observation->observe(scene, time);
@@ -330,7 +331,7 @@ TEST(Rupture, EventsHolesAndReleasedFluid) {
     EXPECT_NE(summary->lines[0].find("b: first break at strain 0.5"), std::string::npos) << summary->lines[0];
     EXPECT_NE(summary->lines[1].find("1 of 2 cells broke"), std::string::npos) << summary->lines[1];
 
-    // What comes later is not the first.
+    // A later break does not replace the first.
     scene.broken = {{2, {{0, 9, Vec3::Zero()}}}};
     observation->afterStep(scene, {.t = 0.5, .step = 8, .shearRate = 2, .strained = 1});
     scene.broken.clear();
@@ -380,12 +381,12 @@ TEST(Profile, LinearVelocity) {
     }
     const auto fine = begin("{type: profile, every: 10 steps, axis: x, bins: 64}", scene);
     const auto slabs = fine->observe(scene, {});
-    EXPECT_TRUE(std::isnan(slabs[0].values[1]));  // no lattice plane in the first quarter of a spacing
+    EXPECT_TRUE(std::isnan(slabs[0].values[1]));  // no lattice plane in the first quarter spacing
     EXPECT_EQ(slabs[0].values[5], 0);
     EXPECT_EQ(slabs[0].values.size(), 6) << "nothing of cells where there are none";
 }
 
-// By volume: what is inside is made twice as dense, so that its particles have half the volume.
+// The haematocrit is by volume: particles inside are made twice as dense, so that they have half the volume.
 TEST(Profile, HaematocritOfSlabs) {
     Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3::Zero()}}, .surface = &sphere()});
     particles::ParticleStore& s = scene.store();

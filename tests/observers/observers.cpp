@@ -1,4 +1,4 @@
-// The set of a case: files, times, restart, refusals, and that looking changes nothing.
+// The observers of a case: files, times, restart, rejected settings, and that observing changes nothing.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -31,7 +31,7 @@ std::string whyNot(const std::string& text, const Scene& scene, double shearRate
         [&] { Observers(settings(text, subject), scene, Time{.dt = 0.1, .shearRate = shearRate}, "."); });
 }
 
-// All fields of the particles and of the membranes that are held, bit by bit.
+// All fields of the particles and of the held membranes, bit by bit.
 std::string bits(const Scene& scene) {
     std::string all;
     const auto add = [&](const auto& array) {
@@ -100,7 +100,7 @@ TEST(Observers, StateKnowsItsObservers) {
     const auto state = Observers(settings(shape + rupture), scene, start, ".").state();
     EXPECT_FALSE(state.empty());
     Observers other(settings(rupture + "more: {type: shape, every: 1 steps}\n"), scene, start,
-                    ".");  // one gone, one new
+                    ".");  // one observer is gone, one is new
     EXPECT_NO_THROW(other.restore(state));
     EXPECT_THROW(other.restore({state.begin(), state.end() - 1}), Failure);
 }

@@ -1,5 +1,5 @@
-// Small scenes for the tests of observers: a lattice of fluid, walls across z if wanted, red cells or spheres made of
-// node particles, spread over the ranks in the way of a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
+// Small scenes for the tests of observers: fluid on a lattice, optionally walls across z, and red cells or spheres with
+// dual identity, distributed over the ranks as in a run. dx = 1 um, mu = 1 mPa s, rho0 = 1000 kg/m^3.
 #pragma once
 #include "core/communicator.hpp"
 #include "coupling/scene.hpp"
@@ -28,8 +28,8 @@ struct SampleOptions {
     std::vector<std::pair<std::string, Vec3>> cells = {};  // name and centre
     const geometry::TriangleMesh* surface = nullptr;       // of every cell, about the origin
     std::string rupture = "none";
-    double viscosityRatio = 1;                    // of the insides
-    double margin = coupling::Cells::everywhere;  // within which ranks hold cells [m]
+    double viscosityRatio = 1;                    // of the inside of cells
+    double margin = coupling::Cells::everywhere;  // distance from its brick within which a rank holds cells [m]
 };
 
 inline Scene sampleScene(const SampleOptions& o) {
@@ -121,7 +121,7 @@ inline Scene sampleScene(const SampleOptions& o) {
     return scene;
 }
 
-// With its coupling, which refers to the scene's cells: made where the scene stays.
+// Adds the coupling, which refers to the scene's cells, so the scene must not be moved afterwards.
 inline void couple(Scene& scene) {
     scene.coupling = std::make_unique<coupling::DualIdentity>(scene.cells, dx,
                                                               coupling::DensityBalance(scene.fluidBox.volume(), rho0),
@@ -129,12 +129,12 @@ inline void couple(Scene& scene) {
     scene.coupling->moved(*scene.system, 0, true);
 }
 
-// The network of a cell as made, on every rank.
+// The network of a cell as first made, which every rank has.
 inline const membrane::Network& networkOf(const Scene& scene, std::size_t cell) {
     return scene.cells.types()[cell].membrane->network();
 }
 
-// Puts the nodes of a cell to f(node's stress-free place), as particles and so as membrane.
+// Moves the nodes of a cell to f(stress-free position of the node): the particles, and from these the membrane.
 template <class F>
 void deform(Scene& scene, std::size_t cell, F&& f) {
     const coupling::CellType& type = scene.cells.types()[cell];

@@ -17,7 +17,7 @@ namespace {
 constexpr double um = 1e-6, pi = std::numbers::pi;
 
 Mat3 withFlow(double angle, const ShearPlane& plane) {
-    // About the vorticity axis, the gradient axis towards x.
+    // About the vorticity axis, turning the gradient axis towards x.
     Mat3 r = Mat3::Identity();
     const int g = plane.gradient;
     r(0, 0) = r(g, g) = std::cos(angle);
@@ -38,8 +38,8 @@ geometry::TriangleMesh ellipsoid(const Vec3& semi) {
     return mesh;
 }
 
-// (d - h)/(d + h), and by inertia, quadrature of the quartic (SectionShape's header). Chords cut h short by about
-// edge^2 curvature/8 = 0.8 %, which is 0.002 in D.
+// D by extent is (d - h)/(d + h), by inertia a quadrature of the quartic (header of SectionShape). Chords shorten h by
+// about edge^2 curvature/8 = 0.8 %, which is 0.002 in D.
 TEST(SectionShape, UndeformedRedCell) {
     const SectionShape s = sectionShape(redCell(), {});
     EXPECT_NEAR(s.D12_extent, 0.581028, 0.002);
@@ -60,12 +60,12 @@ TEST(SectionShape, TurnedAndMovedRedCellKeepsItsNumbers) {
         const SectionShape s = sectionShape(mesh, {});
         EXPECT_NEAR(s.D12_extent, rest.D12_extent, 1e-9);
         EXPECT_NEAR(s.D12_inertia, rest.D12_inertia, 1e-9);
-        EXPECT_NEAR(s.inclination, rest.inclination - angle, 1e-9);  // the flow turns it down
+        EXPECT_NEAR(s.inclination, rest.inclination - angle, 1e-9);  // the flow decreases the inclination
         EXPECT_NEAR(s.centroid.x(), 30 * um, 0.01 * um);
     }
 }
 
-// Semi-axes 3, 1, 2 along x, y, z: D = 1/5 in x-z, 1/2 in x-y, the mesh being an affine image of that of a sphere.
+// Semi-axes 3, 1, 2 along x, y, z: D = 1/5 in x-z, 1/2 in x-y; the mesh is an affine image of that of a sphere.
 TEST(SectionShape, EllipsoidInBothShearPlanes) {
     const geometry::TriangleMesh mesh = ellipsoid({3, 1, 2});
     const SectionShape z = sectionShape(mesh, {2}), y = sectionShape(mesh, {1});
@@ -79,7 +79,8 @@ TEST(SectionShape, EllipsoidInBothShearPlanes) {
     EXPECT_NEAR(z.height, 4 * um, 0.04 * um);
 }
 
-// An ellipsoid that leans out of the shear plane: its cut there has the matrix (M^-1) restricted, not M restricted.
+// An ellipsoid that leans out of the shear plane: its cut with the plane has the matrix (M^-1) restricted, not M
+// restricted.
 TEST(SectionShape, LeaningEllipsoidIsCutNotProjected) {
     geometry::TriangleMesh mesh = ellipsoid({3, 1, 1});
     mesh.rotate(Eigen::AngleAxisd(0.7, Vec3::UnitZ()).toRotationMatrix());
@@ -100,7 +101,7 @@ TEST(MaterialRotation, FollowsTheFlowInBothPlanesEvenForASphere) {
         turned.rotate(withFlow(2.5, plane));
         turned.translate({1 * um, 2 * um, 3 * um});
         EXPECT_NEAR(materialRotation(sphere.nodes, turned.nodes, plane), 2.5, 1e-12);
-        // Simple shear moves g > 0 towards +x: positive, half the strain for a small one.
+        // Simple shear moves g > 0 towards +x: the rotation is positive, for small strains half the strain.
         geometry::TriangleMesh sheared = sphere;
         for (Vec3& x : sheared.nodes) x[0] += 0.01 * x[g];
         EXPECT_NEAR(materialRotation(sphere.nodes, sheared.nodes, plane), 0.005, 1e-4);

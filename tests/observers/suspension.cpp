@@ -1,5 +1,5 @@
-// What cells add to the stress: the membranes' part against the change of their energy in a small strain, that of the
-// insides against the closed form of a linear flow.
+// The stress that cells add: the contribution of the membranes against the change of their energy in a small strain,
+// that of the cells' inside against the closed form of a linear flow.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -19,7 +19,7 @@ const geometry::TriangleMesh& spheroid() {
     return mesh;
 }
 
-// x = y = (1 + G) of the places in the mesh, moving with the flow rate G x.
+// Nodes at x = (1 + G) y, y: positions in the mesh, moving with the velocity rate G x.
 Scene strained(const Mat3& G, double rate, double viscosityRatio) {
     Scene scene = sampleScene(
         {.cells = {{"cell", Vec3(1, 2, -1) * um}}, .surface = &spheroid(), .viscosityRatio = viscosityRatio});
@@ -51,7 +51,7 @@ TEST(Suspension, membranesStressIsTheChangeOfTheirEnergy) {
     Mat3 G;
     G << 0.05, 0.02, 0.11, 0, -0.03, 0.04, 0.03, 0, 0.02;
     const std::vector<Row> rows = rowsOf(strained(G, 0, 1));
-    // In a further strain E of what is there now: x <- (1 + E)(1 + G) x.
+    // Under a further strain E of the strained cell: x <- (1 + E)(1 + G) x.
     const auto change = [&](const Mat3& E) {
         constexpr double small = 1e-4;
         const auto at = [&](double e) { return energyOf(strained(G + e * E * (Mat3::Identity() + G), 0, 1)); };
@@ -66,7 +66,7 @@ TEST(Suspension, membranesStressIsTheChangeOfTheirEnergy) {
     const double volume = 16 * 12 * 12 * um * um * um;
     EXPECT_NEAR(rows[0].values[membranes], xz / volume, 1e-6 * scale / volume);
     EXPECT_NEAR(rows[0].values[N1], (xx - zz) / volume, 1e-6 * scale / volume);
-    EXPECT_GT(std::abs(xz), 0.1 * scale);  // there is something to compare
+    EXPECT_GT(std::abs(xz), 0.1 * scale);  // the shear stress does not vanish
     EXPECT_EQ(rows[0].values[interiors], 0);
     EXPECT_EQ(rows[0].values[contact], 0);
 }

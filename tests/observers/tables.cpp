@@ -1,5 +1,4 @@
-// Every column of every observer says what it is and in which unit, and a scene's tables are among those that are
-// documented.
+// Every column of every observer has a description and a unit, and the tables of a scene are among the documented ones.
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,4 +1,4 @@
-// Rigid surfaces in contact: derivatives of their energy against differences, and ways that are free.
+// Rigid surfaces in contact: derivatives of their energy against differences, and the free fraction of motions.
 #include "packing/crowd.hpp"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ std::shared_ptr<contact::Barrier> barrier() {
     return law;
 }
 
-// Two discs with axes of general directions, one of them near -z, a fixed one and a wall, all in contact; the second
-// one touches the first through the periodic boundary as well.
+// Two discs with axes in general directions, one of them near -z, a fixed disc and a wall, all in contact; the second
+// disc touches the first through the periodic boundary as well.
 struct Meeting {
     std::vector<Pose> poses{{0, Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.9).normalized()},
                             {0, Vec3(5.6 * um, 0.4 * um, 0.6 * um), Vec3(0.5, 0.1, -0.8).normalized()}};
@@ -64,7 +64,8 @@ TEST(Crowd, hasTheGradientOfItsEnergy) {
     }
 }
 
-// The springs of contact leave out how normals and nearest points turn, which makes the energy softer than they are.
+// The springs of contact leave out that normals and nearest points turn; this softens the energy, whose second
+// difference is smaller than the stiffness of the springs.
 TEST(Crowd, hasAStiffnessLikeTheSecondDifference) {
     Meeting meeting;
     meeting.crowd.evaluate(meeting.crowd.nodes(meeting.poses, 1));
@@ -97,7 +98,7 @@ TEST(Crowd, doesNotTurnWhatIsAligned) {
     EXPECT_EQ(k.row(3).norm() + k.col(3).norm() + k.row(9).norm() + k.col(9).norm(), 0);
 }
 
-// The force of the whole on itself is that of walls and of what is fixed: without these it is zero.
+// Without walls and fixed surfaces, the forces on all surfaces sum to zero.
 TEST(Crowd, pushesEquallyBothWays) {
     const Periodicity period = Periodicity::centred(Vec3(10.7, 0, 0) * um);
     Crowd crowd({{disc(), true}}, {}, {}, period, barrier());
@@ -109,7 +110,7 @@ TEST(Crowd, pushesEquallyBothWays) {
     EXPECT_NEAR((g.segment<3>(0) + g.segment<3>(5)).norm(), 0, 1e-9 * g.segment<3>(0).norm());
 }
 
-// A disc that is sent through a fixed one, and one that is sent through a wall.
+// A disc that would move through a fixed one, and one that would move through a wall.
 TEST(Crowd, knowsHowFarTheWayIsFree) {
     const particles::Box box{Vec3(-20, -20, -6) * um, Vec3(20, 20, 20) * um, {true, true, false}};
     geometry::TriangleMesh fixed = disc();
@@ -124,11 +125,12 @@ TEST(Crowd, knowsHowFarTheWayIsFree) {
         return crowd.freeTravel(u, 0.1);
     };
     EXPECT_EQ(freeAlong(Vec3(10, 0, 0) * um), 1);
-    // The poles are 3 um apart, facets a little more, and the thickness less; a tenth of the gap is kept.
+    // The poles are 3 um apart; facets make the gap a little larger, the thickness makes it smaller; a tenth of the gap
+    // is kept.
     const double free = freeAlong(Vec3(0, 0, -6) * um) * 6;
     EXPECT_NEAR(free, 0.9 * 2.9, 0.1);
     crowd.evaluate(crowd.nodes({{0, Vec3(8, 8, 0) * um, Vec3::UnitZ()}}, 1));
-    const double down = freeAlong(Vec3(0, 0, -10) * um) * 10;  // 5 um to the wall, in eight looks
+    const double down = freeAlong(Vec3(0, 0, -10) * um) * 10;  // 5 um to the wall, checked at eight points
     EXPECT_LE(down, 4.9);
     EXPECT_GT(down, 3);
 }

@@ -1,5 +1,5 @@
-// Cells in place: apart from each other by another method than the one that puts them there, the same for the same
-// seed, and refused where there is no room.
+// Packed cells: their distances by another method than the packing's, the same places for the same seed, and a failure
+// where there is no room.
 #include "packing/packing.hpp"
 
 #include <gtest/gtest.h>
@@ -49,8 +49,8 @@ std::vector<TriangleMesh> placed(const std::vector<Packing::Type>& types, const 
     return all;
 }
 
-// The least distance of a node of one surface from another one or its own image, by trees over triangles; 0 where two
-// cross or one is inside another.
+// The least distance of a node of one surface from another surface or from an image of its own, with trees over
+// triangles; 0 where two surfaces cross or one is inside another.
 double leastDistance(const std::vector<TriangleMesh>& surfaces, const Periodicity& period, double within) {
     std::vector<geometry::Bounds> bounds;
     std::vector<geometry::TriangleTree> trees;
@@ -78,7 +78,7 @@ double leastDistance(const std::vector<TriangleMesh>& surfaces, const Periodicit
     return least;
 }
 
-// Half of the volume, in a periodic box: what the distances of centres say about balls.
+// Balls that fill half the volume of a periodic box: their gaps are checked by the distances of their centres.
 TEST(Packing, putsBallsApart) {
     const double radius = 2 * um, gap = 0.1 * um;
     const std::vector<Packing::Type> types{{{ball(radius, 0.7 * um)}, 24, &anyhow}};
@@ -97,7 +97,7 @@ TEST(Packing, putsBallsApart) {
         for (std::size_t j = 0; j < i; ++j)
             least = std::min(least, box.periodicity().shortest(poses[i].centre - poses[j].centre).norm());
     }
-    const double facets = 0.7 * um * 0.7 * um / (3 * radius);  // by which their middles lie below the ball, at most
+    const double facets = 0.7 * um * 0.7 * um / (3 * radius);  // largest depth of the middle of a facet below the ball
     EXPECT_GT(least, 2 * radius + gap - 2 * facets);
     EXPECT_GE(leastDistance(placed(types, poses), box.periodicity(), um), gap);
 }
@@ -112,7 +112,7 @@ std::size_t numberFor(double haematocrit, const TriangleMesh& mesh, double volum
     return static_cast<std::size_t>(std::lround(haematocrit * volume / mesh.volume()));
 }
 
-// Nearly twice of what random insertion reaches, in a periodic box that is hardly larger than three cells.
+// Nearly twice the haematocrit that random insertion reaches, in a periodic box hardly wider than three cells.
 TEST(Packing, putsRedCellsAtHaematocrit45) {
     const TriangleMesh cell = redCell();
     const particles::Box box = boxOf(Vec3(14, 14, 14) * um, true);
@@ -129,7 +129,8 @@ TEST(Packing, putsRedCellsAtHaematocrit45) {
     EXPECT_GE(leastDistance(placed(types, poses), box.periodicity(), um), 0.1 * um);
 }
 
-// Walls nearer than a cell's diameter, discs and balls, of which one is fixed, and discs that keep their axes.
+// Between walls nearer to each other than a cell's diameter: red cells, balls, discs that keep their axes, and a fixed
+// ball.
 TEST(Packing, mixesTypesBetweenWalls) {
     const particles::Box box = boxOf(Vec3(16, 16, 6) * um, false);
     geometry::Spheroid flat(3.5 * um, 1 * um);
@@ -158,7 +159,7 @@ TEST(Packing, mixesTypesBetweenWalls) {
     }
 }
 
-// Packed by the rough surface, the gap is kept by the fine one.
+// Cells packed with a rough surface keep the gap with the fine one.
 TEST(Packing, keepsTheGapOfFineMeshes) {
     geometry::EvansFung shape;
     shape.prepare("");
@@ -185,7 +186,7 @@ TEST(Packing, isRepeatedBySeed) {
     }
 }
 
-// Balls do not fill 0.8 of space, however they are put; and no small ones beside a gap as wide as the box.
+// No arrangement of balls fills 0.8 of space; and there is no room where the gap is as wide as the box.
 TEST(Packing, saysWhereThereIsNoRoom) {
     const particles::Box box = boxOf(Vec3(8, 8, 8) * um, true);
     const TriangleMesh one = ball(2 * um, 0.8 * um);
@@ -211,7 +212,7 @@ TEST(Packing, saysWhereThereIsNoRoom) {
     }
 }
 
-// Uniform on the sphere: means of the components and of their products.
+// Axes are uniform on the sphere: means of the components and of their products.
 TEST(RandomOrientation, isIsotropic) {
     Random random(5);
     Vec3 mean = Vec3::Zero();

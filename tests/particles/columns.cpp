@@ -19,7 +19,7 @@ struct Points {
     }
 };
 
-// Some lie outside the rectangle 0..7 x 0..5, and heights repeat.
+// Some points lie outside the rectangle 0..7 x 0..5, and several have the same height.
 Points scattered(int n) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> x(-1, 8), y(-1, 6);
@@ -53,7 +53,7 @@ TEST(Columns, orderIsAPermutationSortedInEachColumnAndStable) {
         }
     EXPECT_EQ(inside, 3000);
 
-    // Sorted particles stay as they are; slightly moved ones are sorted too.
+    // Sorting particles that are already sorted changes nothing.
     Points again = p.ordered(order);
     const std::vector<int> same = columns.sort(again.x.data(), again.y.data(), again.z.data(), 3000);
     for (int k = 0; k < 3000; ++k) EXPECT_EQ(same[k], k);

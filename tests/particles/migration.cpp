@@ -36,7 +36,7 @@ TEST(Decomposition, bricksTileTheBoxAndEachPositionHasOneOwner) {
     ParticleStore store;
     p.deal(store);
     Decomposition d(MPI_COMM_WORLD, p.box);
-    for (int pass = 0; pass < 2; ++pass) {  // slices of the start, then bricks of the bisection
+    for (int pass = 0; pass < 2; ++pass) {  // slices at the start, then bricks of the bisection
         double volume = 0;
         for (int r = 0; r < d.size(); ++r) volume += (d.brick(r).high - d.brick(r).low).prod();
         EXPECT_NEAR(volume, p.box.volume(), 1e-10 * p.box.volume());
@@ -56,7 +56,7 @@ TEST(Decomposition, bricksTileTheBoxAndEachPositionHasOneOwner) {
     }
     migrate(store, d);
     EXPECT_LT(d.imbalance(store.size()), 1.02);
-    // Beyond the walls the outermost bricks reach on.
+    // The outermost bricks extend beyond the walls.
     for (const double z : {p.box.low[2] - 3, p.box.high[2], p.box.high[2] + 3}) {
         const int owner = d.owner({p.box.low[0] + 0.1, p.box.low[1] + 0.1, z});
         EXPECT_GE(owner, 0);
@@ -93,7 +93,7 @@ TEST(Migration, keepsEveryFieldBitForBitAndLosesNobody) {
             for (std::size_t i = 0; i < array.size(); ++i)
                 EXPECT_EQ(std::bit_cast<std::uint64_t>(array[i]), bits(store.id[i], name)) << name;
         });
-        // Everybody moves on by a third of the box, so most change rank.
+        // All particles move by a third of the box, so that most change rank.
         for (std::size_t i = 0; i < store.size(); ++i)
             store.setPosition(i, p.box.periodicity().wrap(store.position(i) + Vec3(3, 2.7, 2.3)));
     }
@@ -115,7 +115,7 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
     ParticleSystem system(MPI_COMM_WORLD, p.box, {}, 2, 0.3, 1);
     p.deal(system.store());
     system.start();
-    // Positions of now, not those of the build, and other fields untouched.
+    // Ghosts have the current positions, not those at the rebuild, and all other fields unchanged.
     ParticleStore& s = system.store();
     constexpr int fields = 6;
     const auto moved = [&](int id) -> Vec3 { return p.position[id] + Vec3(0.01 * id, -0.5, 0.125); };
@@ -143,8 +143,8 @@ TEST(Halo, ghostsFollowTheirParticlesWithTheImagesShift) {
     }
 }
 
-// Every image within reach of the brick is a ghost, once, at the place and with the slide that the box gives it; from
-// no offset to beyond half a period, where the next image takes over.
+// Every image within reach of the brick is a ghost exactly once, at the place and with the slide velocity given by the
+// box; for offsets from none to more than half a period, where the next image takes over.
 TEST(Halo, ghostsAreAllImagesOfABoxThatSlides) {
     const Population p(box({6, 4, 5}, true, true, true), 150, 9);
     constexpr double reach = 2.3, speed = 1.5;
@@ -195,7 +195,7 @@ TEST(Rebuild, refusesAPositionThatIsNotFiniteOnAllRanks) {
     ParticleSystem system(MPI_COMM_WORLD, p.box, {}, 2, 0.3, 1);
     p.deal(system.store());
     system.start();
-    for (int axis = 0; axis < 3; ++axis) {  // along a periodic one too, where the box wraps
+    for (int axis = 0; axis < 3; ++axis) {  // also along a periodic axis, where the box wraps
         ParticleStore& s = system.store();
         const int last = system.decomposition().size() - 1;
         const Vec3 sound = s.position(0);

@@ -43,7 +43,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
         return records[static_cast<std::size_t>(j) * tagFields + 4] == static_cast<double>(Kind::wall);
     };
 
-    // What each block meets, by its own list and by the lists of earlier blocks.
+    // The particles with which each block has pairs, by its own list and by the lists of earlier blocks.
     const std::vector<int> imageOf = system.halo().imageOf();
     std::vector<std::set<Image>> met(static_cast<std::size_t>(list.blockCount()));
     const auto image = [&](int j) {
@@ -59,7 +59,7 @@ void expectComplete(ParticleSystem& system, const Population& p) {
             EXPECT_EQ(mutual, own < 0 || own / lanes != b);
             if (!mutual || own < 0) continue;
             EXPECT_GT(own / lanes, b);
-            // Seen from the other particle, this block lies on the other side of the faces between.
+            // Seen from the other particle, this block lies on the opposite side of the periodic faces between the two.
             const Image there = image(j), at = image(own);
             for (int i = b * lanes; i < std::min(view.owned, (b + 1) * lanes); ++i) {
                 const Image here = image(i);
@@ -113,7 +113,7 @@ TEST_P(Pairs, everyPairWithinTheSupportIsListedOnce) {
     const PopulatedBox& c = GetParam();
     const Population p(c.box, c.count, 3, c.layer);
     for (const Precision precision :
-         {Precision::full, Precision::mixed}) {  // blocks of different size on some processors
+         {Precision::full, Precision::mixed}) {  // the size of a block differs between them on some processors
         ParticleSystem system(MPI_COMM_WORLD, c.box, {}, c.support, skin, 1, precision);
         EXPECT_EQ(system.list().lanes(), blockLanes(precision));
         p.deal(system.store());
@@ -131,12 +131,13 @@ TEST_P(Pairs, theListHoldsWhileNothingHasMovedMoreThanHalfTheSkin) {
     for (int step = 0; step < 6; ++step) {
         for (int id = 0; id < p.count(); ++id) {
             const Vec3 direction(std::sin(id + step), std::cos(2.0 * id), std::sin(3.0 * id + 1));
-            if (!p.wall[id]) p.position[id] += 0.074 * direction.normalized();  // two steps stay below half of the skin
+            // Two such steps are less than half of the skin.
+            if (!p.wall[id]) p.position[id] += 0.074 * direction.normalized();
             for (int k = 0; k < 3; ++k)
                 if (!c.box.periodic[k]) p.position[id][k] = std::clamp(p.position[id][k], c.box.low[k], c.box.high[k]);
         }
         ParticleStore& s = system.store();
-        // Continuous paths between builds: the image nearest to where the particle is.
+        // Paths are continuous between rebuilds: the image nearest to the present position is used.
         for (std::size_t i = 0; i < s.size(); ++i)
             s.setPosition(i, s.position(i) + c.box.periodicity().shortest(p.position[s.id[i]] - s.position(i)));
         if (system.mustRebuild()) system.rebuild();

@@ -1,4 +1,5 @@
-// A population of particles that every rank knows whole, and its place in a ParticleSystem. Lengths in spacings.
+// A set of particles that is known completely on every rank, and its distribution to a ParticleSystem. Unit of length:
+// the particle spacing.
 #pragma once
 #include <mpi.h>
 
@@ -12,10 +13,10 @@ namespace corpuscle::particles::testing {
 
 struct Population {
     Box box;
-    std::vector<Vec3> position;  // of particle number id, wrapped
+    std::vector<Vec3> position;  // wrapped position of the particle with number id
     std::vector<bool> wall;
 
-    // Uniformly random; walls: those in the outer `layer` at both ends of z.
+    // Uniformly random positions; particles in the outer `layer` at both ends of z are wall particles.
     Population(const Box& inside, int count, unsigned seed, double layer = 0) : box(inside) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> unit(0, 1);
@@ -28,7 +29,7 @@ struct Population {
 
     int count() const { return static_cast<int>(position.size()); }
 
-    // Dealt to ranks in turn, whatever brick they belong to.
+    // Distributes particles to ranks in turn, whatever brick they belong to.
     void deal(ParticleStore& store, MPI_Comm comm = MPI_COMM_WORLD) const {
         int rank = 0, size = 1;
         MPI_Comm_rank(comm, &rank);
@@ -47,12 +48,12 @@ inline Box box(const Vec3& size, bool x = true, bool y = true, bool z = true) {
     return {-0.3 * size, 0.7 * size, {x, y, z}};
 }
 
-// Boxes with random particles, from wide ones to those thinner than the reach of a list.
+// Boxes with random particles, from wide boxes to some that are thinner than the reach of the neighbour list.
 struct PopulatedBox {
     const char* name;
     Box box;
     int count;
-    double support, layer;  // layer: of walls, at both ends of z
+    double support, layer;  // layer: thickness of walls, at both ends of z
 };
 inline const PopulatedBox populatedBoxes[] = {
     {"wide", box({8, 7, 6}), 336, 2.0, 0},
@@ -64,7 +65,7 @@ inline const PopulatedBox populatedBoxes[] = {
     {"almostEmpty", box({9, 9, 9}), 3, 2.0, 0},
 };
 
-// Records of id and kind behind the position: owned filled, ghosts through the halo.
+// Records of position, id and kind. Those of owned particles are filled here, those of ghosts by the halo exchange.
 inline constexpr int tagFields = 5;
 inline RealArray taggedRecords(ParticleSystem& system) {
     const ParticleStore& s = system.store();

@@ -1,4 +1,4 @@
-// Particles that several ranks know, against what all ranks together say of them, on any number of ranks.
+// Particles that several ranks know, compared with what all ranks hold of them, on any number of ranks.
 #include "particles/sharedParticles.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ class Shared : public ::testing::TestWithParam<PopulatedBox> {
     Population p{c.box, c.count, 5, c.layer};
     ParticleSystem system{MPI_COMM_WORLD, c.box, {}, c.support, 0.3, 1};
     SharedParticles shared;
-    std::vector<int> id;  // of each entry, by the owners' word
+    std::vector<int> id;  // of each entry, as sent by the owner
 
     void SetUp() override {
         p.deal(system.store());
@@ -35,7 +35,7 @@ class Shared : public ::testing::TestWithParam<PopulatedBox> {
     }
     int ranks() const { return system.decomposition().size(); }
     int rank() const { return system.decomposition().rank(); }
-    // knows[r * count + i]: whether rank r has particle i, as its own or as a ghost.
+    // knows[r * count + i]: whether rank r has particle i, as an owned particle or as a ghost.
     std::vector<int> whoKnows() const {
         std::vector<int> own(static_cast<std::size_t>(p.count()), 0),
             all(own.size() * static_cast<std::size_t>(ranks()));
@@ -65,7 +65,7 @@ TEST_P(Shared, everyGhostHasTheEntryOfItsParticle) {
         EXPECT_EQ(shared.entry(shared.ghostOf()[k]), shared.owned() + k);
 }
 
-// To the last bit: the same on all ranks, in the order of ranks.
+// Exact to the last bit: the sums are the same on all ranks, since they are taken in the order of ranks.
 TEST_P(Shared, sumsAreThoseOfAllWhoKnowAParticle) {
     constexpr int width = 3, count = 2;
     const std::vector<int> knows = whoKnows();
@@ -84,7 +84,7 @@ TEST_P(Shared, sumsAreThoseOfAllWhoKnowAParticle) {
             for (int k = 0; k < width; ++k) sum[k] += part(id[e], r, k);
         }
         if (sharers > 1) several.push_back(e);
-        sum[count] = part(id[e], rank(), count);  // as it was
+        sum[count] = part(id[e], rank(), count);  // not summed: unchanged
         for (int k = 0; k < width; ++k) EXPECT_EQ(values[width * e + static_cast<std::size_t>(k)], sum[k]);
     }
     EXPECT_EQ(shared.shared(), several);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Python package against other methods: csv files read by hand, volumes by the observer, series in closed form.
+"""The Python package against independent methods: CSV files read directly, volumes from the observer, series in closed form.
 
     package.py BIN SOURCE
 """
@@ -48,7 +48,7 @@ def analysis(folder):
     noise = numpy.random.default_rng(3).normal(size=4000)
     mean = corpuscle.mean(pandas.DataFrame({"time_s": numpy.arange(4000.0), "y": noise}), "y", since=0)
     assert abs(mean.value) < 4 * mean.error and abs(mean.error * math.sqrt(4000) - 1) < 0.15 and mean.isReliable, mean
-    # The same numbers as averageTable, where values depend on each other, in a long and in a short series.
+    # The same numbers as averageTable, for correlated values, in a long and in a short series.
     slow = numpy.convolve(noise, numpy.exp(-numpy.arange(200) / 10), "valid")
     for count, isReliable in ((3001, True), (60, False)):
         table = folder / "postProcessing/slow/y.csv"
@@ -84,7 +84,7 @@ def case(folder):
     assert "constant/flow.yaml:/Ca" in one and "constant/flow.yaml:/shearRate" not in one and one.get("constant/flow.yaml:/shearRate", 3) == 3
     assert len(one.times) == 0
     assert one.programs == ["membraneMesh", "particleFill", "dmpFlow"]
-    assert one.run() is True and one.run() is True  # the second time it is finished
+    assert one.run() is True and one.run() is True  # at the second call the run is already finished
     assert one.record["status"] == "done" and one.record["parameters"]["particles"] > 1000, one.record["parameters"]
 
     shape = one.table("deformation/rbc")
@@ -124,12 +124,12 @@ def case(folder):
 
     del one["system/control.yaml:/stop"]
     one["system/control.yaml:/endStrain"] = 0.6
-    assert one.run() and len(one.table("deformation/rbc")) > len(shape)  # it has gone on; curves are joined
+    assert one.run() and len(one.table("deformation/rbc")) > len(shape)  # the run has continued; curves are joined
     assert one.table("deformation/rbc").iloc[:len(shape)].equals(shape)
     one.clean(mesh=True)
     assert one.tables == [] and one.record == {}
 
-    # An interrupt lets the solver write a checkpoint, with ranks too.
+    # After an interrupt the solver writes a checkpoint, on several ranks too.
     one["system/control.yaml:/endStrain"] = 50
     for ranks in (1, 2):
         script = f"import sys; sys.path.insert(0, {str(SOURCE / 'python')!r}); import corpuscle; corpuscle.Case({str(one.folder)!r}).run(ranks={ranks})"

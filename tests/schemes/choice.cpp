@@ -1,4 +1,4 @@
-// What absent and automatic keys stand for, who refuses what, and what a step is predicted to be.
+// The meaning of absent and automatic keys, combinations that schemes reject, and predicted step lengths.
 #include <cmath>
 
 #include "numerics.hpp"
@@ -64,7 +64,7 @@ TEST(Choice, writtenKeysStay) {
     absent.facts.flow.transient = 1, absent.facts.flow.rate = 1;
     const NumericsSettings followed = absent.settled("implicit");
     EXPECT_DOUBLE_EQ(followed.scheme->fullStep(absent.facts, 0), 0.025);
-    EXPECT_EQ(write(followed).find("implicit")->find("step")->scalar, "0.025");  // used.yaml says so
+    EXPECT_EQ(write(followed).find("implicit")->find("step")->scalar, "0.025");  // as written to used.yaml
     EXPECT_EQ(write(absent.settings).find("implicit")->find("step")->scalar, "0.05");
 }
 
@@ -127,7 +127,7 @@ TEST(Choice, theCheapestThatCan) {
     EXPECT_EQ(cheapest(costs), "implicit");
     for (const IntegratorCost& cost : costs) {
         EXPECT_EQ(cost.whyNot, "");
-        // Steps of one length: as many as fit.
+        // All steps have the same length, so their number is the time over the step.
         if (cost.name != "rkl2") {
             EXPECT_NEAR(cost.steps, 0.05 / cost.step().seconds, 1e-9 * cost.steps) << cost.name;
         }

@@ -1,4 +1,4 @@
-// system/numerics.yaml of a few keys, as a case would have read it.
+// system/numerics.yaml with a few keys, as read by a case.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// A scheme in one file and nothing else: it has a name, a table of settings, an entry in every list, and it steps.
+// A scheme defined in this file alone: it has a name, a table of settings and an entry in every list, and it makes
+// steps.
 #include "numerics.hpp"
 #include "schemes/cost.hpp"
 #include "schemes/stepper.hpp"

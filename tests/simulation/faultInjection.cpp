@@ -1,17 +1,18 @@
-// dmpFlow with a fault put into its state between two steps: what Rollback is there for (simulation/run.hpp).
+// dmpFlow with a fault injected into its state between two steps, which Rollback must correct (simulation/run.hpp).
 //
 //     faultInjection -case DIR -kind speed -at 12 -seed 3
 //
-// kind      | what happens to one fluid particle, or to one node of one cell
-// nan       | one of its numbers, of place, velocity or density, is none
-// speed     | its velocity is a thousand times what it was
-// density   | its density is half
-// node      | it is thrown across the cell, to the other side of its middle
-// triangle  | it goes to the other side of the opposite edge of one of its triangles, which turns that over
-// cells     | the first cell of two goes half of the way to the second, with all of its nodes
-// wall      | the first cell goes to the upper wall along z
+// kind      | fault of one fluid particle, of one node of one cell, or of the first cell
+// nan       | one component of the particle's position or velocity, or its density, is set to NaN
+// speed     | the velocity of the particle is multiplied by a thousand
+// density   | the density of the particle is halved
+// node      | the node is moved across the cell, to the other side of the cell's middle
+// triangle  | the node is moved to the other side of the opposite edge of one of its triangles, which turns that over
+// cells     | the first cell of two is moved half of the way to the second, with all of its nodes
+// wall      | the first cell is moved to the upper wall along z
 // image     | the first cell is stretched to 1.3 of its length along x, and made thinner
-// The seed picks them, the same ones on any number of ranks. -always: at each time that the run comes to this step.
+// The seed selects particle and node, the same on any number of ranks. -always: each time that the run comes to this
+// step.
 #include <Eigen/Geometry>
 #include <random>
 
@@ -35,7 +36,7 @@ class Injection {
     void before(Scene& scene, long step) {
         if (step != at_ || (done_ && !always_)) return;
         done_ = true;
-        std::mt19937_64 random = random_;  // the same choice each time
+        std::mt19937_64 random = random_;  // a copy, so that the choice is the same each time
         if (kind_ == "cells" || kind_ == "wall" || kind_ == "image")
             moveCell(scene);
         else if (kind_ == "node" || kind_ == "triangle")
@@ -49,7 +50,7 @@ class Injection {
         ParticleStore& s = scene.store();
         long fluid = 0;
         for (std::size_t i = 0; i < s.size(); ++i) fluid += s.kindOf(i) == Kind::fluid;
-        fluid = Communicator(scene.system->comm()).sum(fluid);  // numbered from 0 on
+        fluid = Communicator(scene.system->comm()).sum(fluid);  // their ids start at 0
         const auto id = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(fluid));
         const auto which = random() % 7;
         for (std::size_t i = 0; i < s.size(); ++i) {
@@ -78,7 +79,7 @@ class Injection {
         for (Vec3& x : first->membrane.position) x = middle + way + stretch.cwiseProduct(x - middle);
     }
 
-    // Where the second cell began; it has hardly moved.
+    // Middle of the second cell at the start; it has hardly moved.
     static Vec3 otherMiddle(const Scene& scene) {
         geometry::Bounds bounds;
         for (const Vec3& x : scene.cells.startingNodes(2)) bounds.extend(x);

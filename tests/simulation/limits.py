@@ -23,7 +23,7 @@ SHORT = {**CELL_CASE, "system/control.yaml": CELL_CASE["system/control.yaml"].re
 
 
 def start(application, case, *options, ranks=1, limits=(), user=None, cwd=None):
-    """The finished process; limits: (resource, soft value) of the program, on all ranks, not of mpirun, which cannot start under a small one."""
+    """The finished process. limits: (resource, soft value) for the program on all ranks, not for mpirun, which cannot start under a low limit."""
     def prepare():
         for which, value in limits:
             resource.setrlimit(which, (value, resource.getrlimit(which)[1]))
@@ -42,7 +42,7 @@ def failed(done, code, *words):
     assert done.returncode == code, f"exit code {done.returncode} instead of {code}:\n{said}"
     for word in words:
         assert word in said, f"no '{word}' in\n{said}"
-    ours = re.sub(re.escape(tempfile.gettempdir()) + r"/\w+", "", said)  # without the temporary folder, whose name may hold any letters
+    ours = re.sub(re.escape(tempfile.gettempdir()) + r"/\w+", "", said)  # without the temporary folder, whose name may contain any letters
     for word in ("std::", "0x", "terminate called", "overflow"):
         assert word not in ours, f"'{word}' in\n{said}"
     return said
@@ -57,7 +57,7 @@ def temporaries(case):
 
 
 def long_folder(folder, length):
-    """A path of so many characters."""
+    """A path of this number of characters."""
     path = str(folder) + "/"
     while len(path) < length:
         path += "x" * min(200, length - len(path)) + "/"
@@ -68,7 +68,7 @@ def long_folder(folder, length):
 
 
 def test_paths(folder):
-    """Paths of any length that the system takes, on 1 and 2 ranks; too long ones are found at the start."""
+    """Paths of any length that the system allows, on 1 and 2 ranks; paths that are too long are reported at the start."""
     case = prepared(folder / "case", SHORT)
     for length, ranks in ((218, 1), (240, 2), (1000, 1), (3900, 2)):
         deep = copied(case, long_folder(folder, length))
@@ -85,7 +85,7 @@ def test_paths(folder):
 
 
 def test_sizeLimit(folder):
-    """A limit on the size of files: exit code 4 with file, reason and way out; what was good before stays, and the run goes on from there."""
+    """A limit on the size of files: exit code 4 with file, reason and remedy; valid files from before are kept, and the run continues from them."""
     case = prepared(folder / "case", SHORT)
     for ranks in (1, 2):
         own = copied(case, folder / f"own{ranks}")
@@ -101,7 +101,7 @@ def test_sizeLimit(folder):
         assert record(own)["status"] == "failed" and "File too large" in record(own)["reason"], record(own)
         run(own, "dmpFlow", ranks=ranks)
         assert record(own)["status"] == "done"
-    # A limit below what any file is tried with: refused before the first step, nothing is touched. One that results do not keep: found by them.
+    # A limit below the size that every run tries first: the run ends before the first step and changes nothing. A higher limit: results exceed it.
     again = ("-set", "system/control.yaml:/startFrom=firstTime")
     failed(start("dmpFlow", own, *again, limits=[(resource.RLIMIT_FSIZE, 20000)]), 4, "results/fluid/", "checkpoints/", "File too large")
     assert record(own)["status"] == "done" and last_checkpoint(own).stat().st_size > size
@@ -113,7 +113,7 @@ def test_sizeLimit(folder):
 
 
 def fill(folder, left):
-    """Takes all of a disk but so many bytes."""
+    """Fills a disk except for this number of bytes."""
     with open(folder / "filler", "wb", buffering=0) as filler:
         try:
             while True:
@@ -124,7 +124,7 @@ def fill(folder, left):
 
 
 def test_smallDisk(folder):
-    """Within a mount namespace of its own: a disk of 6 MiB, on which runs find no room at different times."""
+    """Within its own mount namespace: a disk of 6 MiB, which runs fill up at different times."""
     subprocess.run(["mount", "-t", "tmpfs", "-o", "size=6m", "none", str(folder)], check=True)
     try:
         onSmallDisk(folder)
@@ -164,7 +164,7 @@ def test_fullDisk(folder):
 
 
 def test_unwritable(folder):
-    """What cannot be written is found before anything is computed."""
+    """Files that cannot be written are reported before anything is computed."""
     case = prepared(folder / "case", SHORT)
     for blocked, files in (("checkpoints", 1), ("results", 1), ("postProcessing", 1)):
         own = copied(case, folder / blocked)
@@ -188,14 +188,14 @@ def test_unwritable(folder):
 
 
 def test_pipe(folder):
-    """dmpFlow | head: the run goes on to its end, the log has everything; likewise a closed standard error."""
+    """dmpFlow | head: the run continues to its end, and the log is complete; likewise with a closed standard error."""
     case = prepared(folder / "case", SHORT)
     for ranks in (1, 2):
         own = copied(case, folder / f"own{ranks}")
         launcher = f"mpirun --oversubscribe -np {ranks} " if ranks > 1 else ""
         done = subprocess.run(["bash", "-c", f"{launcher}{BIN}/dmpFlow -case {own} | head -n 1; echo ${{PIPESTATUS[0]}}"], capture_output=True, text=True)
         end = done.stdout.splitlines()[-1]
-        # mpirun's own end, by the signal or by its handler (exit code 1), which nobody below it can hold up: killed, nothing lost.
+        # mpirun itself ends, by the signal or by its handler (exit code 1), which its child processes cannot prevent: the run is killed, nothing is lost.
         if ranks > 1 and (end == str(128 + signal.SIGPIPE) or "mpirun: SIGPIPE detected" in done.stderr):
             time.sleep(1)
             failed(start("dmpFlow", own, ranks=ranks), 0)
@@ -225,7 +225,7 @@ def test_memory(folder):
 
 
 def test_damage(folder):
-    """Flipped bits in 0/*.vtp and in checkpoints are found; a damaged checkpoint is passed over."""
+    """Flipped bits in 0/*.vtp and in checkpoints are detected; a damaged checkpoint is skipped."""
     case = prepared(folder / "case", SHORT)
     randomly = random.Random(5)
 
@@ -264,7 +264,7 @@ def test_damage(folder):
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as a shell has it; Python ignores it, and children would inherit that
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # as in a shell; Python ignores the signal, and child processes would inherit that
     with tempfile.TemporaryDirectory(dir=sys.argv[3] if len(sys.argv) > 3 else None) as temporary:
         globals()["test_" + sys.argv[2]](pathlib.Path(temporary))
     print("passed")

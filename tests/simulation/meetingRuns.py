@@ -24,7 +24,7 @@ def sphere(name, radius, *centre, edge=1):
 
 
 def started(folder, mesh, code, *said, files=IMPLICIT_CASE, ranks=(1, 2), **changes):
-    """membraneMesh, then all that must refuse (2) or take (0) what it made; the messages of those that refuse hold `said`."""
+    """Runs membraneMesh, then all programs that must reject (2) or accept (0) its result; the messages of those that reject contain `said`."""
     case = make(folder, files, **{"system/mesh.yaml": mesh, "system/observers.yaml": "balance: {type: conservation, every: 0.5 strain}\n", **changes})
     run(case, "membraneMesh")
     fill = run(case, "particleFill", code=code).stderr
@@ -41,7 +41,7 @@ def started(folder, mesh, code, *said, files=IMPLICIT_CASE, ranks=(1, 2), **chan
 
 
 def test_pairs(folder):
-    """Pairs of cells apart, touching, overlapping, one in the other, through periodic faces, in two orders and orientations."""
+    """Pairs of cells: apart, touching, overlapping, one inside the other, and through periodic faces; in two orders and orientations."""
     cells = lambda *all: BOX + "cells: [" + ", ".join(all) + "]\n"
     started(folder / "apart", cells(sphere("a", 2.5, -3, 0, 0), sphere("b", 2.5, 3, 0, 0)), 0)
     started(folder / "apartAcross", cells(sphere("a", 2.5, 6, 0, 0), sphere("b", 2.5, -4, 0, 0)), 0)
@@ -84,7 +84,7 @@ def test_others(folder):
 
 RED = "{{name: {}, membrane: rbc, shape: {{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}}, edge: 0.7 um, centre: [{} um, 0 um, {} um]}}"
 NUMERICS = IMPLICIT_CASE["system/numerics.yaml"].replace("precision: double", "precision: mixed").replace("tolerance: 1e-5", "tolerance: 3e-3")
-TWO = {  # red cells that meet at strain 3.4 and cross unless something keeps them apart
+TWO = {  # red cells that meet at strain 3.4, and cross unless a contact law keeps them apart
     **IMPLICIT_CASE,
     "system/mesh.yaml": "domain: {size: [20 um, 12 um, 16 um], periodic: [true, true, false]}\ncells: [" + RED.format("a", -4.4, 0.4) + ", " + RED.format("b", 4.4, -0.4) + "]\n",
     "system/numerics.yaml": NUMERICS.replace("spacing: 1 um", "spacing: 0.6667 um"),
@@ -96,7 +96,7 @@ CONTACT = "law: {type: barrier, reach: 0.15 um, strength: 1e-5 N/m}\n"
 
 
 def test_during(folder):
-    """Cells that meet while a run goes on: exit code 3 at once, on 1 and 2 ranks, with a checkpoint from before."""
+    """Cells that meet during a run: immediate exit with code 3, on 1 and 2 ranks, with a checkpoint from before."""
     case = make(folder / "shear", TWO)
     ready(case)
     run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=2.5", ranks=2)
@@ -105,7 +105,7 @@ def test_during(folder):
         shutil.copytree(case, copy)
         met(copy, "the cells 'a' and 'b' touch or cross at (", ranks)
 
-    # Put there between two steps: a wall, the cell's own image.
+    # The cell is moved between two steps: into a wall, into its own image.
     injected = {"system/numerics.yaml": NUMERICS.replace("spacing: 1 um", "spacing: 0.8 um"), "system/observers.yaml": "",
                 "system/mesh.yaml": "domain: {size: [8 um, 8 um, 8 um], periodic: [true, true, false]}\ncells: [" + sphere("a", 3.2, 0, 0, 0) + "]\n"}
     short = make(folder / "short", IMPLICIT_CASE, **injected)
@@ -167,7 +167,7 @@ def met(case, words, ranks, application="dmpFlow", *options):
 
 
 def tailed(file):
-    """A ball of radius 2.5 um whose upper half is drawn out to 8.5 um: its tip is 7.4 um from its centroid."""
+    """A ball of radius 2.5 um whose upper half is stretched to 8.5 um: its tip is 7.4 um from its centroid."""
     golden = (1 + math.sqrt(5)) / 2
     nodes = [(x, y * golden, 0) for x in (-1, 1) for y in (-1, 1)]
     nodes += [(0, x, y * golden) for x, y, _ in ((a, b / golden, 0) for a, b, _ in nodes[:4])] + [(y, 0, x) for x, y, _ in nodes[:4]]
@@ -197,7 +197,7 @@ def tailed(file):
 
 
 def test_tailed(folder):
-    """A cell whose tip is more than half a box from its centroid has the same particles inside as in a longer box: by particleFill, checkMesh, observers."""
+    """A cell whose tip is more than half a box from its centroid has the same particles inside as in a longer box, for particleFill, checkMesh, observers."""
     inside = {}
     numerics = {"immersed": IMPLICIT_CASE["system/numerics.yaml"].replace("spacing: 1 um", "spacing: 0.5 um"),
                 "dual": CELL_CASE["system/numerics.yaml"].replace("spacing: 1 um", "spacing: 0.5 um")}
@@ -218,7 +218,7 @@ def test_tailed(folder):
         inside[name] = sides["inside"]["rbc"]
         assert abs(inside[name] / sides["expected"]["rbc"] - 1) < 0.03, (name, sides)
     assert inside["x12"] == inside["x18"] and inside["x12dual"] == inside["x18dual"], inside
-    # The observer agrees with the sides of the particles, and the solver leaves those in the tail where they are.
+    # The observer agrees with the sides of the particles, and the solver does not move the particles in the tail.
     for ranks in (1, 2):
         run(folder / "x12", "dmpFlow", "-steps", "2", ranks=ranks, code=0)
         rows = table(folder / "x12", "balance")

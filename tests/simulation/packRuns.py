@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cells put in place by cellPack: the tables, what comes after them, and what is refused.
+"""Cells placed by cellPack: its tables, the programs that follow, and input that is rejected.
 
     packRuns.py BIN TEST    BIN: directory of the applications
 """
@@ -28,7 +28,7 @@ def rows(path):
 
 
 def test_filled(folder):
-    """At a haematocrit of 0.3 between walls: the number of cells, what the next programs find, a few steps on 1 and 2 ranks."""
+    """At a haematocrit of 0.3 between walls: the number of cells, the results of the next programs, a few steps on 1 and 2 ranks."""
     case = make(folder, FILES)
     said = json.loads(run(case, "cellPack", "-json").stdout)
     cells = rows(case / "constant/red.csv")
@@ -46,7 +46,7 @@ def test_filled(folder):
 
 
 def test_mixed(folder):
-    """Two types, one of them aligned, beside a rigid body and a cell that have their own places; again by seed."""
+    """Two types, one of them aligned, beside a rigid body and a cell with places of their own; the same result for the same seed."""
     fixed = "{name: still, membrane: red, shape: {type: sphere, radius: 2 um}, edge: 0.9 um, centre: [7 um, 7 um, -5 um]}"
     body = "bodies: [{name: rod, shape: {type: sphere, radius: 2 um}, edge: 0.9 um, centre: [-7.5 um, -7.5 um, 5 um]}]\n"
     case = make(folder, FILES, **LAW, **{
@@ -68,7 +68,7 @@ def test_mixed(folder):
 
 
 def test_refused(folder):
-    """What cannot be packed is named with its place, and no table is written or changed."""
+    """An error names what cannot be packed and its place in the file, and no table is written or changed."""
     def refused(name, *said, code=2, ranks=1, options=(), **changes):
         case = make(folder / name, FILES, **changes)
         (case / "constant/red.csv").write_text("x_um,y_um,z_um\n0,0,0\n")

@@ -30,7 +30,7 @@ def listed(places):
 
 
 def cells(rows, number):
-    """Rows of one cell of a table of many."""
+    """The rows of one cell from a table of many cells."""
     return [{key: value for key, value in row.items() if key != "cell"} for row in rows if row["cell"] == number]
 
 
@@ -43,7 +43,7 @@ def pieces(case, stream):
 
 
 def test_places(folder):
-    """Three cells of one type are what three cells with names of their own are; by a list, a CSV table and a VTP alike."""
+    """Three cells of one type give the same as three cells with names of their own; by a list, a CSV table and a VTP file alike."""
     alone = ", ".join(f"{{name: {name}, membrane: rbc, {SHAPE}, centre: {vector(centre)}, axis: {vector(axis, '')}}}"
                       for name, (centre, axis) in zip("abc", PLACES))
     single = prepared(folder / "single", CASE, **{"system/mesh.yaml": BOX + f"cells: [{alone}]\n"})
@@ -83,7 +83,7 @@ def test_places(folder):
 
 
 def test_ranks(folder):
-    """The same on 1, 2 and 4 ranks, some of which hold a part of the cells only; restarts to the same bits; sizes of their own."""
+    """The same on 1, 2 and 4 ranks, some of which hold only some of the cells; restarts with the same bits; individual sizes."""
     places = [*PLACES[:2], (*PLACES[2], 0.7)]
     start = prepared(folder / "start", CASE, **{"system/mesh.yaml": listed(places)})
     ends = {}
@@ -111,7 +111,7 @@ def test_ranks(folder):
 
 
 def test_refused(folder):
-    """Cells that overlap are named by their places, at the start on any ranks; other places at a restart are refused."""
+    """Cells that overlap are named by their places, at the start and on any number of ranks; other places at a restart are rejected."""
     start = prepared(folder / "start", CASE, **{"system/mesh.yaml": listed(PLACES)})
     text = (start / "system/mesh.yaml").read_text()
     (start / "system/mesh.yaml").write_text(text.replace("[4 um, 1 um, 2.5 um]", "[-3 um, 0 um, -1 um]"))
@@ -126,7 +126,7 @@ def test_refused(folder):
     said = run(start, "dmpFlow", code=2).stderr
     assert "cells[0].places[1].centre" in said and "[4 um, 1.5 um, 2.5 um]" in said and "start from firstTime" in said, said
     assert (start / "log.dmpFlow").read_text() == before
-    # A table is compared by what is in it.
+    # Tables are compared by their contents.
     case = prepared(folder / "table", CASE, **{
         "places.csv": "x_um,y_um,z_um\n-4,0,0\n4,0,0\n", "system/mesh.yaml": BOX + f"cells: [{{name: rbc, {SHAPE}, table: places.csv}}]\n"})
     run(case, "dmpFlow", "-steps", "1", ranks=2)

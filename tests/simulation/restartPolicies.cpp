@@ -1,4 +1,4 @@
-// Every setting of a case says what a change of it means to a continued run.
+// Every setting of a case declares what a change of it means for a continued run.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -57,7 +57,8 @@ TEST(RestartPolicies, StandWhereTheyWereDecided) {
     }
 }
 
-// These are compared by values that restart.cpp derives from them; another one would be compared by nothing.
+// At a restart, these settings are compared by values that restart.cpp derives from them; any other setting with this
+// policy would not be compared at all.
 TEST(RestartPolicies, WhatIsResolvedIsDerived) {
     std::set<std::string> resolved;
     for (const auto& [key, policy] : allSettings())

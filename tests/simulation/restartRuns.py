@@ -18,7 +18,7 @@ import time
 import runs
 from runs import BIN, CELL_CASE, FLUID_CASE, copied, last_checkpoint, make, prepared, run
 
-# A few steps of a second at most, the spring and the fluid explicit. The density does not depend on the flow.
+# A few steps, one second at most, with explicit membrane and fluid. The density does not depend on the flow.
 CASE = {**CELL_CASE, "constant/flow.yaml": "type: shear\nCa: 0.1\n",
         "constant/fluid.yaml": "density: 5700 kg/m^3\nviscosity: 1.0e-3 Pa s\n",
         "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", "0.03").replace("{strain: 0.05}", "{strain: 0.01}")}
@@ -34,7 +34,7 @@ def sets(*changes):
 
 
 def contents(case):
-    """Every file of a case by its content and time of change."""
+    """Content and modification time of every file of a case."""
     return {str(p.relative_to(case)): (hashlib.sha256(p.read_bytes()).hexdigest(), p.stat().st_mtime_ns)
             for p in sorted(case.rglob("*")) if p.is_file()}
 
@@ -48,14 +48,14 @@ def unchanged(case, application, *options, code, ranks=1):
 
 
 def said(case, *options):
-    """What a run says on the terminal without -quiet."""
+    """Terminal output of a run without -quiet."""
     done = subprocess.run([str(BIN / "dmpFlow"), "-case", str(case), *options], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def started(*command, **options):
-    """A program beside this one, ended with it at the latest."""
+    """A program in the background, ended at the latest with this test."""
     process = subprocess.Popen(command, **options)
     atexit.register(lambda: process.poll() is None and process.kill())
     return process
@@ -65,7 +65,7 @@ MORE = "system/control.yaml:/endStrain=0.05"
 
 
 def test_fixed(folder):
-    """A changed setting that the state depends on refuses the restart, all of them at once, with place, old value and way out, by value."""
+    """A restart is rejected if settings that the state depends on have changed; all are reported at once, with place, old value and remedy. Values count."""
     case = prepared(folder / "case", CASE)
     run(case, "dmpFlow")
     for change, key, now, before in (
@@ -84,7 +84,7 @@ def test_fixed(folder):
         found = unchanged(case, "dmpFlow", *sets(change, MORE), code=2).stderr
         for part in (f"{key}: the case now has {now}, but ", f"was written with {before}; start from firstTime, or give the old value"):
             assert part in found, f"{change}: {part} is not in\n{found}"
-    # All at once, and the same on two ranks, each where it stands in its file.
+    # All are reported at once, each with its place in its file, and the same on two ranks.
     numerics, mesh = (case / "system/numerics.yaml"), (case / "system/mesh.yaml")
     originals = numerics.read_text(), mesh.read_text()
     numerics.write_text(originals[0].replace("support: 2.4 dx", "support: 2.6 dx"))
@@ -95,12 +95,12 @@ def test_fixed(folder):
             column = file.read_text().splitlines()[line - 1].index(value) + 1
             assert found.count(f"system/{file.name}:{line}:{column}: {key}: ") == 1, f"{line}:{column} {key}\n{found}"
         assert "3 problems in the case" in found, found
-    # The same values in other words are the same case.
+    # The same values written in another way are the same case.
     numerics.write_text(originals[0].replace("spacing: 1 um", "spacing: 0.001 mm").replace("support: 2.4 dx", "support: 2400 nm"))
     mesh.write_text(originals[1].replace("[12 um, 11 um, 10 um]", "[0.012 mm, 11000 nm, 1e-5 m]").replace("axis: [0.3, 0, 1]", "axis: [0.6, 0, 2]"))
     text = said(case, *sets(MORE))
     assert "Restart from" in text and "changed at the restart" not in text, text
-    # Density by Re: another Ca would be another fluid; the way out that the message names is one.
+    # Density from Re: another Ca would mean another fluid; the remedy that the message names works.
     case = prepared(folder / "re", {**CASE, "constant/flow.yaml": "type: shear\nCa: 0.1\ninertia: {Re: 0.5}\n"})
     run(case, "dmpFlow")
     found = unchanged(case, "dmpFlow", *sets(MORE, "constant/flow.yaml:/Ca=0.2"), code=2).stderr
@@ -156,7 +156,7 @@ def test_meshes(folder):
 
 
 def test_noted(folder):
-    """What may change at a restart is reported with both values, on the terminal, in the log and in run.json; what is free is not mentioned."""
+    """Settings that may change at a restart are reported with both values, on the terminal, in the log and in run.json; free ones are not mentioned."""
     start = prepared(folder / "start", CASE)
     run(start, "dmpFlow", "-steps", "10")
     for k, (change, expected) in enumerate((
@@ -174,7 +174,7 @@ def test_noted(folder):
                                 "system/observers.yaml:/deformation/every=0.02 strain", "system/numerics.yaml:/rollbacks=2")):
         text = said(copied(start, folder / f"free{k}"), "-steps", "2", *sets(change))
         assert "Restart from" in text and "changed at the restart" not in text, text
-    # The laws go with the cell, whatever their entry is called.
+    # The laws belong to the cell, whatever the name of their entry.
     laws = start / "constant/membranes.yaml"
     laws.write_text(laws.read_text().replace("rbc:", "healthy:") + "unused:\n  bonds: {type: harmonic, k: 1e-4 N/m}\n")
     text = said(copied(start, folder / "entry"), "-steps", "2", *sets("system/mesh.yaml:/cells/0/membrane=healthy"))
@@ -205,7 +205,7 @@ def test_anew(folder):
     run(case, "dmpFlow")
     files, checkpoints = stretches(case)
     assert set(files) == {"fluid", "rbc", "other"} and min(files.values()) >= 3 and checkpoints == 2, (files, checkpoints)
-    # One cell less; killed before its first checkpoint, the case must not be continued from the old run.
+    # One cell fewer; if killed before its first checkpoint, the case must not continue from the old run.
     lines = TWO_CELLS["system/mesh.yaml"].splitlines(keepends=True)
     prepared(case, {**TWO_CELLS, "system/mesh.yaml": "".join(lines[:3])})
     anew = "system/control.yaml:/startFrom=firstTime"
@@ -238,7 +238,7 @@ def test_anew(folder):
 
 
 def test_nearest(folder):
-    """-restart TIME and startFrom: TIME take the checkpoint nearest before; when all are later the message lists them."""
+    """-restart TIME and startFrom: TIME use the checkpoint nearest before TIME; if all are later, the message lists them."""
     case = prepared(folder / "case", FLUID_CASE)
     ends = []
     for _ in range(3):
@@ -260,7 +260,7 @@ def test_nearest(folder):
 
 
 def test_refused(folder):
-    """A command that is refused changes no file: no log is cut, no record, no mesh is written."""
+    """A rejected command changes no file: no log is truncated, and no record or mesh is written."""
     case = prepared(folder / "case", CASE)
     run(case, "dmpFlow", "-steps", "3")
     bad = sets("system/numerics.yaml:/spacng=1 um")
@@ -277,7 +277,7 @@ def test_refused(folder):
     unchanged(case, "dmpFlow", "-dry-run", *sets("system/control.yaml:/startFrom=firstTime"), code=0)
     unchanged(case, "checkCase", code=0)
     other = "system/numerics.yaml:/skin=0.4 dx"
-    for application in ("checkCase", "dmpFlow"):  # both see that the checkpoint is of another setting
+    for application in ("checkCase", "dmpFlow"):  # both detect that the checkpoint was made with another setting
         assert "skin" in unchanged(case, application, *sets(other), code=2).stderr
     unchanged(case, "checkCase", *sets(other, "system/control.yaml:/startFrom=firstTime"), code=0)
     unchanged(case, "particleFill", *sets("system/mesh.yaml:/cells/0/centre=[1 um, 0 um, 0 um]"), code=2)  # of another mesh
@@ -296,7 +296,7 @@ def test_refused(folder):
 
 
 def test_logs(folder):
-    """The log of a continued run goes on where it was; a start anew begins a new one."""
+    """The log of a continued run is continued; a new start begins a new log."""
     case = prepared(folder / "case", CASE)
     log = case / "log.dmpFlow"
     run(case, "dmpFlow", "-steps", "4")
@@ -313,7 +313,7 @@ def test_logs(folder):
 
 
 def test_lock(folder):
-    """One program at a time writes in a case; what a killed one left is taken over; nothing is left after ends, failures and signals."""
+    """Only one program at a time writes in a case; the lock of a killed one is taken over; no lock remains after normal ends, failures and signals."""
     case = prepared(folder / "case", {**CASE, "system/control.yaml": CASE["system/control.yaml"].replace("0.03", "50")})
     lock = case / "case.lock"
     def start(ranks=1, application="dmpFlow"):
@@ -335,10 +335,10 @@ def test_lock(folder):
         assert found.count("is at work in this case") == 1, found
         run(case, "dmpFlow", "-dry-run")  # writes nothing
         run(case, "checkCase")
-        begun = lambda text: [json.loads(text)[key] for key in ("application", "status", "start", "parameters")]  # the rest goes on
+        begun = lambda text: [json.loads(text)[key] for key in ("application", "status", "start", "parameters")]  # the rest changes during the run
         assert first.poll() is None and begun((case / "run.json").read_text()) == begun(kept["run.json"])
         assert (case / "log.dmpFlow").read_text().startswith(kept["log.dmpFlow"])
-        # A copy of a case that is at work is a case of its own.
+        # A copy of a running case is a case of its own.
         twin = folder / f"twin{ranks}"
         shutil.copytree(case, twin, ignore=shutil.ignore_patterns("results", "postProcessing", "checkpoints", "*.tmp"))
         run(twin, "particleFill")
@@ -353,7 +353,7 @@ def test_lock(folder):
     assert lock.exists()
     text = said(case, "-steps", "1")
     assert "is stale (that process has ended without removing it) and is taken over" in text and not lock.exists(), text
-    # Failures of the case, of the numbers, and a signal before the first step.
+    # Invalid case, diverged run, and a signal before the first step.
     run(case, "dmpFlow", *sets("system/numerics.yaml:/kernel=lucy"), code=2)
     assert not lock.exists()
     diverging = sets("constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}", "constant/flow.yaml:/Ca=2", "system/numerics.yaml:/rollbacks=0",
@@ -362,14 +362,14 @@ def test_lock(folder):
         run(case, "dmpFlow", *diverging, code=3, ranks=ranks)
         assert not lock.exists(), ranks
     fine = make(folder / "fine", {**CASE, "system/mesh.yaml": CASE["system/mesh.yaml"].replace("0.8 um", "0.1 um")})
-    for attempt in range(10):  # some of the signals come while the file is being made
+    for attempt in range(10):  # some of the signals arrive while the file is being written
         process = started(str(BIN / "membraneMesh"), "-case", str(fine), "-quiet")
         deadline = time.time() + 30
         while not (fine / "case.lock").exists() and process.poll() is None and time.time() < deadline:
             time.sleep(0.0005 * attempt)
         process.send_signal(signal.SIGTERM)
         assert process.wait(timeout=60) == -signal.SIGTERM and not (fine / "case.lock").exists(), attempt
-    # A lock of another host is believed, with what to do.
+    # A lock of another host is respected; the message says what to do.
     lock.write_text("program: dmpFlow\nprocess: 4711\nhost: node17\nboot: another\nsince: 2026-11-25T01:02:03Z\n")
     for application, code in (("dmpFlow", 4), ("membraneMesh", 4), ("particleFill", 4), ("checkMesh", 0)):
         found = unchanged(case, application, code=code).stderr
@@ -377,7 +377,7 @@ def test_lock(folder):
 
 
 def test_finished(folder):
-    """A finished case says so and how to go on, with exit code 0, and no file is changed; it goes on when its end is raised, or starts anew."""
+    """A finished case reports this and how to continue, with exit code 0, and changes no file; it continues if its end is raised, or starts anew."""
     case = prepared(folder / "case", CASE)
     run(case, "dmpFlow")
     for options, ranks in (((), 1), (("-steps", "5"), 1), ((), 2)):

@@ -1,4 +1,5 @@
-// Rims of holes in the results: those that the observer rupture measures, there once there are some.
+// Rims of holes in the results: they are those that the observer rupture measures, and are written from the first hole
+// on.
 #include "simulation/resultsWriter.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ Case writingTo(const std::filesystem::path& folder) {
     return input;
 }
 
-// On all ranks, after the writer is done.
+// Read on all ranks, after the writer has finished.
 std::vector<io::SeriesEntry> entries(const std::filesystem::path& folder) {
     Communicator().barrier();
     const auto index = folder / "results" / "holes.pvd";

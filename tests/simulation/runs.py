@@ -22,7 +22,7 @@ import vtp
 
 BIN = pathlib.Path(sys.argv[1])
 
-# Terms between particles are in double where runs are compared to rounding.
+# Pair terms are in double precision where runs are compared up to rounding.
 CELL_CASE = {
     "system/control.yaml": """application: dmpFlow
 endStrain: 0.12
@@ -109,7 +109,7 @@ cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centr
 }
 THINNING = "  viscosity: {shear: 1.6e-8 N s/m, thinning: {rate: 100 1/s, index: 0.5}}\n"  # at a shear rate of 375 1/s
 
-# The same by velocity Verlet on the same operators, for a shorter time.
+# The same with velocity Verlet and the same operators, for a shorter time.
 ADJOINT_CASE = {
     **IMPLICIT_CASE,
     "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.15").replace("{strain: 0.3}", "{strain: 0.1}"),
@@ -142,17 +142,17 @@ def prepared(folder, files=CELL_CASE, **changes):
     return case
 
 
-FILE = {"balance": "conservation.csv"}  # of observers with several files, the one meant where none is named
+FILE = {"balance": "conservation.csv"}  # default file of observers that write several
 
 
 def lines(case, observer, name=None):
-    """Of an observer's table, without its comments."""
+    """Lines of an observer's table, without comments."""
     (path,) = (case / "postProcessing" / observer).glob(name or FILE.get(observer, "*.csv"))
     return [line for line in path.read_text().splitlines() if not line.startswith("#")]
 
 
 def series(case, observer, name=None):
-    """All rows of an observer, as they stand in its table."""
+    """All rows of an observer, as text from its table."""
     return list(csv.reader(lines(case, observer, name)))[1:]
 
 
@@ -166,7 +166,7 @@ def last_checkpoint(case):
 
 
 def same_checkpoint(a, b, apart=()):
-    """apart: data sets that may differ; then the checksum of all contents does too."""
+    """apart: data sets that may differ; if there are any, the checksum of all contents may differ too."""
     excluded = [word for name in apart for word in ("--exclude-path", name)]
     done = subprocess.run(["h5diff", *excluded, str(a), str(b)], capture_output=True, text=True)
     said = done.stdout.strip()
@@ -181,7 +181,7 @@ def copied(start, case):
 
 
 def same_in_parts(whole, start, application, steps, *options, ranks=1, observers=()):
-    """A run in two parts, the first of so many steps, ends with the bits of the run `whole`; the observers' rows join without a seam."""
+    """A run in two parts, the first of `steps` steps, ends with the bits of the run `whole`; the observers' rows are those of one run."""
     parts = copied(start, whole.with_name("parts" + whole.name))
     run(parts, application, "-steps", str(steps), *options, ranks=ranks)
     run(parts, application, *options, ranks=ranks)
@@ -194,7 +194,7 @@ def same_in_parts(whole, start, application, steps, *options, ranks=1, observers
 
 
 def test_restart(folder):
-    """A run in two parts ends with the bits of a run in one, on 1 and 2 ranks, in either precision; the observers' rows join without a seam."""
+    """A run in two parts ends with the bits of a run in one, on 1 and 2 ranks, in either precision; the observers' rows are those of one run."""
     start = prepared(folder / "start")
     for ranks, precision in ((1, "double"), (2, "double"), (2, "mixed")):
         whole = copied(start, folder / f"whole{ranks}{precision}")
@@ -236,7 +236,7 @@ def test_implicit(folder):
     for row in rows:
         assert abs(row["volumeChange"]) < 1e-8 and row["changedSide"] == 0, row
         assert abs(row["density_mean"] - rows[0]["density_mean"]) < 1e-3, row
-    # Pressure for pictures: less noise inside and outside, the same on any ranks, and written without a trace in the state.
+    # Smoothed pressure for pictures: less noise inside and outside, the same on any number of ranks, and no effect on the state.
     means = {}
     for ranks in (1, 2):
         case = copied(start, folder / f"pictures{ranks}")
@@ -249,7 +249,7 @@ def test_implicit(folder):
         same_checkpoint(last_checkpoint(cases[ranks]), last_checkpoint(case))
     spread = statistics.stdev(means[1].values())
     assert means[1].keys() == means[2].keys() and max(abs(means[2][k] - p) for k, p in means[1].items()) < 0.02 * spread, spread
-    # The preconditioner changes the way, not the end; fluid alone goes through its density balance too.
+    # The preconditioner changes the number of iterations, not the result; fluid alone goes through its density balance too.
     iterations = {}
     for preconditioner in ("blockJacobi", "twoLevel", "withMembrane"):
         case = copied(start, folder / preconditioner)
@@ -257,7 +257,7 @@ def test_implicit(folder):
         close(series(cases[1], "deformation"), series(case, "deformation"), 1e-4)
         iterations[preconditioner] = json.loads((case / "run.json").read_text())["performance"]["iterationsPerStep"]
     assert iterations["withMembrane"] <= iterations["twoLevel"] + 1 < 0.7 * iterations["blockJacobi"], iterations
-    # By itself it takes the membrane in where that is stiff, as far as the stiffest asks for: no step is taken back.
+    # By default it includes the membrane where that is stiff, up to the stiffest one here: no step is taken back.
     for Ca, onNodes in ((0.3, False), (0.01, True), (1e-4, True), (1e-5, True)):
         case = copied(start, folder / f"automatic{Ca}")
         run(case, "dmpFlow", "-steps", "4", "-set", f"constant/flow.yaml:/Ca={Ca}")
@@ -265,7 +265,7 @@ def test_implicit(folder):
         assert (done["innerIterationsPerStep"] > 0) == onNodes and done["halvings"] == 0, (Ca, done)
     case = prepared(folder / "alone", FLUID_CASE)
     run(case, "sphFlow", "-steps", "12", "-set", "system/numerics.yaml:/integrator=implicit")
-    # Membrane viscosity slows the cell down, less so where it thins; bonds break at the same step on any number of ranks, and the open cell goes on.
+    # Membrane viscosity slows the deformation, less so with thinning; bonds break at the same step on any number of ranks, and the run goes on.
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n"
     D = []
     for name, law in (("viscous", THINNING.replace(", thinning: {rate: 100 1/s, index: 0.5}", "")), ("thinning", THINNING), ("elastic", "")):
@@ -281,8 +281,8 @@ def test_implicit(folder):
         run(case, "dmpFlow", ranks=ranks)
         losses.append(json.loads((case / "run.json").read_text())["result"]["brokenBonds"])
     assert losses[0] == losses[1] > 0, losses
-    # Of second order in the step. From a lattice: jittered particles are first evened out, at a pace that depends on the step. The steps are
-    # so long that their error stands out: where particles happen to be changes D12 by 2e-5.
+    # Second order in the step. Particles start on a lattice, since shifting evens out jittered ones at a rate that depends on the step. Steps are
+    # so long that their error dominates: the random positions of particles change D12 by 2e-5.
     lattice = IMPLICIT_CASE["system/mesh.yaml"] + "fill: {jitter: 0}\n"
     start = prepared(folder / "lattice", {**IMPLICIT_CASE, "system/mesh.yaml": lattice})
     D = []
@@ -305,7 +305,7 @@ def test_implicit(folder):
 
 
 def test_budget(folder):
-    """The budget of energy and momentum closes by every scheme: its residual is small and made of its parts, it is the same on 1 and 2 ranks and
+    """The budget of energy and momentum closes with every scheme: its residual is small and the sum of its parts, it is the same on 1 and 2 ranks and
     after a restart on another number of them, and what the log and run.json say is its last row. (Restarts to the same bits: restart, implicit, adjoint.)"""
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  viscosity: {shear: 1e-9 N s/m}\n"
     short = IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.12").replace("{strain: 0.3}", "{strain: 0.12}")
@@ -366,8 +366,8 @@ def test_budget(folder):
 
 
 def test_stepControl(folder):
-    """The implicit step becomes shorter where the places of nodes or a bond ask for it, is taken back where a bond would change too much, and
-    is refined where membranes are far from linear: results come nearer to those of short steps. Restarts keep their bits."""
+    """The implicit step becomes shorter where the positions of nodes or a bond require it, is taken back where a bond would change too much, and
+    is refined where membranes are far from linear: results come closer to those of short steps. Restarts give the same bits."""
     start = prepared(folder / "start", IMPLICIT_CASE)
     def at(rows, strain):
         after = next(k for k, row in enumerate(rows) if row["strain"] > strain - 1e-9)
@@ -416,7 +416,7 @@ def test_adjoint(folder):
     said = run(cases[1], "dmpFlow", "-set", "system/numerics.yaml:/coupling=dualIdentity", "-set", "system/numerics.yaml:/operators=plain",
                "-set", "system/control.yaml:/endStrain=1", code=2).stderr
     assert "coupling: the case now has dualIdentity, but " in said and "was written with immersed; start from firstTime" in said, said
-    # Membrane viscosity slows the cell down and the step limit knows it; bonds break at the same step on any number of ranks.
+    # Membrane viscosity slows the deformation and is included in the step limit; bonds break at the same step on any number of ranks.
     sheet = "rbc:\n  bonds: {type: harmonic, k: 5e-5 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n"
     slow = prepared(folder / "viscous", ADJOINT_CASE, **{"constant/membranes.yaml": sheet + "  viscosity: {shear: 1e-8 N s/m}\n"})
     swift = prepared(folder / "elastic", ADJOINT_CASE, **{"constant/membranes.yaml": sheet})
@@ -435,7 +435,7 @@ def test_adjoint(folder):
     run(parts, "dmpFlow", "-set", "system/control.yaml:/stop/firstBreak=true", code=5)
     run(parts, "dmpFlow")
     same_checkpoint(last_checkpoint(folder / "tearing1"), last_checkpoint(parts))
-    # Plain operators, and a thick inside, which slows the cell down.
+    # Plain operators, and a more viscous inside, which slows the deformation.
     thick = prepared(folder / "thick", ADJOINT_CASE, **{
         "system/numerics.yaml": ADJOINT_CASE["system/numerics.yaml"].replace("corrected", "plain"),
         "constant/membranes.yaml": ADJOINT_CASE["constant/membranes.yaml"] + "  interior: {viscosityRatio: 5}\n"})
@@ -445,7 +445,7 @@ def test_adjoint(folder):
     assert 0.02 < table(thick, "deformation")[-1]["D12_inertia"] < 0.95 * table(cases[1], "deformation")[-1]["D12_inertia"]
     record = json.loads((thick / "run.json").read_text())
     assert record["extremes"]["mostNodesWithoutLinearWeights"] == 0, record["extremes"]
-    # Its particles carry the viscosity that they were made with.
+    # Particles keep the viscosity with which they were made.
     said = run(thick, "dmpFlow", "-set", "constant/membranes.yaml:/rbc/interior/viscosityRatio=10", "-set", "system/control.yaml:/endStrain=9", code=2).stderr
     assert "interior.viscosityRatio: the case now has 10" in said and "start from firstTime" in said, said
     # Fluid alone, on either form of operators.
@@ -457,8 +457,8 @@ def test_adjoint(folder):
 
 def test_integrators(folder):
     """The implicit step and velocity Verlet solve the same discrete equations: a capsule and a red cell to strain 1, D12, inclination and area
-    to 0.5 %, at steps where either has converged; a red cell that tears. A viscosity that thins is a step behind in the implicit step: of first order,
-    and late at the start."""
+    to 0.5 %, at steps where both have converged; a red cell that tears. The implicit step uses a thinning viscosity one step late: an error of first
+    order, and a delay at the start."""
     red = {**IMPLICIT_CASE,
            "system/mesh.yaml": "domain: {size: [20 um, 16 um, 16 um], periodic: [true, true, false]}\n" + CELL_CASE["system/mesh.yaml"].splitlines()[1]
            .replace("[5 um, 0 um, 0 um], axis: [0.3, 0, 1]", "[0 um, 0 um, 0 um]") + "\n",
@@ -481,7 +481,7 @@ def test_integrators(folder):
             assert abs(b["D12_inertia"] / a["D12_inertia"] - 1) < 0.005 or a["strain"] < since
             assert abs(b["inclination_rad"] - a["inclination_rad"]) < 0.005 * math.pi / 4 and abs(b["areaChange"] - a["areaChange"]) < 5e-4
         assert len(found[0]) == 6 and found[0][-1]["changedSide"] == found[1][-1]["changedSide"] == 0
-    # A cell that tears: the same bond first, as many bonds and as much fluid lost.
+    # A cell that tears: the same bond breaks first, and as many bonds break and as much fluid is lost.
     start = prepared(folder / "torn", {
         **red, "system/observers.yaml": "tear: {type: rupture, every: 0.05 strain}\n", "system/control.yaml": red["system/control.yaml"].replace("0.6", "0.25"),
         "constant/membranes.yaml": red["constant/membranes.yaml"] + "  rupture: {type: bondStretch, limit: 1.05}\n",
@@ -498,7 +498,7 @@ def test_integrators(folder):
         assert b[key] > 0 and abs(a[key] / b[key] - 1) < 0.02, (key, ends)
 
 
-# Fluid alone that changes by itself: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
+# Transient flows of fluid alone: 32 particles across a gap of 1 mm, 16 along a wavelength of 1 mm.
 PLATES = {
     "system/control.yaml": "application: sphFlow\nendTime: 0.1 s\ncheckpoint: {wallClock: never}\n",
     "system/numerics.yaml": "spacing: 31.25 um\nprecision: double\nkernel: {type: wendlandC2, support: 3.0 dx}\nintegrator: velocityVerlet\nshifting: {coefficient: 1, steps: 10}\n",
@@ -519,12 +519,12 @@ VORTICES = {
 }
 
 
-def couette(z, t):  # over the relative speed of the walls; z over the gap
+def couette(z, t):  # velocity over the relative speed of the walls; z over the gap
     n = range(1, 60)
     return z + math.fsum((-1) ** k / (k * math.pi) * math.sin(2 * k * math.pi * z) * math.exp(-((2 * k * math.pi) ** 2) * t) for k in n)
 
 
-def poiseuille(z, t):  # over F L^2/nu
+def poiseuille(z, t):  # velocity over F L^2/nu
     y, n = z + 0.5, range(1, 60, 2)
     return 0.5 * y * (1 - y) - math.fsum(4 / (k * math.pi) ** 3 * math.sin(k * math.pi * y) * math.exp(-((k * math.pi) ** 2) * t) for k in n)
 
@@ -554,7 +554,7 @@ def decay_error(case):
 
 def test_rkl2(folder):
     """Super-time-stepping: as accurate as velocity Verlet in fewer steps, the same on 1, 2 and 4 ranks, restarts to the same bits in
-    either precision; a checkpoint of velocity Verlet is taken up, one of the implicit step is refused."""
+    either precision; a checkpoint of velocity Verlet is accepted, one of the implicit step is rejected."""
     rkl2 = ("-set", "system/numerics.yaml:/integrator=rkl2")
     errors = {"couette": lambda case: profile_error(case, couette, 1.25e-5), "poiseuille": lambda case: profile_error(case, poiseuille, 1e-4),
               "vortices": decay_error}
@@ -587,8 +587,8 @@ def test_rkl2(folder):
 
 
 def test_layers(folder):
-    """Couette flow of three layers, viscosities 1, 5 and 2, becomes the exact one, whatever steps it and in whatever form; the same on two ranks; the
-    layers lie across the walls' normal; a checkpoint of other layers is refused."""
+    """Couette flow of three layers, viscosities 1, 5 and 2, converges to the exact one with every scheme and form of operators; the same on two ranks; the
+    layers lie across the walls' normal; a checkpoint of other layers is rejected."""
     mu, U, end = (1e-3, 5e-3, 2e-3), 6.25e-6, (-0.5e-3, -0.125e-3, 0.25e-3, 0.5e-3)
     layers = "layers: [{above: -0.125 mm, viscosity: 5 mPa s}, {above: 0.25 mm, viscosity: 2 mPa s}]\n"
     stress = 2 * U / sum((high - low) / m for m, low, high in zip(mu, end, end[1:]))
@@ -633,7 +633,7 @@ def test_layers(folder):
 
 
 def test_automatic(folder):
-    """`integrator: automatic` takes what the printed prediction says is cheapest; why a scheme cannot do a case is said in words; a named one wins."""
+    """`integrator: automatic` selects the scheme with the lowest predicted cost; reasons why a scheme cannot do a case are given; a named one has priority."""
     automatic = ("-set", "system/numerics.yaml:/integrator=automatic")
     def predicted(case, *options):
         return json.loads(run(case, "checkCase", "-json", *options).stdout)
@@ -655,25 +655,25 @@ def test_automatic(folder):
     run(case, "sphFlow", "-steps", "2", "-set", "system/control.yaml:/startFrom=firstTime")
     assert json.loads((case / "run.json").read_text())["parameters"]["integrator"] == "velocityVerlet"
     assert "chosen by the case" in (case / "log.sphFlow").read_text()
-    # Sound binds: nothing to gain by stages. Vortices are for corrected operators, unless plain ones are named.
+    # The acoustic limit is decisive, so stages gain nothing. Vortices get corrected operators, unless plain ones are named.
     swift = prepared(folder / "vortices", {**VORTICES, "constant/flow.yaml": "type: taylorGreen\nspeed: 50 mm/s\n"})
     assert predicted(swift, *automatic, "-set", "system/numerics.yaml:/operators=plain")["integrator"] == "velocityVerlet"
     said = predicted(swift, *automatic)
     assert said["integrator"] == "implicit" and "plain operators" in said["integrators"]["velocityVerlet"]["whyNot"], said
-    # What automatic stands for changes with other settings: a restart says which one to name.
+    # The scheme that automatic selects depends on other settings: at a restart the message says which one to name.
     swift = copied(swift, folder / "restarted")
     run(swift, "sphFlow", "-steps", "1", *automatic)
     said = run(swift, "sphFlow", "-steps", "1", *automatic, "-set", "system/numerics.yaml:/operators=plain", code=2).stderr
     assert "integrator: the case now has velocityVerlet" in said and "what 'automatic' stands for" in said and "write 'integrator: implicit'" in said, said
-    # Cells as particles move with velocity Verlet only; immersed ones with the implicit step.
+    # Cells with dual identity require velocity Verlet; immersed ones get the implicit step.
     cell = make(folder / "cell", CELL_CASE)
     said = predicted(cell, *automatic)
     assert said["integrator"] == "velocityVerlet", said
     assert "fluid alone" in said["integrators"]["rkl2"]["whyNot"] and "dualIdentity" in said["integrators"]["implicit"]["whyNot"], said
     said = predicted(make(folder / "immersed", IMPLICIT_CASE), *automatic)
     assert said["integrator"] == "implicit", said
-    # A case that names no scheme: at low Reynolds number one implicit step on corrected operators with immersed membranes; beside rigid
-    # bodies velocity Verlet has membranes of particles.
+    # A case that names no scheme: at low Reynolds number the implicit step with corrected operators and immersed membranes; with rigid
+    # bodies velocity Verlet with dual identity.
     def settled(name, files, application, numerics, **changes):
         case = prepared(folder / name, files, **{"system/numerics.yaml": numerics}, **changes)
         run(case, application, "-steps", "1")
@@ -698,7 +698,7 @@ def test_automatic(folder):
 
 
 def close(a, b, tolerance):
-    """Tables of the same shape, every number of b within `tolerance` of that of a, over the largest of its column in a."""
+    """Whether tables have the same shape, and every number of b is within `tolerance` of that of a, relative to the largest of its column in a."""
     assert len(a) == len(b) > 0, (len(a), len(b))
     assert {len(row) for row in (*a, *b)} == {len(a[0])}, "rows of unequal width"
     for k, (mine, theirs) in enumerate(zip(zip(*a), zip(*b))):
@@ -755,12 +755,12 @@ def test_implicitBodies(folder):
     whole = copied(start, folder / "mixed")
     run(whole, "dmpFlow", "-set", "system/numerics.yaml:/precision=mixed", ranks=2)
     same_in_parts(whole, start, "dmpFlow", 5, "-set", "system/numerics.yaml:/precision=mixed", ranks=2)
-    # Past the start, in which the body is slowed down from half the curl of the flow by fluid that does not yet know of it.
+    # After the start, in which the body, at first rotating at half the curl of the flow, is slowed down by fluid that is not yet disturbed by it.
     on = ("-set", "system/control.yaml:/endStrain=0.4")
     explicit, implicit = prepared(folder / "explicit", BODY_CASE), copied(start, folder / "on")
     for case in (explicit, implicit):
         run(case, "dmpFlow", *on, ranks=2)
-    # Own computation, implicit, dx 1/3 um (0.06379 and 65.73 at 1/2 um); velocity Verlet has 0.06488 and 66.29 at 1/2 um.
+    # Values computed with Corpuscle, implicit, dx 1/3 um (0.06379 and 65.73 at 1/2 um); velocity Verlet has 0.06488 and 66.29 at 1/2 um.
     limit = {"rotation": 0.06358, "rate": 65.50}
     for name, case, allowed in (("velocity Verlet", explicit, 0.06), ("implicit", implicit, 0.025)):
         rows = table(case, "motion")
@@ -844,7 +844,7 @@ def test_stop(folder):
 
 
 def test_rollback(folder):
-    """A fault in the state: back and on with shorter steps, to the same end; one that comes again and again ends the run with all that helps to find it."""
+    """After a fault in the state, rollback and shorter steps, to the same final state; a fault that recurs ends the run with all that helps to find it."""
     implicit = CELL_CASE["system/numerics.yaml"].replace("integrator: velocityVerlet\ncoupling: dualIdentity\n", "integrator: implicit\n")
     implicit = implicit.replace("shifting: {coefficient: 0.5, steps: 7}\n", "implicit: {step: 0.01}\n")
     length = CELL_CASE["system/control.yaml"].replace("0.12", "0.3")
@@ -878,7 +878,7 @@ def test_rollback(folder):
         run(harmed, "dmpFlow", ranks=ranks)  # from the checkpoint of the last good state
         found, _ = figures(harmed)
         assert abs(found["D12_extent"] - expected["D12_extent"]) < 0.005 * expected["D12_extent"]
-        if name == "implicit":  # what is taken for a membrane is one
+        if name == "implicit":  # what renderCase takes for a membrane is one, also beside the fault files
             run(harmed, "renderCase", "-times", "0,0.3", "-output", str(harmed / "cells.png"))
         never = copied(case, folder / (name + "Never"))
         run(never, "faultInjection", *options, "-set", "system/numerics.yaml:/rollbacks=0", code=3)
@@ -906,7 +906,7 @@ def test_endings(folder):
     run(case, "particleFill")
     assert "-steps" in run(case, "dmpFlow", "-step", "3", code=1).stderr
     assert "viscosity" in run(case, "dmpFlow", "-set", "constant/fluid.yaml:/viscosty=1 Pa s", code=2).stderr
-    for ranks in (1, 2):  # said once, whichever rank it befell
+    for ranks in (1, 2):  # reported once, on whichever rank it occurred
         said = run(case, "dmpFlow", "-set", "constant/fluid.yaml:/equationOfState={type: tait, soundSpeed: 1e-6 m/s}",
                    "-set", "system/control.yaml:/endStrain=20", "-set", "constant/flow.yaml:/Ca=2", "-set", "system/numerics.yaml:/rollbacks=0",
                    ranks=ranks, code=3).stderr
@@ -926,7 +926,7 @@ def test_endings(folder):
 
 
 def test_start(folder):
-    """A start in 0/ is refused by a case that says otherwise than when it was made, and holds for what only the run depends on."""
+    """A start in 0/ is rejected if the case has changed since it was made, except for settings on which only the run depends."""
     case = prepared(folder / "case")
     def of(application, code, *changes, **more):
         return run(case, application, *(word for change in changes for word in ("-set", change)), code=code, **more)
@@ -958,7 +958,7 @@ def test_start(folder):
             "constant/flow.yaml:/walls={normal: y}")
     of("dmpFlow", 2, "system/mesh.yaml:/domain/size=[13 um, 11 um, 10 um]", ranks=2)
 
-    # A new mesh does not make an old filling fit; a cell that is gone is named once.
+    # A new mesh does not make an old filling valid; a removed cell is named once.
     two = CELL_CASE["system/mesh.yaml"].replace("]\n", ", {name: b, membrane: rbc, shape: {type: sphere, radius: 1.5 um}, edge: 0.7 um, centre: [-1 um, 0 um, 0 um]}]\n")
     other = prepared(folder / "two", **{"system/mesh.yaml": two})
     (other / "system/mesh.yaml").write_text(CELL_CASE["system/mesh.yaml"])
@@ -969,7 +969,7 @@ def test_start(folder):
     said = run(other, "dmpFlow", "-set", "system/mesh.yaml:/cells/0/edge=0.7 um", code=2).stderr
     assert "cells[0].edge: the case says 7e-07 m, but 0/fluid.vtp was made for 8e-07 m; run particleFill again" in said, said
 
-    # The same settings in other words, and settings that only the run depends on.
+    # The same settings written in another way, and settings on which only the run depends.
     of("checkCase", 0, "system/mesh.yaml:/domain/size=[0.012 mm, 0.011 mm, 0.01 mm]", "system/mesh.yaml:/cells/0/axis=[0.6, 0, 2]", "system/mesh.yaml:/fill={seed: 9}")
     run_only = ("constant/flow.yaml:/Ca=0.2", "constant/flow.yaml:/inertia={Re: 4}", "constant/fluid.yaml:/viscosity=2e-3 Pa s",
                 "constant/membranes.yaml:/rbc/bonds/k=4e-4 N/m", "system/numerics.yaml:/skin=0.4 dx", "system/control.yaml:/endStrain=0.05")
@@ -982,11 +982,11 @@ def test_start(folder):
     assert len(series(case, "balance")) > 3
     close(series(fresh, "balance"), series(case, "balance"), 1e-9)
 
-    # A checkpoint holds on to its box and density too.
+    # A checkpoint is tied to its box and density too.
     assert "domain.size: the case now has [13 um, 11 um, 10 um]" in of("dmpFlow", 2, *run_only, "system/mesh.yaml:/domain/size=[13 um, 11 um, 10 um]").stderr
     assert "start from firstTime" in of("dmpFlow", 2, *run_only, "constant/flow.yaml:/inertia={Re: 5}").stderr
 
-    # Without cells the kernel matters for the depth of the walls alone.
+    # Without cells the kernel affects only the depth of the walls.
     fluid = prepared(folder / "fluid", FLUID_CASE)
     kernel = "system/numerics.yaml:/kernel={{type: lucy, support: {} dx}}"
     run(fluid, "sphFlow", "-dry-run", "-set", kernel.format(2.9))
@@ -1028,7 +1028,7 @@ def test_skipping(folder):
 
 
 def tearing(folder, rupture, strain):
-    """A case at Ca 2 with a rupture law, filled; leakage guard and observer look at every step."""
+    """A case at Ca 2 with a rupture law, filled; leakage guard and observer act at every step."""
     return prepared(folder, **{
         "system/numerics.yaml": CELL_CASE["system/numerics.yaml"] + "guard: 1\n",
         "system/control.yaml": CELL_CASE["system/control.yaml"].replace("0.12", str(strain)),
@@ -1054,7 +1054,7 @@ def test_rupture(folder):
         first = seen["events"][0]["strain"]
         before = [row for row in rows if row["strain"] < first]
         assert len(before) > 20, len(before)
-        # leaked is the count of inside particles beyond the surface, whatever the reason: none, so nothing could be released.
+        # leaked counts the inside particles beyond the surface, whatever the reason: it is zero, so nothing could be released.
         for key in ("leaked", "released", "releasedVolume_m3", "haemolysisIndex_percent", "bondsBroken", "holes"):
             assert all(row[key] == 0 for row in before), key
         assert ends[ranks]["firstBreak_strain"] == first
@@ -1073,7 +1073,7 @@ def test_rupture(folder):
 
 
 def test_damage(folder):
-    """Damage gathers to the same tear on 1, 2 and 4 ranks, is in results and checkpoints, and a restart goes on to the same bits."""
+    """Damage leads to the same tear on 1, 2 and 4 ranks, is in results and checkpoints, and a restart continues with the same bits."""
     start = tearing(folder / "start", "{type: damage, onset: 0.01, scale: 0.02, time: 0.4 us, exponent: 2}", 0.5)
     seen = {}
     for ranks in (1, 2, 4):
@@ -1097,7 +1097,7 @@ def test_damage(folder):
     steps = next(k for k, row in enumerate(rows) if row["maxDamage"] > 0.1)  # a row for each step
     for ranks in (1, 2):
         parts = same_in_parts(folder / f"np{ranks}", start, "dmpFlow", steps, ranks=ranks)
-    # Another law of rupture at a restart is said; one that keeps damage then starts without any.
+    # Another law of rupture at a restart is reported; a law with damage then starts without any.
     other = copied(parts, folder / "other")
     none = ("-set", "constant/membranes.yaml:/rbc/rupture=none")
     for changed, end in ((none, 0.55), ((), 0.6)):
@@ -1109,7 +1109,7 @@ def test_damage(folder):
 
 
 def test_firstBreak(folder):
-    """stop.firstBreak ends a run at the step of the first break with exit code 5; a cell that bears its flow is run to the end."""
+    """stop.firstBreak ends a run at the step of the first break with exit code 5; without a break the run goes to its end."""
     case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)
     stop = ("-set", "system/control.yaml:/stop/firstBreak=true")
     for ranks in (1, 2):
@@ -1120,14 +1120,14 @@ def test_firstBreak(folder):
         assert record["result"]["brokenBonds"] == len(events) > 0
         assert {e["strain"] for e in events} == {record["result"]["strain"]} == {record["observers"]["tear"]["firstBreak_strain"]}
     assert json.loads((case / "run.json").read_text())["performance"]["steps"] > 10
-    run(case, "dmpFlow", *stop, code=5)  # the break is past: no step more
+    run(case, "dmpFlow", *stop, code=5)  # the break has occurred: no further step
     assert json.loads((case / "run.json").read_text())["performance"]["steps"] == 0
     run(case, "dmpFlow", *stop, "-set", "system/control.yaml:/startFrom=firstTime", "-set", "system/control.yaml:/endStrain=0.05")
     assert json.loads((case / "run.json").read_text())["result"]["brokenBonds"] == 0
 
 
 def test_stressFree(folder):
-    """A cell goes back to the stress-free shape that its case names; its own mesh changes nothing; another mesh is refused."""
+    """A cell relaxes to the stress-free shape that its case names; its own mesh as that shape changes nothing; another mesh is rejected."""
     laws = CELL_CASE["constant/membranes.yaml"]
     relax = """cell: {name: rbc, shape: {type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}, edge: 0.8 um}
 protocol: {type: resting}

@@ -1,4 +1,4 @@
-// The table of safe ranges: what it must look like, and that the one built in does.
+// The table of safe ranges: its format, and that the built-in table conforms to it.
 #include "simulation/safeRange.hpp"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent))
 from runs import IMPLICIT_CASE, copied, last_checkpoint, make, prepared, run, same_in_parts, series, table
 
 SPHERE = "{{name: {}, membrane: rbc, shape: {{type: sphere, radius: 2.4 um}}, edge: 0.7 um, centre: [{} um, {} um, {} um]}}"
-# Two capsules of which the second, on the sliding faces, has to pass the first: at strain 1.3 they would touch but for the fluid.
+# Two capsules, of which the second, on the sliding faces, must pass the first: at strain 1.3 they would touch, were it not for the fluid.
 CASE = {
     **IMPLICIT_CASE,
     "system/mesh.yaml": "domain: {size: [11.2 um, 8.4 um, 8.4 um], periodic: [true, true, true]}\n"
@@ -39,7 +39,7 @@ def onRanks(start, folder):
 
 
 def test_ranks(folder):
-    """The same on 1, 2 and 4 ranks: shapes, stress, volumes; nobody crosses, and the fluid keeps its shear."""
+    """The same on 1, 2 and 4 ranks: shapes, stress, volumes; no particle crosses a membrane, and the fluid keeps its shear."""
     start = prepared(folder / "start", CASE)
     found = {}
     for ranks, case, record in onRanks(start, folder):
@@ -47,7 +47,7 @@ def test_ranks(folder):
         stress = table(case, "blood", "suspension.csv")
         balance = table(case, "balance")
         assert max(abs(row["volumeChange"]) for row in balance) < 1e-7 and balance[-1]["changedSide"] == 0, balance[-1]
-        # What the images put in is the stress by another route, and the budget closes with it.
+        # The work of the images gives the stress independently, and the budget closes with it.
         budget = table(case, "balance", "budget.csv")
         assert budget[-1]["residualShare"] < 2e-3, budget[-1]
         drift = record["observers"]["balance"]["momentumDriftShare"]
@@ -63,7 +63,7 @@ def test_ranks(folder):
         print(ranks, byImages, byCells, budget[-1]["residualShare"], drift)
         last = table(case, "mean", "profile.csv")[-6:]
         rate = stress[-1]["strain"] / stress[-1]["time_s"]
-        for row in last:  # cells disturb it by less than this
+        for row in last:  # cells disturb the flow by less than this
             assert abs(row["u_m_s"] - rate * row["position_m"]) < 0.12 * rate * 8.4e-6, row
     for ranks in (2, 4):
         for one, other in zip(found[1][0], found[ranks][0], strict=True):
@@ -77,7 +77,7 @@ def test_ranks(folder):
 
 
 def test_viscous(folder):
-    """The same with all that is done apart: a viscous inside, a gradient along y, sums in single precision; on 1, 2 and 4 ranks."""
+    """The same with the options that have code of their own: a viscous inside, a gradient along y, sums in single precision; on 1, 2 and 4 ranks."""
     case = {
         **CASE,
         "system/mesh.yaml": "domain: {size: [11.2 um, 8.4 um, 8.4 um], periodic: [true, true, true]}\n"
@@ -107,7 +107,7 @@ def test_viscous(folder):
             assert abs(one["D12_inertia"] - other["D12_inertia"]) < 3e-4, (ranks, one, other)
         for one, other in zip(found[1][1], found[ranks][1], strict=True):
             assert abs(one["relativeViscosity"] - other["relativeViscosity"]) < 3e-3, (ranks, one, other)
-    # Across z it is the same flow: shapes agree but for the lattice.
+    # With the gradient along z the flow is the same: shapes agree except for the effect of the lattice.
     upright = prepared(folder / "upright", {**case, **{name: CASE[name] for name in ("system/mesh.yaml", "constant/flow.yaml")}})
     run(upright, "dmpFlow", ranks=2)
     for one, other in zip(found[1][0], [*table(upright, "form", "a.csv"), *table(upright, "form", "b.csv")], strict=True):
@@ -133,7 +133,7 @@ def test_bodies(folder):
     for ranks, case, record in onRanks(start, folder):
         budget = table(case, "balance", "budget.csv")
         assert budget[-1]["residualShare"] < 5e-3 and budget[-1]["workOfImages_J"] > 0, budget[-1]
-        # Of the first steps, when the flow meets the held sphere; between walls it is twice that.
+        # From the first steps, when the flow meets the held sphere; between walls it is twice as large.
         assert record["observers"]["balance"]["momentumDriftShare"] < 8e-3, record["observers"]["balance"]
         assert table(case, "balance")[-1]["changedSide"] == 0
         found[ranks] = table(case, "motion", "free.csv"), budget
@@ -142,7 +142,7 @@ def test_bodies(folder):
         assert 0.3 < last["angularVelocity_y_1_s"] / rate < 0.7, last
         assert last["centre_x_m"] - first["centre_x_m"] > 0.5 * rate * last["time_s"] * 4.1e-6, (first, last)
         held = table(case, "motion", "held.csv")[-1]
-        assert held["velocity_x_m_s"] == 0 and held["force_x_N"] < 0, held  # the flow at its place goes to -x
+        assert held["velocity_x_m_s"] == 0 and held["force_x_N"] < 0, held  # the flow at its place is in -x
     for ranks in (2, 4):
         for one, other in zip(found[1][0], found[ranks][0], strict=True):
             assert abs(one["centre_x_m"] - other["centre_x_m"]) < 1e-3 * 0.7e-6 and abs(one["velocity_x_m_s"] - other["velocity_x_m_s"]) < 1e-3 * 2.6e-3, (one, other)
@@ -168,7 +168,7 @@ def test_restart(folder):
     run(other, "dmpFlow", ranks=1)
     for one, two in zip(table(folder / "whole1", "blood", "suspension.csv"), table(other, "blood", "suspension.csv"), strict=True):
         assert abs(one["relativeViscosity"] - two["relativeViscosity"]) < 1e-3, (one, two)
-    # At another shear rate images go on from where they are: the offset is that of the strain, whatever the rate.
+    # At another shear rate images continue from where they are: the offset is that of the strain, whatever the rate.
     physical = prepared(folder / "physical", {**case, "constant/flow.yaml": "type: leesEdwards\nCa: 0.3\n", "constant/fluid.yaml": "density: 1000 kg/m^3\nviscosity: 1e-3 Pa s\n"})
     run(physical, "dmpFlow", "-set", "system/control.yaml:/endStrain=0.5")
     run(physical, "dmpFlow", "-set", "constant/flow.yaml:/Ca=0.15", ranks=2)
@@ -180,7 +180,7 @@ def test_restart(folder):
 
 
 def test_refused(folder):
-    """What such a box cannot do yet, and keys that do not fit it."""
+    """Features that such a box does not support yet, and keys that do not apply to it."""
     def refused(words, code=2, **changes):
         said = run(make(folder / "refused", CASE, **changes), "membraneMesh", code=code).stderr
         assert words in said, f"{words} is not in\n{said}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Where steps end: at results, curves and ends to the bit, whatever the ranks and wherever a run is split; strain over restarts; runs that come no further.
+"""Ends of steps: exactly at results, curves and ends, for any number of ranks and wherever a run is split; strain over restarts; runs without progress.
 
     steppingRuns.py BIN TEST    BIN: directory of the applications
 """
@@ -67,13 +67,13 @@ def test_events(folder):
     for integrator in ("velocityVerlet", "rkl2"):
         case = copied(fluid, folder / integrator)
         run(case, "sphFlow", "-set", f"system/numerics.yaml:/integrator={integrator}")
-        if integrator == "velocityVerlet":  # steps of the other are longer than the interval
+        if integrator == "velocityVerlet":  # steps of the other integrator are longer than the interval
             assert [row["time_s"] for row in table(case, "wall")] == multiples(0.03, 0.09)
         assert record(case)["result"]["time_s"] == 0.1, integrator
 
 
 def test_strain(folder):
-    """Another shear rate from a checkpoint on: strain, curves, results and end go on from that of the checkpoint; a rollback does not change it."""
+    """Another shear rate after a checkpoint: strain, curves, results and end continue from those of the checkpoint; a rollback does not change this."""
     case = prepared(folder / "case", SMALL, **{
         "system/control.yaml": "application: dmpFlow\nendStrain: 0.3\nwrite: {strain: 0.3}\ncheckpoint: {wallClock: never}\n",
         "constant/flow.yaml": PHYSICAL, "system/observers.yaml": "deformation: {type: shape, every: 0.1 strain}\n"})
@@ -90,14 +90,14 @@ def test_strain(folder):
         assert abs(record(where)["result"]["strain"] - 0.6) < 1e-15
         assert abs(record(where)["result"]["time_s"] - first - 0.3 / 600) < 1e-12
     assert record(harmed)["performance"]["rollbacks"] == 1
-    # And back to the first rate, where no strain is left: the end is reached already.
+    # Back at the first rate, no strain is left: the end has already been reached.
     run(case, "dmpFlow", "-set", "system/control.yaml:/endStrain=0.5")
     assert abs(record(case)["result"]["strain"] - 0.6) < 1e-15
 
 
 def test_creeping(folder):
-    """A run that comes no further, or would never end, ends with exit code 3, the limit that binds and what to change; a fault of the geometry is not
-    tried again; a state that is not finite is not written."""
+    """A run without progress, or that would never end, ends with exit code 3, the decisive limit and what to change; a fault of the geometry is not
+    tried again; a non-finite state is not written."""
     start = prepared(folder / "start", SMALL)
     for what, error, ranks in (("the step has fallen to", "1e-8", 1), ("tries have brought the run", "2e-6", 2)):
         case = copied(start, folder / error)
@@ -111,7 +111,7 @@ def test_creeping(folder):
     assert "the run would take" in said and "'acoustic'" in said and "soundSpeed" in said, said
 
     explicit = prepared(folder / "explicit")
-    for kind, at in (("nan", "3"), ("nan", "4")):  # between two looks at the state
+    for kind, at in (("nan", "3"), ("nan", "4")):  # between two checks of the state
         case = copied(explicit, folder / f"{kind}{at}")
         said = run(case, "faultInjection", "-kind", kind, "-at", at, "-seed", at, "-steps", "5", "-set", "system/numerics.yaml:/rollbacks=0", code=3).stderr
         assert "no finite" in said, said
@@ -119,7 +119,7 @@ def test_creeping(folder):
 
 
 def test_burst(folder):
-    """checkCase ends its burst where the run ends, goes back as the solver does, and finds no fault with what the solver runs."""
+    """checkCase ends its burst of steps where the run ends, rolls back as the solver does, and finds no fault in a case that the solver runs."""
     short = prepared(folder / "short", SMALL)
     hard = copied(short, folder / "hard")
     terms = ("-set", "system/numerics.yaml:/implicit={step: 0.4, tolerance: 1e-3, error: 1, bondStrain: 0.004}", "-set", "constant/flow.yaml:/Ca=1.5")

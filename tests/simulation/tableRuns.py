@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables of observers over starts, restarts and kills: one curve, of this run alone, that can always be read.
+"""Tables of observers over starts, restarts and kills: one curve, of this run only, that can always be read.
 
     tableRuns.py BIN TEST    BIN: directory of the applications
 """
@@ -45,7 +45,7 @@ def prepared(folder):
 
 
 def test_continued(folder):
-    """A run in three parts, on 1 and 2 ranks, has the files and the rows of one in a single part; the head says what each column is."""
+    """A run in three parts, on 1 and 2 ranks, has the files and rows of a run in one part; the head describes each column."""
     whole = prepared(folder / "whole")
     shutil.copytree(whole, folder / "parts")
     run(whole, "sphFlow")
@@ -65,7 +65,7 @@ def test_continued(folder):
 
 
 def test_fresh(folder):
-    """What runs before have left, by this version and by earlier ones, is not taken for this run's; what a user has put there stays."""
+    """Tables of previous runs, by this version and by earlier ones, are not mistaken for those of this run; files of the user stay."""
     case = prepared(folder)
     run(case, "sphFlow", *until(0.1))
     run(case, "sphFlow")
@@ -86,7 +86,7 @@ def test_fresh(folder):
 
 
 def test_changed(folder):
-    """Another set of columns at a restart: a warning, the old rows under another name, the table begins anew and can be read."""
+    """Another set of columns at a restart: a warning; the old rows are moved to another name, and the table begins anew and can be read."""
     case = prepared(folder)
     run(case, "sphFlow", *until(0.1))
     table = case / "postProcessing/balance/conservation.csv"
@@ -101,7 +101,7 @@ def test_changed(folder):
 
 
 def test_killed(folder):
-    """Killed at any moment, start and restart included: each table can be read, and the run that ends has the rows of one that was left alone."""
+    """Killed at any moment, start and restart included: each table can be read, and the final run has the rows of an undisturbed one."""
     calm = prepared(folder / "calm")
     shutil.copytree(calm, folder / "killed")
     began = time.monotonic()

@@ -1,5 +1,5 @@
-// Velocity and pressure of the periodic flows at t = 0 against the equations that they solve, by differences of fourth
-// order.
+// Initial velocity and pressure of the periodic flows, compared with the equations that they solve by fourth-order
+// finite differences.
 #include <gtest/gtest.h>
 
 #include "sph/abcFlow.hpp"
@@ -13,7 +13,7 @@ using namespace corpuscle::sph::testing;
 namespace {
 
 constexpr double L = 2, mu = 0.3, density = 1.5, nu = mu / density, k = std::numbers::pi;  // k = 2 pi/L
-constexpr double step = 5e-3 * L;                                                          // of differences
+constexpr double step = 5e-3 * L;                                                          // of the finite differences
 
 FlowState resolved(const std::string& text, const Vec3& size = {L, L, L}) {
     Problems problems;
@@ -31,7 +31,7 @@ std::invoke_result_t<F, const Vec3&> derivative(F&& f, const Vec3& x, int axis) 
     const Vec3 d = step * Vec3::Unit(axis);
     return (8 * (f(Vec3(x + d)) - f(Vec3(x - d))) - (f(Vec3(x + 2 * d)) - f(Vec3(x - 2 * d)))) / (12 * step);
 }
-Mat3 gradient(const FlowState& flow, const Vec3& x) {  // (i, j): of u_i along j
+Mat3 gradient(const FlowState& flow, const Vec3& x) {  // element (i, j): derivative of u_i along j
     Mat3 G;
     for (int j = 0; j < 3; ++j) G.col(j) = derivative([&](const Vec3& p) -> Vec3 { return flow.velocity(p); }, x, j);
     return G;
@@ -50,8 +50,8 @@ std::vector<Vec3> places() {
 
 struct PeriodicFlow {
     const char *name, *text;
-    double decay;   // of the velocity, in nu k^2
-    double energy;  // mean per mass at t = 0, for the amplitudes of `text`
+    double decay;   // rate of decay of the velocity, in nu k^2
+    double energy;  // kinetic energy per mass at t = 0, mean over the box, for the amplitudes of `text`
     double fastest;
     bool similar;  // keeps its shape at any Reynolds number
 };
@@ -71,7 +71,8 @@ TEST_P(PeriodicFlows, haveNoDivergence) {
     for (const Vec3& x : places()) EXPECT_NEAR(gradient(flow, x).trace(), 0, 1e-12) << x.transpose();
 }
 
-// nu lap u = -decay nu k^2 u; the rest of the momentum equation is the pressure's where the flow keeps its shape.
+// nu lap u = -decay nu k^2 u; if the flow keeps its shape, the pressure gradient balances the rest of the momentum
+// equation.
 TEST_P(PeriodicFlows, solveTheMomentumEquation) {
     const FlowState flow = resolved(GetParam().text);
     for (const Vec3& x : places()) {
@@ -85,8 +86,8 @@ TEST_P(PeriodicFlows, solveTheMomentumEquation) {
     }
 }
 
-// lap p = -rho sum_ij (du_i/dx_j)(du_j/dx_i): the pressure that keeps the divergence zero, whether the shape is kept or
-// not.
+// lap p = -rho sum_ij (du_i/dx_j)(du_j/dx_i): the pressure that keeps the divergence zero, whether or not the flow
+// keeps its shape.
 TEST_P(PeriodicFlows, startWithTheirPressure) {
     const FlowState flow = resolved(GetParam().text);
     double largest = 0;
@@ -123,7 +124,7 @@ TEST_P(PeriodicFlows, haveTheirKineticEnergySpeedAndTime) {
 INSTANTIATE_TEST_SUITE_P(Flows, PeriodicFlows, ::testing::ValuesIn(periodicFlows),
                          [](const auto& instance) { return instance.param.name; });
 
-// By the formulas of the headers, from the lower corner.
+// Compared with the formulas of the headers, with coordinates from the lower corner of the box.
 TEST(TaylorGreen, hasItsValuesInACube) {
     const FlowState flow = resolved("{type: taylorGreen, speed: 2 m/s, dimensions: 3}");
     const double x = 0.3, y = 0.5, z = 0.2;

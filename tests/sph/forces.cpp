@@ -1,4 +1,4 @@
-// Pair forces against a plain double loop over all pairs and images, written from the equations.
+// Pair forces compared with a plain double loop over all pairs and images, written from the equations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,8 @@ const Case cases[] = {
     {"wendlandWallsBoth", "wendlandC2", "linear", true, true, true, 0, {6, 6, 11}},
 };
 
-constexpr double layers = 2.6;  // thickness of a wall in the boxes with walls: surfaces lie off the lattice's planes
+// Thickness of a wall in the boxes with walls, whose surfaces do not coincide with lattice planes.
+constexpr double layers = 2.6;
 
 class Forces : public ::testing::TestWithParam<Case> {
   protected:
@@ -65,13 +66,14 @@ class Forces : public ::testing::TestWithParam<Case> {
         deal(all, *system);
     }
 
-    // What a particle had as acceleration and rate of density before: they enter what is extrapolated.
+    // Acceleration and density rate of a particle from an earlier step, with which velocity and density are
+    // extrapolated.
     static double earlierRate(int id) { return 0.2 * std::sin(2.0 * id); }
     static Vec3 earlier(int id, bool wall) {
         return wall ? Vec3::Zero().eval() : Vec3(std::sin(id), std::cos(id), 0.3);
     }
 
-    // Forces against the double loop, errors relative to the largest.
+    // Compares forces with the double loop; errors are relative to the largest force.
     void compare(double tolerance);
 
     struct Sum {
@@ -159,7 +161,7 @@ void Forces::compare(double tolerance) {
 
 TEST_P(Forces, equalThePlainDoubleLoop) { compare(1e-12); }
 
-// Mixed precision: the rounding of float, 6e-8, of pressures that are large beside their differences.
+// Mixed precision: float rounding, 6e-8, of pressures that are large compared with their differences.
 TEST_P(Forces, equalItToTheRoundingOfFloatInMixedPrecision) {
     build(Precision::mixed);
     compare(2e-6);

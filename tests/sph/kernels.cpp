@@ -16,7 +16,7 @@ namespace {
 const char* const names[] = {"lucy", "wendlandC2", "quintic"};
 }
 
-// Lattice limits of docs/theory/timeStep.md, in dx^2/nu.
+// Lattice limits from docs/theory/timeStep.md, in dx^2/nu.
 TEST(Kernels, viscousRateOnALattice) {
     const std::tuple<const char*, double, double> known[] = {{"lucy", 2.6, 0.3261},
                                                              {"wendlandC2", 2.8, 0.2881},
@@ -31,7 +31,7 @@ TEST(Kernels, integrateToOneOverTheirSupport) {
     for (const char* name : names) {
         const auto kernel = choose<Kernel>(name);
         for (const double H : {1.0, 2.5e-6}) {
-            const int n = 3000;  // Simpson; multiples of 3 put the quintic's joints on nodes
+            const int n = 3000;  // Simpson's rule; multiples of 3 put the breakpoints of the quintic on nodes
             double sum = 0;
             for (int i = 0; i <= n; ++i) {
                 const double q = static_cast<double>(i) / n, weight = i == 0 || i == n ? 1 : (i % 2 ? 4 : 2);
@@ -61,8 +61,8 @@ TEST(Kernels, slopeIsTheDerivativeOverTheDistance) {
     }
 }
 
-// S2 - 1 in per cent and neighbours on the cubic lattice. Source: computed by direct summation for this project,
-// independently of this code; rounded to one decimal (two below 0.1).
+// S2 - 1 in per cent, and number of neighbours, on the cubic lattice. Source: computed by direct summation for this
+// project, independently of this code; rounded to one decimal (two below 0.1).
 TEST(Kernels, secondMomentsOnTheLattice) {
     struct Row {
         double support, lucy, wendland, quintic;

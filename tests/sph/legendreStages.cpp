@@ -1,4 +1,4 @@
-// RKL2 on du/dt = M u with matrices whose exponentials are known.
+// RKL2 for du/dt = M u with matrices whose exponentials are known.
 #include "sph/legendreStages.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 using Vector = std::vector<double>;
 constexpr double pi = std::numbers::pi;
 
-// One step of the header's formulas. apply: u -> M u.
+// One step by the formulas of the header. apply: u -> M u.
 template <class Apply>
 Vector step(const Vector& u, double dt, int count, Apply&& apply) {
     const LegendreStages stages(count);
@@ -34,7 +34,7 @@ Vector step(const Vector& u, double dt, int count, Apply&& apply) {
     return Y;
 }
 
-// What a step multiplies a mode of rate -lambda by.
+// The factor by which a step multiplies a mode of rate -lambda.
 double factor(double lambdaDt, int count) {
     return step({1.0}, 1, count, [&](const Vector& u) { return Vector{-lambdaDt * u[0]}; })[0];
 }

@@ -1,5 +1,5 @@
-// The operators of the implicit step by a plain double loop over all pairs and images, written from the equations of
-// sph/operators.hpp.
+// Reference for the operators of the implicit step: a plain double loop over all pairs and images, written from the
+// equations of sph/operators.hpp.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ struct OperatorCase {
     const char* name;
     std::string kernel;
     OperatorForm form;
-    bool varying, walls;  // masses and viscosities
+    bool varying, walls;  // varying: masses and viscosities vary
     Index3 size;
-    bool layers = false;  // viscosity as that of layers, though it varies from particle to particle
+    bool layers = false;  // the viscosity is treated as that of layers, although it varies from particle to particle
 };
 inline constexpr auto plain = OperatorForm::plain, corrected = OperatorForm::corrected;
 
@@ -57,7 +57,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
     FluidModel fluid;
     std::vector<Particle> all;
     std::unique_ptr<ParticleSystem> system;
-    // By the double loop, all particles by their number.
+    // Results of the double loop, for all particles by their number.
     struct Pair {
         std::size_t i, j;
         Vec3 d;  // x_j - x_i, j an image
@@ -66,14 +66,14 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
     std::vector<Pair> pairs;
     std::vector<Mat3> B;
     std::vector<double> volume, scale;
-    std::vector<double> inside;  // mean viscosity over the kernel
+    std::vector<double> inside;  // viscosity averaged over the kernel
 
     void SetUp() override {
         const OperatorCase& c = GetParam();
         fluid = model(c.kernel);
-        if (c.layers) fluid.lowestLayer = 0.5;  // of the viscosities of lattice()
+        if (c.layers) fluid.lowestLayer = 0.5;  // the lowest viscosity of lattice()
         all = lattice(c.size, 0.25, 5);
-        if (!c.layers)  // few ratios: each has a film coefficient of its own to be found
+        if (!c.layers)  // few viscosity ratios, since for each a film coefficient has to be computed
             for (Particle& p : all) p.viscosity = 0.5 * std::ceil(2 * p.viscosity);
         if (c.walls) {
             fluid.walls = boundary::testing::planes(2, layers, c.size[2] - layers);
@@ -137,7 +137,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         }
     }
 
-    // All of every particle lies inside, each with a viscosity of its own.
+    // Every particle lies completely inside, each with its own viscosity.
     template <class Real>
     void prepare(Operators<Real>& operators) const {
         operators.build(*system);
@@ -147,7 +147,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         operators.setInside(*system, whole);
     }
 
-    // tau B: what a viscosity that differs from the fluid's adds.
+    // tau B: the additional stress where the viscosity differs from the fluid's.
     std::vector<Mat3> stress(const std::vector<Vec3>& u) const {
         std::vector<Mat3> T(all.size(), Mat3::Zero());
         if (!GetParam().varying) return T;
@@ -164,7 +164,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         }
         return T;
     }
-    // Of L, between two particles.
+    // The viscosity between two particles in L.
     double mean(std::size_t i, std::size_t j) const {
         const double a = all[i].viscosity, b = all[j].viscosity;
         return GetParam().layers ? 2 * a * b / (a + b) : fluid.viscosity;
@@ -185,7 +185,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         return f;
     }
 
-    // What the operators give for the particles of this rank: f(number, place in the store).
+    // Calls f(number, index in the store) for each particle of this rank.
     template <class F>
     void forOwned(F&& f) const {
         for (std::size_t k = 0; k < system->store().size(); ++k) f(static_cast<std::size_t>(system->store().id[k]), k);
@@ -218,7 +218,7 @@ class OperatorTest : public ::testing::TestWithParam<OperatorCase> {
         return sumOverRanks(sum);
     }
 
-    // The pressure of the step: one of before, less what the divergence adds.
+    // As in the implicit step, the pressure is an earlier pressure less a multiple of the divergence of u.
     template <class Real>
     void compare(double tolerance) {
         Operators<Real> operators(fluid, *system, GetParam().form);

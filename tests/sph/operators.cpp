@@ -1,5 +1,5 @@
-// The operators of the implicit step against a plain double loop over all pairs and images, written from the equations
-// of sph/operators.hpp, and against what they must keep.
+// The operators of the implicit step, compared with a plain double loop over all pairs and images that is written from
+// the equations of sph/operators.hpp, and checked for the properties that they must have.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -32,7 +32,7 @@ TEST_P(OperatorTest, equalThePlainDoubleLoop) {
     compare<double>(1e-12);
 }
 
-// Mixed precision: the rounding of float, 6e-8, in positions and weights.
+// Mixed precision: float rounding, 6e-8, of positions and weights.
 TEST_P(OperatorTest, equalItToTheRoundingOfFloatInMixedPrecision) {
     build(Precision::mixed);
     compare<float>(2e-6);
@@ -66,7 +66,7 @@ TEST_P(OperatorTest, momentsEqualThePlainDoubleLoop) {
     });
 }
 
-// Where no periodic face cuts the field, walls or not.
+// Checked for particles whose support no periodic face cuts (the linear field jumps there), with and without walls.
 TEST_P(CorrectedDivergence, isExactForALinearField) {
     const OperatorCase& c = GetParam();
     build(Precision::full);
@@ -120,7 +120,7 @@ TEST_P(OperatorTest, viscosityIsSymmetricAndTakesPowerAway) {
     EXPECT_LT(uLu, 0);
     EXPECT_NEAR(uLv, vLu, 1e-14 * std::abs(uLu));
     EXPECT_GT(std::abs(uLv), 1e-5 * std::abs(uLu));
-    // Only a uniform velocity costs nothing.
+    // Only a uniform velocity dissipates no power.
     apply(operators, std::vector<Vec3>(all.size(), Vec3(1, 2, 3)), none);
     EXPECT_EQ(power(operators, u), 0);
 }
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, OperatorTest, ::testing::ValuesIn(operatorCas
 INSTANTIATE_TEST_SUITE_P(Variants, CorrectedDivergence, ::testing::ValuesIn(CorrectedDivergence::chosen()),
                          [](const auto& instance) { return instance.param.name; });
 
-// On a lattice there is no disorder, and the diagonals are those of the operators.
+// A lattice has no disorder, so that the diagonals equal those of the operators.
 TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
     const Index3 size{6, 6, 6};
     for (const OperatorForm form : {plain, corrected}) {
@@ -184,8 +184,9 @@ TEST(OperatorsOnALattice, diagonalsAreThoseOfTheOperators) {
     }
 }
 
-// A more viscous piece that comes near a periodic face and does not reach across it, at both ends of each axis: what is
-// beyond the face meets its stress through images alone. Forces balance, and the operator is symmetric.
+// A region of higher viscosity that comes near a periodic face without reaching across it, at both ends of each axis:
+// particles beyond the face interact with its stress through images only. Forces balance, and the operator is
+// symmetric.
 TEST(TwoFluids, actThroughPeriodicFacesFromOneSide) {
     const Index3 size{11, 11, 11};
     FluidModel fluid = model("wendlandC2");
@@ -230,9 +231,9 @@ TEST(TwoFluids, actThroughPeriodicFacesFromOneSide) {
         }
 }
 
-// Two layers on a lattice: the force on a column of particles across the jump, over its area. What turns rigidly feels
-// none, though Morris' sum alone would hold it back with that of a velocity of the same gradient along the jump only;
-// nor does a shear flow of one stress.
+// Two layers on a lattice: the force on a column of particles across the jump of viscosity, divided by its area. Rigid
+// rotation must cause no force, although Morris' sum alone would resist it like a velocity with the same gradient along
+// the jump only; a shear flow of uniform stress must cause none either.
 TEST(TwoLayers, keepRigidRotationAndShearStress) {
     const Index3 size{12, 12, 20};
     const double low = 0.7, high = 3.5, jump = 10;
@@ -252,7 +253,7 @@ TEST(TwoLayers, keepRigidRotationAndShearStress) {
         operators.apply(system, u, [](std::size_t, double) { return 0.0; });
         Vec3 sum = Vec3::Zero();
         const auto& f = operators.force();
-        for (std::size_t i = 0; i < s.size(); ++i)  // the four columns that the box's faces do not reach
+        for (std::size_t i = 0; i < s.size(); ++i)  // the four columns that no face of the box influences
             if (const Vec3 x = s.position(i);
                 std::max(std::abs(x[0] - 6), std::abs(x[1] - 6)) < 1 && std::abs(x[2] - jump) < 5)
                 sum += 0.25 * Vec3(f[4 * i], f[4 * i + 1], f[4 * i + 2]);
@@ -268,8 +269,9 @@ TEST(TwoLayers, keepRigidRotationAndShearStress) {
     EXPECT_LT((force(along) - Vec3(high - low, 0, 0)).norm(), 1e-12);
 }
 
-// Parts of what varying viscosity adds have either sign; the whole must take power from every velocity, but for uniform
-// ones: all eigenvalues, of disordered particles, whatever the bulk modulus, which counts for little in short steps.
+// The terms that a varying viscosity adds have either sign; the whole operator must take power from every velocity
+// except uniform ones. All eigenvalues are checked, for disordered particles and any bulk modulus, which contributes
+// little in short steps.
 TEST(TwoViscosities, takePowerFromEveryVelocity) {
     struct Fluid {
         double ratio, bulk;
@@ -294,7 +296,7 @@ TEST(TwoViscosities, takePowerFromEveryVelocity) {
             Operators<double> operators(fluid, system, form);
             operators.build(system);
             const ParticleStore& s = system.store();
-            std::vector<Inside> inside;  // between the planes at 3 and 6
+            std::vector<Inside> inside;  // fraction inside, between the planes at 3 and 6
             for (std::size_t k = 0; k < s.size(); ++k) {
                 const double depth = std::min(s.position(k)[2] - 3, 6 - s.position(k)[2]);
                 inside.push_back({std::clamp(0.5 + (depth > -1.5 ? depth : -3 - depth), 0.0, 1.0), ratio});

@@ -74,7 +74,7 @@ TEST(Rkl2, isTheSameOnOneRankAndOnAll) {
     }
 }
 
-// One step written out from the header, forces by another FluidForces.
+// One step written out from the header, with forces from another FluidForces.
 TEST(Rkl2, aStepFollowsTheEquations) {
     const double dt = 0.04;
     Box3 stepped, plain;
@@ -118,8 +118,7 @@ TEST(Rkl2, aStepFollowsTheEquations) {
     }
 }
 
-// Noise in the velocity, which holds the stiffest modes of the viscous operator: it dies out at the limit and grows
-// beyond it.
+// Velocity noise, which contains the stiffest modes of the viscous operator, decays at the limit and grows beyond it.
 TEST(Rkl2, isStableToTheLimitAndNotBeyond) {
     for (const double beyond : {1.0, 1.3}) {
         std::vector<Particle> all = lattice({8, 8, 8}, 0.1, 5);
@@ -127,7 +126,7 @@ TEST(Rkl2, isStableToTheLimitAndNotBeyond) {
         ParticleSystem system(MPI_COMM_WORLD, cube({8, 8, 8}), {}, 2.5, 0.3, 1);
         deal(all, system);
         FluidModel fluid = model("wendlandC2");
-        fluid.soundSpeed = 1e-6;  // viscosity alone
+        fluid.soundSpeed = 1e-6;  // only viscosity matters
         FluidForces forces(fluid, system);
         Rkl2 integrator(system, forces, nullptr);
         integrator.start();

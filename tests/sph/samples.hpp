@@ -1,4 +1,5 @@
-// Fluids for the tests: particles that every rank knows whole, in lengths of a spacing and densities of about 1.
+// Fluids for the tests: particles that are known completely on every rank. Unit of length: the particle spacing;
+// densities are about 1.
 #pragma once
 #include <mpi.h>
 
@@ -37,7 +38,8 @@ inline Box cube(const Index3& n, bool walls = false) {
     return {Vec3::Zero(), Vec3(n[0], n[1], n[2]), {true, true, !walls}};
 }
 
-// A lattice with everything off its place by up to `disorder`.
+// A lattice in which positions, velocities, densities, masses and viscosities are perturbed, by up to `disorder` in
+// position.
 inline std::vector<Particle> lattice(const Index3& n, double disorder, unsigned seed = 1) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> d(-disorder, disorder);
@@ -99,7 +101,7 @@ inline double kernelDerivative(const std::string& kernel, double r, double H) {
     return -5 * sum / (120 * pi * std::pow(h, 4));
 }
 
-// What the viscosity between two particles is multiplied by at walls (noSlip.hpp).
+// The factor by which walls multiply the viscosity between two particles (noSlip.hpp).
 inline double wallFactor(const boundary::Walls& walls, const Vec3& a, const Vec3& b) {
     if (!walls.exist()) return 1;
     const double ga = walls.distance(a), gb = walls.distance(b), least = 0.25;

@@ -1,4 +1,4 @@
-// The limit of springs with drag against the equation that it solves, by bisection.
+// The step limit for springs with drag, compared with the equation that it solves, by bisection.
 #include "sph/stepLimits.hpp"
 
 #include <gtest/gtest.h>

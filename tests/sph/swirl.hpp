@@ -1,4 +1,4 @@
-// A swirling flow on a slightly disordered lattice in a periodic box, for integrators to be compared on.
+// A swirling flow on a slightly disordered lattice in a periodic box, on which integrators are compared.
 #pragma once
 #include "sph/samples.hpp"
 
@@ -15,7 +15,7 @@ inline std::vector<Particle> particles() {
     return all;
 }
 
-// Position, velocity and density of all particles by their number, on every rank.
+// Position, velocity and density of all particles, by particle number, on every rank.
 inline std::vector<double> state(const ParticleSystem& system) {
     std::vector<double> all(7 * particleCount, 0.0);
     const ParticleStore& s = system.store();
@@ -29,7 +29,7 @@ inline std::vector<double> state(const ParticleSystem& system) {
     return all;
 }
 
-// Between two states.
+// Norm of the difference between two states.
 inline double difference(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) {

@@ -15,7 +15,7 @@ namespace {
 
 using swirl::difference;
 
-// The state after a time of 0.4.
+// The state at time 0.4.
 std::vector<double> run(int steps, const std::string& kernel = "wendlandC2") {
     FluidModel fluid = model(kernel, "linear");
     fluid.viscosity = 0.1;
@@ -40,7 +40,7 @@ TEST(VelocityVerlet, isOfSecondOrder) {
 
 TEST(VelocityVerlet, repeatsBitForBit) { EXPECT_EQ(run(25, "lucy"), run(25, "lucy")); }
 
-// One step written out from Eqs 12 to 17 of the header, forces by another FluidForces.
+// One step written out from Eqs 12 to 17 of the header, with forces from another FluidForces.
 TEST(VelocityVerlet, aStepFollowsTheEquations) {
     FluidModel fluid = model("lucy");
     const double dt = 0.01;

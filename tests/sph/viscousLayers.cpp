@@ -1,5 +1,5 @@
-// The discrete shear flow along a plane interface of two fluids. References: the flow itself, and
-// benchmarks/placement/plane.py, which has the same model in another program.
+// The discrete shear flow along a plane interface of two fluids. References: the flow itself, and the same model in
+// another program, benchmarks/placement/plane.py.
 #include "sph/viscousLayers.hpp"
 
 #include <gtest/gtest.h>
@@ -45,6 +45,6 @@ TEST(ViscousLayers, filmCoefficientMakesTheMeanFilmNone) {
         const double found = all.filmCoefficient(ratio);
         EXPECT_NEAR(found, kappa, 2e-4) << ratio;
         EXPECT_NEAR(meanFilm(all, ratio, found), 0, 1e-8) << ratio;
-        EXPECT_GT(std::abs(meanFilm(all, ratio, 0)), 1e-2) << ratio;  // without it there is one
+        EXPECT_GT(std::abs(meanFilm(all, ratio, 0)), 1e-2) << ratio;  // without a film coefficient there is a mean film
     }
 }

@@ -13,10 +13,10 @@ using namespace corpuscle::sph::testing;
 
 namespace {
 
-// -W'(r)/r from the kernel family; forces.cpp holds the kernels against the literature.
+// -W'(r)/r from the kernel family; forces.cpp compares the kernels with the literature.
 double slope(const Kernel& kernel, double r, double H) { return kernel.gradientNormalisation(H) * kernel.slope(r / H); }
 
-// Largest eigenvalue of the operator of mu = m = rho = 1 as a dense matrix.
+// Largest eigenvalue of the viscous operator for mu = m = rho = 1, as a dense matrix.
 double denseRate(const std::vector<Particle>& all, const Box& box, const Kernel& kernel, double H) {
     const auto n = static_cast<Eigen::Index>(all.size());
     Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);

@@ -1,4 +1,4 @@
-// Which cases a sampling makes, counted and checked one by one.
+// The cases that each sampling produces, counted and checked one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace corpuscle::study {
 namespace {
 
-// Level of each parameter of each case.
+// The level of each parameter in each case.
 std::vector<std::vector<int>> levelsOf(const Sampling& sampling, const std::vector<std::size_t>& levels) {
     std::vector<std::vector<int>> all;
     for (const auto& point : sampling.points(levels)) {
@@ -52,7 +52,7 @@ TEST(Samplings, LatinHypercubeUsesEachPartOfEachRangeOnce) {
         }
         EXPECT_EQ(parts.size(), 40u);
     }
-    // Parameters are drawn independently: the correlation of 40 pairs is below 0.5 with odds of about 1000.
+    // Parameters are drawn independently: the correlation of 40 pairs is below 0.5 with odds of about 1000 to 1.
     double product = 0;
     for (const auto& point : points) product += (point[0] - 0.5) * (point[1] - 0.5) * 12 / 40;
     EXPECT_LT(std::abs(product), 0.5);

@@ -1,4 +1,4 @@
-// What a study.yaml amounts to, and what is said about one that is wrong.
+// The cases that follow from a study.yaml, and the messages for an invalid one.
 #include "study/studySettings.hpp"
 
 #include <gtest/gtest.h>

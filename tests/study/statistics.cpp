@@ -1,4 +1,4 @@
-// Numbers from series that are known in closed form.
+// Statistics of series for which they are known in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Wave {
     Wave(double period, double length, double noise = 0) {
         for (double s = 0; s < length; s += 0.05) {
             along.push_back(s);
-            const double ripple = noise * std::sin(60 * s);  // many crossings of its own
+            const double ripple = noise * std::sin(60 * s);  // the ripple alone crosses the mean many times
             values.push_back(0.4 + 0.1 * std::sin(2 * std::numbers::pi * s / period) + ripple);
         }
     }
@@ -100,7 +100,7 @@ TEST(Tables, SeriesOfCellsPlacesAndRanges) {
     io::CsvTable uneven{{"time_s", "D"}, {{0, 1}, {1, 1}, {2, 1}, {2.5, 1}}};
     TableSelection all = selectFrom(uneven, "a/b", std::nullopt, std::nullopt, {}, true);
     EXPECT_EQ(all.along, "time_s");
-    EXPECT_EQ(requireEvenSpacing(all, "a/b"), 1);  // the end of the run is left out
+    EXPECT_EQ(requireEvenSpacing(all, "a/b"), 1);  // the last row, at the end of the run, is left out
     EXPECT_EQ(all.moments.size(), 3u);
     EXPECT_EQ(all.series.at(0).at("D").size(), 3u);
     uneven.rows.push_back({3, 1});

@@ -1,4 +1,4 @@
-// Sweeps over cases whose programs are shell scripts: what runs once, what runs again, what is refused.
+// Sweeps over cases whose programs are shell scripts: which of them run once, which run again, and what is refused.
 #include "study/sweep.hpp"
 
 #include <fcntl.h>
@@ -91,7 +91,7 @@ TEST_F(SweepTest, RunsEachProgramOnceInEachCase) {
                       .values = {{"Ca", "0.4"}},
                       .settings = {{"constant/flow.yaml", "/Ca", "0.4"}},
                       .programs = {"one", "two"}});
-    EXPECT_EQ(run().back(), CaseState::done);  // a value more
+    EXPECT_EQ(run().back(), CaseState::done);  // one more value
     EXPECT_EQ(calls().size(), 8u);
 }
 
@@ -100,7 +100,7 @@ TEST_F(SweepTest, AFailureKeepsItsLogAndDoesNotStopTheOthers) {
             "case $2 in *Ca0.2) echo it is broken; exit 3;; esac; echo \"two $2\" >>" + (base_ / "calls").string());
     const std::vector<CaseState> states{CaseState::done, CaseState::failed, CaseState::done};
     EXPECT_EQ(run(), states);
-    EXPECT_EQ(run(), states);  // not again
+    EXPECT_EQ(run(), states);  // does not run again
     EXPECT_EQ(calls().size(), 5u);
     const auto record = CaseRecord::read(base_ / "cases/Ca0.2");
     ASSERT_TRUE(record && record->failed);
@@ -138,7 +138,7 @@ TEST_F(SweepTest, StopsOnRequestAndGoesOn) {
     program("two", "echo \"two $2\" >>" + (base_ / "calls").string());
     EXPECT_EQ(run(), allDone_);
     const auto all = calls();
-    EXPECT_EQ(std::count(all.begin(), all.end(), "one Ca0.1"), 1);  // it had ended
+    EXPECT_EQ(std::count(all.begin(), all.end(), "one Ca0.1"), 1);  // had already ended
     EXPECT_EQ(std::count(all.begin(), all.end(), "two Ca0.1"), 2);
 }
 
@@ -151,7 +151,7 @@ TEST_F(SweepTest, ASolverThatReachesItsWallClockLimitGoesOnAtOnce) {
     EXPECT_EQ(run(), allDone_);
     const auto all = calls();
     EXPECT_EQ(std::count(all.begin(), all.end(), "two Ca0.2"), 2);
-    // A user who makes the stop file wants something else.
+    // If a user makes the stop file, the case must stay stopped.
     fs::remove_all(base_ / "cases");
     program("two", "echo '{\"reason\": \"the file stop appeared\"}' >$2/run.json\nexit 5");
     EXPECT_EQ(run(), std::vector<CaseState>(3, CaseState::stopped));
@@ -178,12 +178,13 @@ TEST_F(SweepTest, CasesThatDifferAreNamed) {
     options_.differing = Differing::keep;
     EXPECT_EQ(run(), allDone_);
     EXPECT_EQ(calls().size(), 6u);
-    options_.differing = Differing::update;  // not after such changes: old results would pass for new ones
+    // Refused after such changes, since old results would pass for new ones.
+    options_.differing = Differing::update;
     EXPECT_NE(refusal().find("places.csv has changed"), std::string::npos);
     write("template/constant/places.csv", "x\n1\n");
     write("cases/Ca0.2/results/kept", "x");
     EXPECT_EQ(run(), allDone_);
-    EXPECT_EQ(calls().size(), 9u);  // the solver alone goes on
+    EXPECT_EQ(calls().size(), 9u);  // only the solver continues
     EXPECT_EQ(readFile(base_ / "cases/Ca0.2/system/control.yaml"), "application: one\nendStrain: 2\n");
     EXPECT_TRUE(fs::exists(base_ / "cases/Ca0.2/results/kept"));
     options_.differing = Differing::refuse;
@@ -191,7 +192,7 @@ TEST_F(SweepTest, CasesThatDifferAreNamed) {
     write("template/system/control.yaml~", "an editor's\n");
     write("template/README.md", "a page\n");
     EXPECT_EQ(refusal(), "");
-    write("template/cell.stl", "1");  // beside system/: it is copied too
+    write("template/cell.stl", "1");  // beside system/, and therefore copied too
     EXPECT_NE(refusal().find("the template's cell.stl has changed"), std::string::npos);
     fs::remove(base_ / "template/cell.stl");
     write("template/constant/contact.yaml", "a: 1\n");
@@ -205,7 +206,7 @@ TEST_F(SweepTest, CasesThatDifferAreNamed) {
     EXPECT_NE(refusal().find("constant/contact.yaml is not in the template"), std::string::npos);
     options_.readOnly = true;
     options_.differing = Differing::fresh;
-    EXPECT_EQ(run(), allDone_);  // nothing is removed, nothing runs
+    EXPECT_EQ(run(), allDone_);  // nothing is removed and nothing runs
     EXPECT_EQ(calls().size(), 15u);
 }
 
@@ -216,7 +217,8 @@ TEST_F(SweepTest, WhatIsNotThereAnyMoreRunsAgain) {
     fs::remove(base_ / "cases/Ca0.2/run.json");  // as cleanCase does
     EXPECT_EQ(run(), allDone_);
     EXPECT_EQ(calls().size(), 7u);
-    for (StudyCase& one : cases_) one.programs = {"two", "dmpFlow"};  // another list: from the first that differs
+    // Another list of programs: runs from the first that differs.
+    for (StudyCase& one : cases_) one.programs = {"two", "dmpFlow"};
     EXPECT_EQ(run(), allDone_);
     EXPECT_EQ(calls().size(), 13u);
 }
@@ -237,7 +239,7 @@ TEST_F(SweepTest, UpdateGoesOnWithTheSolverAndWhatStandsBehindIt) {
     write("template/system/control.yaml", "application: one\nendStrain: 7\n");
     options_.differing = Differing::update;
     EXPECT_EQ(run(), allDone_);
-    EXPECT_EQ(calls().size(), 15u);  // dmpFlow and two, in each
+    EXPECT_EQ(calls().size(), 15u);  // dmpFlow and two, in each case
     options_.differing = Differing::refuse;
     EXPECT_EQ(run(), allDone_);
     write("template/system/control.yaml", "application: other\nendStrain: 7\n");  // another solver is another case
@@ -250,8 +252,8 @@ TEST_F(SweepTest, FreshIsDecidedOnceMoreWhenTheCaseIsTaken) {
     write("template/constant/flow.yaml", "Ca: 0.1\nx: 1\n");
     options_.differing = Differing::fresh;
     options_.jobs = 1;
-    Sweep late(options_, cases_, Environment::ofThisProcess());  // has its plan ...
-    EXPECT_EQ(run(), allDone_);                                  // ... but another run has made them all by now
+    Sweep late(options_, cases_, Environment::ofThisProcess());  // has made its plan ...
+    EXPECT_EQ(run(), allDone_);                                  // ... but another run has completed all cases by now
     EXPECT_EQ(calls().size(), 12u);
     while (!late.isEnded()) {
         late.advance();
@@ -267,7 +269,8 @@ TEST_F(SweepTest, RetryAndFreshOfFailedCases) {
     write("cases/Ca0.2/case.lock", "");
     program("two", "exit 0");
     options_.retry = true;
-    const int held = open((base_ / "cases/Ca0.2/case.lock").c_str(), O_RDWR);  // somebody looks at it for a moment
+    // Another process looks at the lock for a moment.
+    const int held = open((base_ / "cases/Ca0.2/case.lock").c_str(), O_RDWR);
     ASSERT_EQ(flock(held, LOCK_EX), 0);
     Sweep sweep(options_, cases_, Environment::ofThisProcess());
     while (!sweep.isEnded()) {
@@ -299,7 +302,7 @@ TEST_F(SweepTest, ADamagedRecordIsOfItsCaseAlone) {
     EXPECT_EQ(run(), states);
     options_.readOnly = false;
     options_.differing = Differing::fresh;
-    fs::create_directories(base_ / "cases/.Ca0.2.old/left");  // by a kill
+    fs::create_directories(base_ / "cases/.Ca0.2.old/left");  // left by a kill
     EXPECT_EQ(run(), allDone_);
     EXPECT_FALSE(fs::exists(base_ / "cases/.Ca0.2.old"));
 }
@@ -314,7 +317,7 @@ TEST_F(SweepTest, WhatGoesWrongInOneCaseStopsNoOther) {
 TEST_F(SweepTest, KeptCasesKeepTheirValues) {
     run();
     options_.differing = Differing::keep;
-    cases_[0].values = {{"Ca", "0.7"}};  // as another seed of a Latin hypercube
+    cases_[0].values = {{"Ca", "0.7"}};  // as with another seed of a Latin hypercube
     cases_[0].settings[0].value = "0.7";
     const Sweep sweep(options_, cases_, Environment::ofThisProcess());
     EXPECT_EQ(sweep.cases()[0].what.values[0].second, "0.1");
@@ -382,7 +385,7 @@ TEST_F(SweepTest, TheReportIsSafeAndWhole) {
         base_ / "scratch", Environment::ofThisProcess());
     EXPECT_NE(page.find("<h1>&lt;b&gt;&amp;</h1>"), std::string::npos);
     EXPECT_NE(page.find("a:/b=&quot;x&quot;"), std::string::npos);
-    EXPECT_EQ(page.find("http"), std::string::npos);  // nothing from elsewhere
+    EXPECT_EQ(page.find("http"), std::string::npos);  // nothing is loaded from elsewhere
     const std::string table = csvText(summary, "a study");
     EXPECT_NE(table.find("case,status,Ca,runTime_s\nCa0.1,done,0.1,"), std::string::npos);
 }

@@ -1,5 +1,5 @@
-// Starts MPI around the tests of one executable. The root reports; other ranks say only what failed there, and a
-// failure on any rank fails the program.
+// Starts MPI around the tests of one executable. The root prints the report; other ranks print only their own failures,
+// and a failure on any rank fails the program.
 #include <gtest/gtest.h>
 #include <mpi.h>
 

@@ -6,7 +6,7 @@
 
 namespace corpuscle::boundary::testing {
 
-// Across an axis, at low and high, with their velocities.
+// Walls normal to an axis, at low and high; lower and upper are their velocities.
 inline Walls planes(int axis, double low, double high, const Vec3& lower = Vec3::Zero(),
                     const Vec3& upper = Vec3::Zero(), double area = 1) {
     Walls walls;

@@ -1,4 +1,5 @@
-// Which of these names a family of models lacks. Others may be there: a model that is added has a test of its own.
+// The names among `expected` that a family of models lacks. It may have other models: each added model has a test of
+// its own.
 #pragma once
 #include <string>
 #include <vector>

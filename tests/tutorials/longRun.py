@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The red-cell tutorials at their own resolution and to their end, against boundary elements and their own claims.
+"""The red-cell tutorials at their resolution and to their end, against boundary elements and the figures that they state.
 
     longRun.py BIN TUTORIAL      BIN: directory of the applications
 
@@ -48,7 +48,7 @@ def reference(name):
 
 
 def between(strain, shape, values):
-    """Linear between the rows around this strain."""
+    """Linear interpolation between the rows around this strain."""
     for i in range(1, len(shape)):
         before, after = shape[i - 1]["strain"], shape[i]["strain"]
         if before <= strain <= after:
@@ -57,7 +57,7 @@ def between(strain, shape, values):
 
 
 def furthest(shape, values, expected, column):
-    """From the reference, among its rows."""
+    """Largest deviation from the reference, over its rows."""
     end = shape[-1]["strain"]
     return max(numbers(abs(between(row["strain"], shape, values) - row[column]) for row in expected if row["strain"] <= end))
 

@@ -7,7 +7,8 @@ STRAIN = 5
 
 
 class Capsules(Sheared):
-    """law: settings of the membrane, where it is not the tutorial's. values: of Ca, or of what is varied. boxes: of a value by resolution, from each on, where they are not BOX."""
+    """law: settings of the membrane, if other than the tutorial's. values: of Ca, or of the varied parameter. boxes: of a
+    value, by the resolution from which on they apply, where they are not BOX."""
 
     def __init__(self, name, values, law=(), boxes={}, **varied):
         super().__init__(name, TUTORIALS / "capsuleShear", {value: (STRAIN, {6: BOX, **boxes.get(value, {})}) for value in values}, law, **varied)

@@ -1,4 +1,4 @@
-"""Kinetic energy of flows that die out in a periodic box: the definitions of tutorials/taylorGreen."""
+"""Kinetic energy of decaying flows in a periodic box, with the definitions of tutorials/taylorGreen."""
 import math
 
 from suite import TUTORIALS, Figure, Plot, Run, module, permitted, worst
@@ -13,8 +13,8 @@ def decay(folder, rate):
 
 class Decay:
     """A flow whose energy falls as exp(-t), t over 1/rate. allowed: by resolution, per cent of E(0) until 1/e; `whole` times that over the whole
-    run; `viscosity` times that of the viscosity felt (an error of the viscosity e times as large makes this error of E at 1/e). settings(n):
-    besides the spacing."""
+    run; `viscosity` times that of the effective viscosity (an error of the viscosity e times as large causes this error of E at 1/e). settings(n):
+    in addition to the spacing."""
 
     def __init__(self, source, rate, time, allowed, order, viscosity=math.e, settings=lambda n: [], whole=2):
         self.source, self.rate, self.time, self.allowed, self.order = source, rate, time, allowed, order

@@ -19,7 +19,7 @@ def mu(z):
 
 
 def _rates():
-    """The square roots of lambda_n: one between two neighbouring poles of the condition, where it falls from +inf to -inf."""
+    """The square roots of lambda_n: one between each two neighbouring poles of the condition, where it falls from +inf to -inf."""
     poles = sorted([0.0] + [n * math.pi / H * math.sqrt(m / DENSITY) for m in MU for n in range(1, MODES + 1)])
     found = []
     for low, high in zip(poles[:MODES], poles[1:]):
@@ -67,7 +67,7 @@ def poiseuille(z, t, F):
 
 
 def poiseuille_steady(z, F):
-    """mu u' = tau - rho F z with the stress tau at the jump from the same velocity on both sides of it."""
+    """mu u' = tau - rho F z; tau is the stress at the interface, from the same velocity on both sides of it."""
     stress = DENSITY * F * H / 2 * (MU[0] - MU[1]) / (MU[0] + MU[1])
     edge = H if z > 0 else -H
     return (stress * (z - edge) - 0.5 * DENSITY * F * (z * z - H * H)) / mu(z)
@@ -75,11 +75,11 @@ def poiseuille_steady(z, F):
 
 # Plain operators (Morris, harmonic mean) by super-time-stepping, corrected ones by the implicit step.
 SCHEMES = {"plain": ["integrator=rkl2"], "corrected": ["integrator=implicit", "operators=corrected"]}
-RATE = 0.0125  # 1/s, of both cases: what turns an implicit step in seconds into a strain
+RATE = 0.0125  # 1/s, of both cases: converts an implicit step in seconds into a strain
 
 
 def deviation(profile, exact):
-    """Root of the mean square over the layers of particles, over that of the exact one."""
+    """Root mean square error over the layers of particles, over the root mean square of the exact profile."""
     return math.sqrt(math.fsum((u - exact(z)) ** 2 for z, u in profile) / math.fsum(exact(z) ** 2 for z, _ in profile))
 
 

@@ -1,4 +1,4 @@
-"""What cases with one membrane in shear flow share: sizes, the course of a run, period of a tank-treading membrane, meshes of others."""
+"""Shared by cases with one membrane in shear flow: sizes, the course of a run, period of a tank-treading membrane, meshes from other sources."""
 import math
 import re
 import xml.etree.ElementTree as ElementTree
@@ -22,7 +22,7 @@ def settings(n, box, strain, more=(), edge=1.0):
 
 
 class Course:
-    """Of a run that has ended: shape, angle of the main axis with the flow, area and volume."""
+    """Course of a finished run: shape, angle of the main axis with the flow, area and volume."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -45,7 +45,7 @@ class Course:
         return turn(self.shape, degrees)
 
     def kept(self, label):
-        """Figures of what must be kept."""
+        """Figures of quantities that must be conserved."""
         volume = suite.worst(row["volumeChange"] for row in self.balance)
         return [Figure(f"{label}: volume, at most", 100 * volume, 1e-5),
                 Figure(f"{label}: particles that changed side, at most", suite.worst(row["changedSide"] for row in self.balance), 0, ""),
@@ -56,12 +56,12 @@ class Course:
 
 
 def turn(table, degrees):
-    """Strain at which the main axis has turned so far; nan if it never does."""
+    """Strain at which the main axis has turned by `degrees`; nan if it never does."""
     return at(table, degrees, "strain", "angle_deg")
 
 
 def worst(course, reference, key, strains, scale=1.0):
-    """Largest difference from the reference over these strains, of the sign that it has; nan if the run has not got that far."""
+    """Largest difference from the reference over these strains, with its sign; nan if the run has not reached them."""
     return suite.worst(scale * (course.at(t, key) - at(reference, t, key)) for t in strains)
 
 
@@ -87,14 +87,14 @@ class Sheared:
         return f"{self.varied} {value}"
 
     def courses(self, done):
-        """(Ca, its course) of runs that have ended."""
+        """(Ca, course of the run) of finished runs."""
         return [(value, Course(done[f"{self.varied}{value}"])) for value in self.scenes if f"{self.varied}{value}" in done]
 
     def reference(self, value, end=math.inf):
         return [row for row in rows(self.folder / f"reference_{self.varied}{value}.csv") if row["strain"] <= end]
 
     def drawn(self, done, ylabel, every, extra, others=lambda Ca, end: []):
-        """D12_inertia of each course and its reference; others: more curves of others at a Ca to a strain, (strains, values)."""
+        """D12_inertia of each course and its reference. others: further published curves at a Ca up to a strain, (strains, values)."""
         ours, theirs = [], []
         for Ca, course in self.courses(done):
             ours.append((self.label(Ca), *course.curve("D12_inertia", every)))
@@ -106,7 +106,7 @@ class Sheared:
 
 
 def snapshots(folder, cell):
-    """(strain, file) of the results of a membrane that are on disk, in order. Times of the collection are strains' times: read from each file."""
+    """(strain, file) of the results of a membrane that are on disk, in order. Strains are read from each file, as the collection has times."""
     found = []
     for entry in ElementTree.parse(folder / "results" / f"{cell}.pvd").getroot().iter("DataSet"):
         path = folder / "results" / entry.get("file")
@@ -120,8 +120,8 @@ def snapshots(folder, cell):
 def treadPeriod(course):
     """Time in which the membrane goes once round, in units of 1/gammadot, from two results of a steady shape.
 
-    Nodes near the shear plane (within 0.15 radii) pass each polar angle about the centroid at a speed of their own place, w(phi); the integral of
-    dphi/w over a turn is the period. Between two results a node's mean speed belongs to the middle of its way.
+    Nodes near the shear plane (within 0.15 radii) pass each polar angle phi about the centroid at a speed that depends on phi only, w(phi); the integral
+    of dphi/w over a turn is the period. The mean speed of a node between two results is that at the middle of its way.
     """
     (t1, one), (t2, two) = snapshots(course.folder, course.cell)[-2:]
     ratio = course.shape[-1]["strain"] / course.shape[-1]["time_s"]
@@ -141,13 +141,13 @@ def treadPeriod(course):
 
 
 def otherMesh(path, cell):
-    """A step of preparation: puts the surface of an OFF file, lengths in radii, axis along its y, in the place of the mesh that membraneMesh made."""
+    """A step of preparation: replaces the mesh made by membraneMesh with the surface of an OFF file, lengths in radii, axis along its y."""
     def replace(folder):
         words = re.sub(r"#.*", "", path.read_text()).split()[1:]
         count, triangles = int(words[0]), int(words[1])
         numbers = list(map(float, words[3 : 3 + 3 * count]))
         scale = RADIUS * 1e-6
-        points = [(scale * x, -scale * z, scale * y) for x, y, z in zip(*(numbers[k::3] for k in range(3)))]  # its gradient is y, here z
+        points = [(scale * x, -scale * z, scale * y) for x, y, z in zip(*(numbers[k::3] for k in range(3)))]  # the gradient is along y there, along z here
         corners = list(map(int, words[3 + 3 * count :]))
         file = folder / "0" / f"{cell}.vtp"
         made = vtp.File(file)

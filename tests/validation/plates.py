@@ -10,7 +10,7 @@ def slab(n):
 
 
 def profiles(folder, times):
-    """(time, [(z, u)]) at the first look at or after each of these times."""
+    """(time, [(z, u)]) at the first output at or after each of these times."""
     table, found = rows(folder / "postProcessing/profile/profile.csv"), []
     for time in times:
         t = min(row["time_s"] for row in table if row["time_s"] >= time * (1 - 1e-9))
@@ -19,7 +19,7 @@ def profiles(folder, times):
 
 
 class Plates:
-    """name: the tutorial. allowed: per cent, by resolution, of the largest error in time. unit(its compare.py): velocity to draw by [m/s]."""
+    """name: the tutorial. allowed: per cent, by resolution, of the largest error in time. unit(its compare.py): velocity unit of the plot [m/s]."""
 
     def __init__(self, name, allowed, unit, label):
         self.source = TUTORIALS / name

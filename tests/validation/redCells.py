@@ -1,12 +1,12 @@
-"""What the cases with a Kuchel-Fackerell cell in shear flow share: comparison with boundary elements by their own definitions."""
+"""Shared by the cases with a Kuchel-Fackerell cell in shear flow: comparison with boundary elements by the same definitions."""
 from membranes import Sheared, turn, worst
 from suite import PROGRAMS, TUTORIALS, Figure, at, relative
 
-# Boxes in radii, along the flow, the vorticity and the gradient, from a resolution on: the finest has wider ones, as its own error is less than theirs.
+# Boxes in radii (flow, vorticity, gradient), from a resolution on: the finest runs have wider boxes, as their error is less than that of the box.
 TUMBLING, STIFF, DRAWN = {6: (6, 6, 6), 12: (8, 6, 8)}, {6: (6, 6, 6), 12: (10, 8, 10)}, {6: (8, 6, 8)}
 
 
-EVERY = 0.05  # of strain: two looks at the shape; curves are compared at each
+EVERY = 0.05  # strain between two observations of the shape; curves are compared at each
 
 
 class RedCells(Sheared):
@@ -14,7 +14,7 @@ class RedCells(Sheared):
     area [points].
 
     recorded: by resolution and Ca, D12_inertia and the inclination [degrees] at the end of an earlier run. A coarse resolution is far from the
-    reference, so that what is allowed there hides a fault of the program that is smaller; that it still gives what it gave shows it."""
+    reference, so that its tolerance would hide a smaller fault of the program; the comparison with an earlier run reveals it."""
 
     def __init__(self, name, scenes, allowed, law, edge=1.0, programs=PROGRAMS, recorded=None, **varied):
         super().__init__(name, TUTORIALS / "rbcShear" / "Ca0.02", scenes, [
@@ -34,10 +34,10 @@ class RedCells(Sheared):
 
     def compared(self, Ca, course, dD, dAngle, dTurn, dArea):
         theirs, label = self.reference(Ca), self.label(Ca)
-        end = 0.5 * int(2 * self.scenes[Ca][0] + 1e-6)  # a run that has not got there has no figures
+        end = 0.5 * int(2 * self.scenes[Ca][0] + 1e-6)  # a run that has not reached this strain has no figures
         strains = [EVERY * k for k in range(1, round(end / EVERY) + 1)]
         found = [Figure(f"{label}: D12 by inertia to strain {end:g}, worst", worst(course, theirs, "D12_inertia", strains), dD, "")]
-        # Where the cell turns fast, an error of the rate is an error of the angle by that speed: compared by strain there.
+        # Where the cell turns fast, a small delay means a large error of the angle: there the strains are compared.
         for name, degrees in (("a quarter turn", 90), ("half a turn", 180), ("a whole turn", 360)):
             if turn(theirs, degrees) < end:
                 found.append(relative(f"{label}: strain of {name}", course.turn(degrees), turn(theirs, degrees), dTurn))

@@ -1,14 +1,14 @@
-"""What cases of validation share: runs, figures, curves, records, tables and plots.
+"""Shared by the cases of validation: runs, figures, curves, records, tables and plots.
 
 A case is a folder with case.py, README.md (the page) and references. case.py has
-    TITLE, ACROSS        a line for tables; what a resolution counts ("particles across the gap")
+    TITLE, ACROSS        a line for tables; the meaning of a resolution ("particles across the gap")
     RESOLUTIONS          coarse to fine; ./Alltest runs the first
-    runs(n)              list of Run: what is run at n
+    runs(n)              list of Run: the runs at resolution n
     figures(done, n)     list of Figure, from the folders of these runs, by their names
     curves(done)         Plot of the finest resolution that has been run, or a list: plot.png, plot2.png, ...; done as for figures
     UNBOUNDED            True where the reference has no box, so that the case may be run in another one (validate -domain)
-    MISSED               where there are any: by resolution, figures that its page says are outside, by name (* stands for any words), with the
-                         most that each may be off
+    MISSED               optional: by resolution, figures that are outside their tolerance according to the page, by name (* stands for any words),
+                         with the largest error that each may have
 """
 import csv
 import hashlib
@@ -31,9 +31,9 @@ sys.path.insert(0, str(TUTORIALS))
 MARKS = ("<!-- results: written by the script -->", "<!-- end of results -->")
 PROGRAMS = ("membraneMesh", "particleFill", "dmpFlow")  # of a case with cells or bodies
 SIZE = "system/mesh.yaml:/domain/size="
-NO_LIMIT = ("-set", "system/control.yaml:/stop/wallClock=never")  # tutorials have one
+NO_LIMIT = ("-set", "system/control.yaml:/stop/wallClock=never")  # tutorials have a limit
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-               "OMPI_MCA_hwloc_base_binding_policy": "none"}  # two runs at a time would be bound to the same core
+               "OMPI_MCA_hwloc_base_binding_policy": "none"}  # else two simultaneous runs would be bound to the same core
 
 
 @dataclass
@@ -54,11 +54,11 @@ class Figure:
     unit: str = "%"
     value: float | None = None
     reference: float | None = None
-    order: bool = False  # an error that should fall with the resolution: its observed order is shown
-    earlier: bool = False  # against an earlier run of the same case: says nothing in another box
+    order: bool = False  # an error that should decrease with the resolution: its observed order is shown
+    earlier: bool = False  # against an earlier run of the same case: not meaningful in another box
 
     def holds(self):
-        return abs(self.error) <= self.allowed  # false of nan
+        return abs(self.error) <= self.allowed  # false for nan
 
 
 def relative(name, value, reference, allowed, **more):
@@ -67,7 +67,7 @@ def relative(name, value, reference, allowed, **more):
 
 
 def outside(value, low, high, percent=True):
-    """What a value is beyond the nearest edge, in per cent of this edge or as it is; 0 inside; nan if one of the three is."""
+    """By how much a value is beyond the nearest bound, in per cent of the bound or absolute; 0 inside; nan if one of the three is."""
     if any(map(math.isnan, (value, low, high))):
         return math.nan
     if low <= value <= high:
@@ -77,7 +77,7 @@ def outside(value, low, high, percent=True):
 
 
 def worst(values, key=abs):
-    """That with the largest key; nan if there are none or one of them is no finite number, wherever it stands."""
+    """The value with the largest key; nan if there are no values, or if any of them is not finite."""
     values = list(values)
     return max(values, key=key) if values and all(map(math.isfinite, values)) else math.nan
 
@@ -92,7 +92,7 @@ class Plot:
 
 
 def rows(path):
-    """Of a table with a header; lines that open with # are left out."""
+    """Rows of a table with a header; lines that begin with # are skipped."""
     with open(path) as text:
         lines = (line for line in text if not line.startswith("#"))
         return [{key: float(value) if value else math.nan for key, value in row.items()} for row in csv.DictReader(lines)]
@@ -110,18 +110,18 @@ def published(path, **where):
 
 
 def permitted(table, n, order):
-    """What `table` allows at a resolution; at one that it does not have, from its coarsest by this order."""
+    """Tolerance from `table` at a resolution; if it has none, extrapolated from its coarsest with this order."""
     coarsest = min(table)
     return table.get(n, table[coarsest] * (coarsest / n) ** order)
 
 
 def fromOn(table, n):
-    """What a table holds from a resolution on: the entry of the largest that is not above n, of its coarsest below that."""
+    """Entry of a table by resolution: that of the largest resolution not above n; below all of them, that of the coarsest."""
     return table[max((k for k in table if k <= n), default=min(table))]
 
 
 def at(table, x, value, key="strain"):
-    """Column `value` between the rows around key = x, or the function `value` of a row; nan outside."""
+    """Column `value`, or the function `value` of a row, interpolated between the rows around key = x; nan outside."""
     of = value if callable(value) else lambda row: row[value]
     for a, b in zip(table, table[1:]):
         if a[key] - 1e-9 <= x <= b[key] + 1e-9:
@@ -148,12 +148,12 @@ def load(name):
 
 
 def sets(settings):
-    """The words by which a program takes them."""
+    """The command-line words that pass these settings to a program."""
     return [word for setting in settings for word in ("-set", setting)]
 
 
 def contents(run):
-    """Stands for the files that a run is made from: its source's system and constant, meshes that its programs read."""
+    """Checksum of the files of which a run is made: system and constant of its source, and meshes that its programs read."""
     files = {str(path.relative_to(run.source)): path for part in ("system", "constant") for path in (run.source / part).rglob("*") if path.is_file()}
     files |= {path.name: path for program in run.programs for path in getattr(program, "reads", ())}
     lines = (f"{name} {hashlib.sha256(path.read_bytes()).hexdigest()}\n" for name, path in sorted(files.items()))
@@ -161,13 +161,13 @@ def contents(run):
 
 
 def same(note, wanted):
-    """Whether a folder's settings.json is of this run; older ones say nothing of the contents of files."""
+    """Whether a folder's settings.json belongs to this run; older ones do not record the contents of files."""
     found = json.loads(note.read_text()) if note.exists() else []
     return found in (wanted, wanted[:3])
 
 
 def execute(run, folder, binaries, ranks):
-    """Runs what has not ended yet; a stopped run goes on. Other settings or files start afresh. Returns run.json, with the core-seconds
+    """Makes a run unless it has ended; a stopped run is continued. With other settings or files it starts anew. Returns run.json, with the core-seconds
     of all parts."""
     wanted = [run.settings, [getattr(program, "__name__", program) for program in run.programs],
               os.path.relpath(run.source, ROOT), contents(run)]  # in any clone
@@ -184,7 +184,7 @@ def execute(run, folder, binaries, ranks):
             else:
                 subprocess.run([binaries / program, *options], check=True, stdout=subprocess.DEVNULL)
         note.write_text(json.dumps(wanted))
-    parts = folder / "parts.json"  # core-seconds of those that a stopped run was made in; one that was killed leaves none
+    parts = folder / "parts.json"  # core-seconds of the parts of a run that was stopped; a killed part leaves none
     earlier = json.loads(parts.read_text()) if parts.exists() else []
     if record.exists() and (last := json.loads(record.read_text()))["status"] != "done":
         earlier.append(last.get("performance", {}).get("processorSeconds", 0))
@@ -198,7 +198,7 @@ def execute(run, folder, binaries, ranks):
 
 
 def inDomain(run, size):
-    """The same in a box of another size, written as in system/mesh.yaml."""
+    """The same run in a box of another size, written as in system/mesh.yaml."""
     return replace(run, settings=[SIZE + size if setting.startswith(SIZE) else setting for setting in run.settings])
 
 
@@ -212,8 +212,8 @@ def planned(name, n, work, domain=None):
 
 
 def executeTogether(runs, binaries, jobs):
-    """Planned runs, from coarse to fine, so many at a time on one rank each: what one run on several ranks loses by waiting is saved. The last of
-    them, the dearest in most cases, is made when the others have ended, on as many ranks. All before it are tried, whatever fails."""
+    """Planned runs, from coarse to fine, `jobs` at a time on one rank each, which avoids the waiting time between ranks. The last run, the most
+    expensive in most cases, is made when the others have ended, on as many ranks. All runs before it are tried, even if some fail."""
     with ThreadPoolExecutor(jobs) as pool:
         for future in [pool.submit(execute, run, place, binaries, 1) for run, place in runs[:-1]]:
             future.exception()
@@ -222,7 +222,7 @@ def executeTogether(runs, binaries, jobs):
 
 
 def validate(name, n, binaries, ranks, work, domain=None):
-    """Runs a case at a resolution. Returns its record, with what the runs left, whenever they were, and the folders of its runs."""
+    """Runs a case at a resolution. Returns its record, from the results of its runs, made now or earlier, and the folders of its runs."""
     case, done, records = load(name), {}, []
     for run, place in planned(name, n, work, domain):
         done[run.name] = place
@@ -235,7 +235,7 @@ def validate(name, n, binaries, ranks, work, domain=None):
 
 
 def origin(record):
-    """Machine, in the words of machine(), day and commit of the programs of a run.json."""
+    """Machine (as described by machine()), day, and commit of the programs from a run.json."""
     where = record["machine"]
     family = " ".join(re.sub(r"\([A-Za-z]*\)", "", where["processor"]).split()[:2])
     vectors = {"avx512": "AVX-512", "avx2": "AVX2"}.get(record["performance"]["instructionSet"], "baseline")
@@ -252,7 +252,7 @@ def holds(figure):
 
 
 def missed(case, n, figure):
-    """Whether the case's page says that this figure is outside at n, and by so much; what was not measured is never meant."""
+    """Whether the case's page states that this figure is outside its tolerance at n, and the error is not larger than stated; false for an error of nan."""
     return any(abs(figure["error"]) <= most for words, most in getattr(case, "MISSED", {}).get(n, {}).items() if fnmatchcase(figure["name"], words))
 
 
@@ -267,7 +267,7 @@ def error(figure):
 
 
 def report(case, record):
-    """For the terminal. Returns whether all figures hold that the page does not say are outside."""
+    """Prints a record. Returns whether all figures are within their tolerance, except those that the page states as outside."""
     good = True
     for figure in record["figures"]:
         pair = f"{shown(figure['value'])} against {shown(figure['reference'])}" if figure["reference"] is not None else ""
@@ -280,7 +280,7 @@ def report(case, record):
 
 
 def orders(records):
-    """Observed order between neighbouring resolutions of figures that have one, by name: the list of them."""
+    """For figures with an order of convergence, by name: the list of observed orders between neighbouring resolutions."""
     found = {}
     for one, two in zip(records, records[1:]):
         finer = {figure["name"]: figure for figure in two["figures"]}
@@ -355,7 +355,7 @@ def results():
 
 
 def draw(plot, path):
-    """Ours as points, theirs as lines, by gnuplot."""
+    """Draws a plot with gnuplot: our results as points, references as lines."""
     blocks, parts = [], []
     for k, (title, xs, ys, style) in enumerate([(*c, "lines lw 2") for c in plot.theirs] + [(*c, "points pt 7 ps 0.6") for c in plot.ours]):
         blocks.append(f"$d{k} << E\n" + "\n".join(f"{x:.8g} {y:.8g}" for x, y in zip(xs, ys)) + "\nE")

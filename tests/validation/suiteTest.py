@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What validation rests on: what counts as held, orders, interpolation, tables, results of membranes; bad words on the command line."""
+"""The basis of validation: tolerances, orders, interpolation, tables, results of membranes; invalid words on the command line."""
 import contextlib
 import io
 import json
@@ -46,7 +46,7 @@ def test_worst():
 
 
 def test_missed():
-    """What a page says is outside does not fail; everything else does, and so does what is further off than that or was not measured."""
+    """A figure that the page states as outside its tolerance does not fail; others do, as well as one with a larger error than stated or without value."""
     case = types.SimpleNamespace(MISSED={8: {"drag": 4, "lift *": 3}})
     for n, name, error, known in ((8, "drag", 3, True), (8, "drag, extrapolated", 3, False), (8, "lift at 2", -3, True), (8, "lift at 2", -3.1, False),
                                   (8, "drag", 4.1, False), (16, "drag", 3, False), (8, "drag", math.nan, False), (8, "drag", -math.inf, False)):
@@ -67,7 +67,7 @@ def test_missed():
 
 
 def test_execute():
-    """A run that has ended is not run again, unless its settings or files change; what older ones have kept counts. Its record says where and when."""
+    """A finished run is not run again, unless its settings or files change; records of older versions are valid. The record says where and when."""
     record = {"status": "done", "ranks": 3, "end": "2026-01-02T23:59:59Z", "parameters": {"particles": 8},
               "machine": {"cores": 2, "processor": "AMD EPYC"}, "build": {"git": "0123abc"}, "performance": {"processorSeconds": 1.0, "instructionSet": "avx2"}}
     assert suite.origin(record) == ("2 cores, AMD EPYC, AVX2", "2026-01-02", "0123abc")
@@ -97,11 +97,11 @@ def test_execute():
         assert [runs("b=1"), runs("b=1")] == [3, 3]
         mesh.write_text("b")
         assert [runs("b=1"), runs("b=1")] == [4, 4]
-        note = case / "settings.json"  # as it was before files counted
+        note = case / "settings.json"  # as it was before the contents of files were recorded
         note.write_text(json.dumps(json.loads(note.read_text())[:3]))
         mesh.write_text("c")
         assert [runs("b=1"), runs("b=2")] == [4, 5]
-        for part in (record | {"status": "stopped"}, {"status": "running"}):  # killed: what it took is not known
+        for part in (record | {"status": "stopped"}, {"status": "running"}):  # killed: its cost is not known
             (case / "run.json").write_text(json.dumps(part))
             runs("b=2", earlier=1)
         assert runs("b=2", earlier=1) == 7 and runs("b=3") == 8
@@ -109,14 +109,14 @@ def test_execute():
 
 
 def test_executeTogether():
-    """Two at a time on one rank, the last alone on two; what fails is tried, keeps none of the others from being made, and is said."""
+    """Two at a time on one rank, the last alone on two; a run that fails does not keep the others from being made, and is reported."""
     record = {"status": "done", "performance": {"processorSeconds": 1.0}}
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         source, log = folder / "source", folder / "log"
         for part in ("system", "constant"):
             (source / part).mkdir(parents=True)
-        # Begins, waits for another if it is to have one, ends.
+        # A stand-in for mpirun: begins, waits for another run if there is to be one, ends.
         (folder / "mpirun").write_text(f"""#!/bin/sh
 echo begin $2 $6 >>{log}
 sleep 0.3
@@ -143,7 +143,7 @@ echo '{json.dumps(record)}' >$6/run.json
 
 
 def test_domain():
-    """Another box is that and nothing else, in a folder of its own."""
+    """Another box changes only the box, in a folder of its own."""
     size, work = "[40 um, 32.5 um, 40 um]", pathlib.Path("work")
     for name in suite.names():
         if not getattr(suite.load(name), "UNBOUNDED", False):
@@ -156,14 +156,14 @@ def test_domain():
 
 
 def test_images():
-    """The sum over a sphere's images near a wall does not depend on where it is cut."""
+    """The sum over a sphere's images near a wall does not depend on where it is truncated."""
     box = suite.module(HERE / "sphereNearWall" / "wallBox.py", "wallBox")
     for towards in (True, False):
         assert math.isclose(box.images(3, 12, towards, 10), box.images(3, 12, towards, 60), rel_tol=1e-3), towards
 
 
 def test_ranks():
-    """A membrane's result is the file of the rank that has it."""
+    """The result of a membrane is the file of the rank that has written it."""
     with tempfile.TemporaryDirectory() as folder:
         results = pathlib.Path(folder) / "results"
         results.mkdir()
@@ -201,7 +201,7 @@ def literals(data):
 
 
 def test_lz4():
-    """Blocks that liblz4 1.9.4 (LZ4_compress_default) makes, and literals by hand."""
+    """Blocks made by liblz4 1.9.4 (LZ4_compress_default), and literals made by hand."""
     for block, data in ((bytes.fromhex("806d656d6272616e65"), b"membrane"),  # literals only
                         (bytes.fromhex("3f616263030021506263616263"), 20 * b"abc"),  # a match that reaches into itself
                         (bytes.fromhex("1f610100ffffffd2506161616161"), 1000 * b"a"),  # a length of four bytes
@@ -249,7 +249,7 @@ def test_words():
 
 
 def test_cases():
-    """Each is whole: page with its marks, resolutions from coarse to fine."""
+    """Each case is complete: page with its marks, resolutions from coarse to fine."""
     assert len(suite.names()) >= 3
     for name in suite.names():
         case, page = suite.load(name), (HERE / name / "README.md").read_text()

@@ -1,7 +1,7 @@
 """Reads VTK XML PolyData as the programs write them: appended raw data, blocks compressed by LZ4. Gives points, arrays, triangles and texts.
 
-python3-vtk9 would be one more package to install, of 47 MB, and excludes Debian's ParaView; results without compression would be larger for
-everybody: a capsule's surface by 17 %, its fluid by 36 %.
+python3-vtk9 would be another package to install, of 47 MB, and conflicts with Debian's ParaView; results without compression would be larger for
+all users: a capsule's surface by 17 %, its fluid by 36 %.
 """
 import ctypes
 import pathlib
@@ -13,7 +13,7 @@ LZ4 = ctypes.CDLL("liblz4.so.1")
 
 
 def lz4(block, size):
-    """A block of LZ4, decoded by the library that VTK itself needs; it is there wherever the programs are."""
+    """A block of LZ4, decoded with the library that VTK itself needs, which is present wherever the programs are."""
     out = ctypes.create_string_buffer(size)
     found = LZ4.LZ4_decompress_safe(block, out, len(block), size)
     if found != size:
@@ -69,7 +69,7 @@ class File:
 
 
 def count(path):
-    """Points of a surface; nothing else is read."""
+    """Number of points of a surface; nothing else is read."""
     head = pathlib.Path(path).read_bytes().partition(b"<AppendedData")[0]
     return sum(map(int, re.findall(rb'<Piece [^>]*NumberOfPoints="(\d+)', head)))
 
@@ -84,7 +84,7 @@ def mix(z):
 
 
 def checksum(parts):
-    """That of libs/io/dataChecksum.hpp; parts: (name, numbers or a text or a float array)."""
+    """The checksum of libs/io/dataChecksum.hpp; parts: (name, numbers or a text or a float array)."""
     def words(values):
         if isinstance(values, str):
             return values.encode()

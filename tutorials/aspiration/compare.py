@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Red cell: length of the tongue beside Evans' relation and a second method; white cell: suction beside Laplace's law.
 
-Exit code 1 where the white cell is off by more than 5 % of the suction at L = R, or the red cell's tongue, from 1.3 R on, by more than 15 % of the second method's.
+Exit code 1 if the white cell deviates by more than 5 % of the suction at L = R, or the red cell's tongue, from 1.3 R on, by more than 15 % of that of the
+second method.
 """
 import csv
 import math

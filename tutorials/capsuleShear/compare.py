@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A table of D12 and inclination beside boundary elements. Exit code 1 where D12 is further off than allowed from strain 1 on: 2 % at
-8 particles along the radius, in proportion to dx^2 where they are fewer."""
+"""A table of D12 and inclination beside boundary elements. Exit code 1 if the error of D12 from strain 1 on exceeds the tolerance: 2 % at
+8 particles along the radius, in proportion to dx^2 where there are fewer."""
 import csv
 import json
 import math
@@ -13,7 +13,7 @@ def rows(path):
 
 
 def at(table, strain, key):
-    """Between the two rows around this strain."""
+    """Interpolates between the two rows around this strain."""
     for a, b in zip(table, table[1:]):
         if a["strain"] <= strain + 1e-9 and strain <= b["strain"] + 1e-9:
             return a[key] + (strain - a["strain"]) / (b["strain"] - a["strain"]) * (b[key] - a[key])

@@ -15,7 +15,7 @@ import os
 import sys
 
 RATE, R = 100.0, 0.5  # 1/s, constant/flow.yaml; axis ratio
-START = 0.2           # strain; before it the flow about the body is still setting in
+START = 0.2           # strain; before it the flow around the body is still developing
 TOLERANCE = 0.03
 
 
@@ -69,7 +69,7 @@ def main(runs):
     errors = [abs(value / exact - 1) for _, value, exact in table]
     for name, value, exact in table:
         print(f"{name:70s} {value:10.4f}  {exact:10.4f}  {100 * (value / exact - 1):+6.2f} %")
-    good = all(error <= TOLERANCE for error in errors)  # false of nan: a spheroid that has not turned
+    good = all(error <= TOLERANCE for error in errors)  # false for nan: a spheroid that has not turned
     print(f"{'within' if good else 'OUTSIDE'} the tolerance: {100 * max(errors):.2f} % against {100 * TOLERANCE:g} %")
     return 0 if good else 1
 

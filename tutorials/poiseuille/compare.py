@@ -23,12 +23,12 @@ def series(z, t):
 
 
 def errors(case):
-    """Relative error at the first look at or after each of TIMES."""
+    """Relative error at the first output at or after each of TIMES."""
     with open(case + "/postProcessing/profile/profile.csv") as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(line for line in file if not line.startswith("#"))]
     result = []
     for time in TIMES:
-        t = min(row["time_s"] for row in rows if row["time_s"] >= time * (1 - 1e-9))  # steps add up to it but for rounding
+        t = min(row["time_s"] for row in rows if row["time_s"] >= time * (1 - 1e-9))  # steps add up to it except for rounding
         pairs = [(row["u_m_s"], series(row["position_m"], t)) for row in rows if row["time_s"] == t]
         result.append(math.sqrt(sum((u - e) ** 2 for u, e in pairs) / sum(e * e for _, e in pairs)))
     return result

@@ -12,7 +12,7 @@ x' = cos psi (Seifert, Berndl and Lipowsky, Phys. Rev. A 44, 1182 (1991), c0 = 0
     gamma' = u^2/2 - sin^2 psi/(2 x^2) + p x sin psi + t
 
 Pole: psi = x = gamma = 0. Equator, s = S: psi = pi/2, gamma = 0, area 2 pi, volume nu 2 pi/3. Unknown: u at the pole, p, t, S; Newton's
-method with derivatives by differences, from near the sphere down in nu. Check: E does not change with size, so 3 p V + 2 t A = 0 in the
+method with derivatives by differences, from near the sphere towards smaller nu. Check: E does not change with size, so 3 p V + 2 t A = 0 in the
 convention of these equations. Energies are over 8 pi kappa.
 """
 import math
@@ -54,7 +54,7 @@ def residual(unknown, nu):
 
 
 def solve(matrix, right):
-    """Gauss with pivots."""
+    """Gaussian elimination with pivoting."""
     rows = [row + [b] for row, b in zip(matrix, right)]
     n = len(rows)
     for k in range(n):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A cup as an OFF file, where the search for the stomatocyte begins: a shell about a part of a sphere, with a round rim. Lengths in um.
+"""A cup as an OFF file, from which the search for the stomatocyte starts: a shell around a part of a sphere, with a round rim. Lengths in um.
 
     python3 cup.py > cup.off
 """
@@ -10,7 +10,7 @@ SEGMENTS, RINGS = 48, 60
 
 
 def profile(t):
-    """(rho, z) along the meridian, t = 0 outside below to 1 inside: outer side, rim, inner side."""
+    """(rho, z) along the meridian, from t = 0 at the bottom of the outer side, over the rim, to t = 1 on the inner side."""
     outer, inner = (MIDDLE + HALF) * OPENING, (MIDDLE - HALF) * OPENING
     rim = math.pi * HALF
     s = t * (outer + rim + inner)

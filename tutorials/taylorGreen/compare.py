@@ -26,7 +26,7 @@ def decay(case):
 
 
 def viscosity(points, rate=RATE):
-    """That this decay stands for, over the nominal one; rate: of the energy, over the times of the points."""
+    """Effective viscosity of this decay over the nominal one. rate: nominal decay rate of the energy, in units of the inverse times of the points."""
     for (t0, e0), (t1, e1) in zip(points, points[1:]):
         if e1 <= math.exp(-1):
             return 1 / (rate * (t0 + (t1 - t0) * (math.log(e0) + 1) / math.log(e0 / e1)))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Way of the first capsule past the second one: from the centroids in postProcessing/pair/capsule.csv, as a table of lengths in radii."""
+"""Path of the first capsule past the second one, from the centroids in postProcessing/pair/capsule.csv, as a table of lengths in radii."""
 import csv
 import sys
 
@@ -14,7 +14,7 @@ print(",".join(("strain", "along", "across")))
 before = None
 for strain, (one, other) in ((strain, (at[1], at[2])) for strain, at in places.items()):
     along = one[0] - other[0]
-    if before is not None:  # the image that goes on from where it was
+    if before is not None:  # the image nearest to the previous position
         along += LENGTH * round((before - along) / LENGTH)
     before = along
     print(f"{strain:.4f},{along / RADIUS:.5f},{(one[2] - other[2]) / RADIUS:.5f}")

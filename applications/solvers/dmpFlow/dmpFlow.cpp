@@ -1,4 +1,5 @@
-// dmpFlow: red blood cells and capsules in a viscous fluid, coupled in one particle system, until they rupture.
+// dmpFlow: red blood cells and capsules in a viscous fluid, coupled in one particle system, with membranes that can
+// rupture.
 //
 // Sample runs:
 //     dmpFlow -case tutorials/rbcShear/Ca0.02

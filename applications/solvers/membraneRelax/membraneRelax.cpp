@@ -1,8 +1,8 @@
-// membraneRelax: a membrane without fluid, in static equilibrium under the loads of a protocol: stretched by tweezers,
-// inflated, at rest; or of a flat sheet, stretched and sheared.
+// membraneRelax: static equilibrium of a membrane without fluid under the loads of a protocol: a cell stretched by
+// tweezers, inflated or at rest, or a flat sheet stretched and sheared.
 //
-// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell, and writes postProcessing/relax/<name>.csv and
-// results/<name>.pvd, whose times are the numbers of the stages.
+// Reads system/relax.yaml and constant/membranes.yaml, meshes the cell or sheet, and writes
+// postProcessing/relax/<name>.csv and results/<name>.pvd, in which the number of the stage takes the place of the time.
 //
 // Sample runs:
 //     membraneRelax -case tutorials/tweezers
@@ -51,7 +51,7 @@ struct Input {
     }
 };
 
-// Where stages are written to, and what areas and volumes are compared with.
+// Writes the stages; holds the area and volume to which those of each stage are compared.
 class Results {
   public:
     Results(const Application& app, const std::string& name, const membrane::Protocol& protocol,
@@ -65,7 +65,7 @@ class Results {
                   columns(protocol)}),
           surfaces_(app.communicator().handle(), app.caseDirectory(), membrane.name, 0, 0) {}
 
-    // Returns the line for the log.
+    // Writes a stage and returns its line for the log.
     std::string write(int stage, const membrane::Membrane& membrane, const membrane::EquilibriumReport& report) {
         const std::vector<double> measured = protocol_.measure(stage, membrane);
         const bool closed = volume0_ > 0;
@@ -96,12 +96,13 @@ class Results {
     }
 
     const membrane::Protocol& protocol_;
-    double edge_, area0_, volume0_;  // 0: open, encloses none
+    double edge_, area0_, volume0_;  // 0: an open membrane, which encloses no volume
     io::CsvSeries table_;
     io::VtkSeries surfaces_;
 };
 
-// Each stage from the equilibrium of the one before. Throws Failure(numerics) for one that has none.
+// Each stage starts from the equilibrium of the stage before it. Throws Failure(numerics) for a stage without
+// equilibrium.
 void runStages(Application& app, const simulation::RelaxSettings& relax, membrane::Membrane& membrane,
                RunRecord& record) {
     const membrane::Protocol& protocol = *relax.protocol;
@@ -154,7 +155,8 @@ int main(int argc, char* argv[]) {
         record.write();
         app.keepRecord(kept);
         writeUsed(app.path("used.yaml"), input.effective, app.communicator());
-        runStages(app, input.relax, membrane, record);  // 3. loads, equilibrium, a row and a surface each
+        // 3. for each stage: loads, equilibrium, a row of the table and a surface
+        runStages(app, input.relax, membrane, record);
         return ExitCode::done;
     });
 }

@@ -1,5 +1,4 @@
-// The meshes of cells and rigid bodies as they stand in 0/: what membraneMesh, particleFill and checkMesh have in
-// common.
+// The meshes of cells and rigid bodies in 0/: functions that membraneMesh, particleFill and checkMesh share.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,16 +8,16 @@
 
 namespace corpuscle::utilities {
 
-// These programs run alone: Failure(usage) under mpirun with more ranks than one.
+// These programs are serial: throws Failure(usage) under mpirun with more than one rank.
 void requireSerial(const Application& app);
 
-// From the shape's frame (axis along z, centre at the origin) to its place, and back.
+// Moves a mesh from the frame of its shape (axis along z, centre at the origin) to its place, and back.
 void place(geometry::TriangleMesh& mesh, const simulation::SurfaceSettings& surface);
 geometry::TriangleMesh inShapeFrame(geometry::TriangleMesh mesh, const simulation::SurfaceSettings& surface);
 
-// The mesh of each type of cell, as it stands in 0/. Throws as simulation::readStart.
+// The mesh of each type of cell, as stored in 0/. Throws as simulation::readStart.
 std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input);
-// All cells by their numbers, each where it is put, from the meshes of their types.
+// All cells in the order of their numbers, each at its place, made from the meshes of their types.
 std::vector<geometry::TriangleMesh> placedCells(const simulation::Case& input,
                                                 const std::vector<geometry::TriangleMesh>& ofTypes);
 std::vector<geometry::TriangleMesh> readBodyMeshes(const simulation::Case& input);

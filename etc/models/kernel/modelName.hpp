@@ -11,7 +11,7 @@ namespace corpuscle::sph {
 
 struct ModelName {
     static constexpr const char *name = "modelName", *text = "a kernel";
-    static constexpr double defaultSupport = 2.8, correctedSupport = 2.4;  // in spacings
+    static constexpr double defaultSupport = 2.8, correctedSupport = 2.4;  // in particle spacings
 
     static double normalisation(double H) { return 315 / (64 * std::numbers::pi * H * H * H); }
     static double gradientNormalisation(double H) { return 6 * normalisation(H) / (H * H); }

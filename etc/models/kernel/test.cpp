@@ -29,7 +29,7 @@ TEST(ModelName, isAKernel) {
     EXPECT_EQ(w->slope(1.1), 0);
 }
 
-// The error of the viscosity on a lattice is what the support is chosen by.
+// The support is chosen by the error of the viscosity on a lattice.
 TEST(ModelName, secondMomentAtItsSupport) { EXPECT_NEAR(kernel()->secondMoment(ModelName::defaultSupport), 1, 0.05); }
 
 TEST(ModelName, isInEveryPairLoop) {

@@ -25,7 +25,7 @@ TEST(ModelName, derivatives) {
     const auto law = read("{type: modelName, k: 2 N/m}");
     const auto& model = dynamic_cast<const ModelName&>(*law);
     const double l0 = 1.1, step = 1e-5;
-    EXPECT_NEAR(model.tension(l0, l0), 0, 1e-12);  // free of force at rest
+    EXPECT_NEAR(model.tension(l0, l0), 0, 1e-12);  // no tension at the rest length
     for (const double l : {0.9, 1.1, 1.3}) {
         const double slope = (model.energy(l + step, l0) - model.energy(l - step, l0)) / (2 * step),
                      curvature = (model.derivative(l + step, l0) - model.derivative(l - step, l0)) / (2 * step);

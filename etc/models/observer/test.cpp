@@ -13,7 +13,7 @@ TEST(ModelName, observes) {
     const std::vector<Row> rows = observation->observe(scene, {});
     ASSERT_EQ(rows.size(), 1u);
     ASSERT_EQ(rows[0].values.size(), observation->tables()[0].columns.size());
-    // The fluid is sheared, u = 1000 1/s z, and its outermost layer is half a spacing from the wall.
+    // The fluid is sheared, u = 1000 1/s z; its outermost layer is half a spacing away from the wall.
     EXPECT_NEAR(rows[0].values[0], 1000 * 3.5 * um, 1e-9);
 }
 

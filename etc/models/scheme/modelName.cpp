@@ -1,6 +1,6 @@
-// Scheme `modelName`: a fluid alone by symplectic Euler,
+// Scheme `modelName`: a fluid without cells, by symplectic Euler:
 //     a, rhodot at x, u, rho;   u <- u + dt a,   rho <- rho + dt rhodot,   x <- x + dt u
-// Of first order in dt; its limits are those of velocity Verlet.
+// First order in dt; the limits of the step are those of velocity Verlet.
 #include "schemes/explicitStepper.hpp"
 #include "schemes/schemeParts.hpp"
 
@@ -58,7 +58,7 @@ struct ModelName final : Scheme {
             problems.add(numericsFile, "operators",
                          "found corrected, which 'integrator: modelName' does not have; write operators: plain");
     }
-    // `automatic` does not choose it: other schemes cost as little and are more accurate.
+    // `automatic` does not choose this scheme, since others cost as little and are more accurate.
     std::string unfit(const CaseFacts&, const NumericsSettings&) const override { return "it is of first order"; }
     std::vector<UnusedKey> unused(const NumericsSettings&) const override { return {unusedGuard()}; }
 

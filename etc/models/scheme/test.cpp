@@ -16,7 +16,7 @@ TEST(ModelName, isChosenAndRefusesWhatItCannotDo) {
     EXPECT_EQ(problems.count(), 1u);
 }
 
-// A disordered fluid in a periodic box keeps its momentum, and one that moves as a whole goes on.
+// A disordered fluid in a periodic box conserves its momentum; if it moves uniformly, it continues to do so.
 TEST(ModelName, steps) {
     const Index3 size{8, 8, 8};
     coupling::testing::FluidScene f(coupling::testing::still(size, 0.1), size, sph::testing::model("wendlandC2"), 1,

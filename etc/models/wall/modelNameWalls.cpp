@@ -14,7 +14,7 @@ double ModelNameSurface::distance(const Vec3& x) const { return radius_ - fromAx
 
 Vec3 ModelNameSurface::normal(const Vec3& x) const {
     const Vec3 r = fromAxis(x);
-    return r.isZero() ? Vec3(0, 0, 1) : Vec3(-r.normalized());  // on the axis every direction is as good
+    return r.isZero() ? Vec3(0, 0, 1) : Vec3(-r.normalized());  // on the axis any direction is valid
 }
 
 double ModelNameSurface::area() const { return 2 * std::numbers::pi * radius_ * length_; }

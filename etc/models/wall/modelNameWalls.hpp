@@ -1,4 +1,4 @@
-// A round tube along x, its axis through the middle of the box:
+// A round tube along x whose axis passes through the middle of the box:
 //     distance = R - sqrt(y^2 + z^2)
 #pragma once
 #include "boundary/wallShape.hpp"

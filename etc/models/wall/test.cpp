@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Named in a case, between these walls fluid can flow.
+// Fluid can flow between these walls when a case names them.
 TEST(ModelNameWalls, boundAFlow) {
     Problems problems;
     const std::string text = "{type: poiseuille, bodyForce: 1 m/s^2, walls: {type: modelName, radius: 2 m}}";

@@ -1,7 +1,7 @@
-"""What can be wrong in a case, and what checkCase has to say about it.
+"""Faults of a case, and the problems that checkCase must report for them.
 
 A case: name, edits of the base case, the problems expected in the order of their files, extra arguments, exit code. A problem: file and
-key, the text that stands at the line and column named (None where no line is), words that the message must hold.
+key, the text at the reported line and column (None where no line is reported), words that the message must contain.
 """
 from dataclasses import dataclass, field
 

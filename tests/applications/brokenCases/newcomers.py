@@ -1,6 +1,6 @@
 """Natural mistakes of someone who comes from OpenFOAM, LAMMPS, Python or JSON, or who writes YAML for the first time.
 
-Each must give one message, with the cure in it.
+Each must give one message that contains the remedy.
 """
 from cases import Case, CONTROL, FLOW, FLUID, MEMBRANES, MESH, NUMERICS, OBSERVERS, Problem, append, case, replace, rewrite
 
@@ -134,7 +134,7 @@ NEWCOMERS = [
     case("nulBytes", recode(FLUID, lambda b: b + b"\0\0\0"), FLUID, "", "\0", "0x00", "not a text file"),
 ]
 
-# What looks wrong and is not: the case stays good.
+# Input that looks wrong but is valid.
 GOOD = {
     "byteOrderMark": recode(FLUID, lambda b: b"\xef\xbb\xbf" + b),
     "windowsLines": recode(MESH, lambda b: b.replace(b"\n", b"\r\n")),

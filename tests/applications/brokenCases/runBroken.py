@@ -1,9 +1,9 @@
-"""Breaks a good case in one way after another; checkCase, or membraneRelax for its own file, must answer each with its one clear message.
+"""Introduces one fault after another into a valid case; checkCase, or membraneRelax for its own file, must report each with one clear message.
 
     python3 runBroken.py BIN [NAME ...] [--print]
 
-Of every case in cases.py: exit code 2, on standard error exactly the expected problems and the line that counts them, each problem
-at the place and under the key expected and with the words expected. --print shows what the program says.
+For every case in cases.py: exit code 2, on standard error exactly the expected problems and the line that counts them, each problem
+at the expected place, under the expected key and with the expected words. --print shows the program's messages.
 """
 import concurrent.futures
 import json
@@ -31,7 +31,7 @@ def run(program, directory, arguments):
 
 
 def faults_of_place(problem, line, directory):
-    """Compares 'file:line:column: key: message' with the expected file, key and the text that stands at line and column."""
+    """Compares 'file:line:column: key: message' with the expected file and key, and with the text at line and column."""
     where = problem.file
     if problem.at is not None:
         found = re.match(re.escape(problem.file) + r":(\d+):(\d+)", line)

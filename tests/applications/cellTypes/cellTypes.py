@@ -1,8 +1,8 @@
-"""Every cell type of etc/cells, named in a case as its README says, is valid and can be meshed.
+"""Every cell type of etc/cells, used in a case as its README describes, is valid and can be meshed.
 
     python3 cellTypes.py BIN
 
-The line in the head of a file becomes the cells of system/mesh.yaml; checkCase and membraneMesh must end well.
+The line at the head of a file becomes the cells of system/mesh.yaml; checkCase and membraneMesh must succeed.
 """
 import concurrent.futures
 import os
@@ -37,7 +37,7 @@ def check(programs, file, directory):
     environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     for program in ("checkCase", "membraneMesh"):
         result = subprocess.run([programs / program, "-case", directory], capture_output=True, text=True, timeout=300, env=environment)
-        # The coarse base case is warned of its spacing and of the density that its Re asks for.
+        # The coarse base case gets warnings about its spacing and about the density that its Re requires.
         said = [line for line in result.stderr.splitlines() if line and "the edge is" not in line and "sets the density" not in line]
         if result.returncode != 0 or said:
             return f"{file.name}: {program} ends with {result.returncode}: {result.stderr}"

@@ -1,4 +1,4 @@
-// cloneCase as a user runs it: what is copied, what is left, what is refused.
+// cloneCase, run as a user runs it: what is copied, what is left out, and what is refused.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -80,7 +80,7 @@ TEST_F(CloneCase, ChangesStandInTheCopyAndCommentsStay) {
               "domain: {size: [24 um, 24 um, 24 um], periodic: [true, true, false]}\ncells: [{name: rbc, edge: 0.5 "
               "um}]  # one\n");
     EXPECT_TRUE(contains(readText(at("old/constant/flow.yaml")), "Ca: 0.02"));
-    // What the programs would refuse (a rate beside Ca, without its unit) or cannot find.
+    // Changes that the programs would refuse (a rate beside Ca, and without its unit) or whose entry they cannot find.
     for (const std::string change :
          {"constant/flow.yaml:/shearRate=10", "system/mesh.yaml:/cells/3/edge=1", "constant/flo.yaml:/Ca=1"}) {
         const Result other = run("old other -set '" + change + "'");

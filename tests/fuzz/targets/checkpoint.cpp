@@ -1,4 +1,4 @@
-// A checkpoint: opened, every dataset read and compared with its checksum, the time read.
+// Fuzz target, a checkpoint: it is opened, every dataset is read and compared with its checksum, and the time is read.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// A dictionary: the first byte chooses the settings that it is read for.
+// Fuzz target, a dictionary: the first byte chooses the settings that are read from it.
 #include "core/dictionary.hpp"
 #include "core/error.hpp"
 #include "simulation/case.hpp"

@@ -1,4 +1,5 @@
-// A surface file: the first byte chooses the format. What is read must be named by the checks or be sound.
+// Fuzz target, a surface file: the first byte chooses the format. What is read must be a valid surface, or its faults
+// must be named by the checks.
 #include "core/error.hpp"
 #include "geometry/readSurface.hpp"
 

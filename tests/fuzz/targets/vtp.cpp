@@ -1,4 +1,4 @@
-// A .vtp file.
+// Fuzz target, a .vtp file.
 #include "core/error.hpp"
 #include "io/vtpFile.hpp"
 

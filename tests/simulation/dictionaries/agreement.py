@@ -2,7 +2,7 @@
 
     python3 agreement.py SOURCE READER [SEED]      READER: readDictionaries
 
-What the schema refuses, the reader refuses. What only the reader refuses is a rule of READER_ONLY. Values have the types of YAML 1.2.
+What the schema rejects, the reader rejects. What only the reader rejects is covered by a rule of READER_ONLY. Values have the types of YAML 1.2.
 """
 import pathlib
 import random
@@ -16,14 +16,14 @@ import yaml12
 from reader import Reader, Schemas
 from repositoryFiles import dictionaries, kind
 
-# Rules that a schema cannot know: between keys, on lengths of lists, and what YAML has turned into a number before it is asked.
+# Rules that a schema cannot express: between keys, on lengths of lists, and on text that YAML has already converted to a number.
 READER_ONLY = [re.compile(p) for p in (
     r"only decimal numbers are read",                          # 0x10 and 0o17 are 16 and 15 to YAML
     r"not a finite number",                                    # .nan
-    r"beyond what can be computed with",                       # 1e-101, where both signs are allowed
-    r"'1e-400' is not a whole number",                         # but 0 to YAML, which is one
-    r"stands twice|a blank is missing after",                  # of the text, before there is data
-    r"that of 'cell'",                                         # of a ready cell, which is put in before a case is read
+    r"beyond what can be computed with",                       # 1e-101, for a key that allows both signs
+    r"'1e-400' is not a whole number",                         # to YAML it is 0, a whole number
+    r"stands twice|a blank is missing after",                  # faults of the text, found before it is parsed
+    r"that of 'cell'",                                         # of a ready cell, which is inserted before a case is read
     r"has no law that resists shear", r"the zero vector", r"needs at least one value", r"an even number", r"all zero",
     r"more than one of|give either size|a rectangle has two|too coarse for this sheet|no particles here",
     r"local.*global|thickness|write held|through the glass",
@@ -43,7 +43,7 @@ def scalar(node):
 
 
 def text_of(node):
-    """One line of YAML; a mutated node may hold text that stands as it is."""
+    """One line of YAML; a mutated node may hold text that is used unchanged."""
     if isinstance(node, str):
         return node
     if isinstance(node, yaml.ScalarNode):
@@ -62,7 +62,7 @@ def places(node):
 
 
 def values_by_key(texts):
-    """What stands under each key anywhere, as text."""
+    """All values of each key anywhere, as text."""
     values = {}
 
     def collect(node):
@@ -113,7 +113,7 @@ def mutated(text, rng, values):
 
 
 SHEET = "{a: {bonds: {type: harmonic, k: 1 N/m}, "
-# A place for a quantity of each dimension: file, text with % for it, units that are right.
+# A place for a quantity of each dimension: file, text with % for the quantity, valid units.
 PLACES = [
     ("system/numerics.yaml", "spacing: %", "um|nm|mm|m|cm|\u00b5m|\u03bcm|pm|km"),
     ("constant/fluid.yaml", "{density: 1 kg/m^3, viscosity: 1 Pa s, layers: [{above: %, viscosity: 1 cP}]}", "um|mm|m|nm"),
@@ -207,7 +207,7 @@ def main():
             accepted = 0
             for _ in range(150):
                 accepted += comparison.compare(file, place.replace("%", in_yaml(quantity(units.split("|") if units else [], rng), rng))) or 0
-            for unit in units.split("|") if units else []:  # each that is listed is read
+            for unit in units.split("|") if units else []:  # the reader accepts each listed unit
                 if not comparison.compare(file, place.replace("%", "2 " + unit)):
                     comparison.faults.append(f"{file}: '2 {unit}' is refused: {reader.problems(file, place.replace('%', '2 ' + unit))}")
             enough = enough and accepted >= 15

@@ -43,7 +43,7 @@ TEST(CaseFiles, whatBelongsThereAndWhatIsPassedOver) {
                     "system/sketch.png", "constant/LICENSE", "constant/.DS_Store", "constant/shape.off"})
                   .text,
               "");
-    // The case folder itself belongs to its owner.
+    // In the case folder itself any file is allowed.
     EXPECT_EQ(with({"used.yaml", "study.yaml", "notes.txt", "Allrun", "results/", "run.json", "plot.py"}).text, "");
 }
 

@@ -1,4 +1,4 @@
-"""Files that are no dictionaries, or far too much of one: one clear message each, soon, and never a crash.
+"""Files that are not dictionaries, or are far too large: each gives one clear message, quickly, and never a crash.
 
     python3 hostileFiles.py SOURCE BIN
 """

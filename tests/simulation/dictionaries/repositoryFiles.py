@@ -1,9 +1,9 @@
-"""Every dictionary of the repository is YAML to everybody: the reader, PyYAML, yamllint, and its JSON schema.
+"""Every dictionary of the repository is valid YAML for the reader, PyYAML, yamllint, and its JSON schema.
 
     python3 repositoryFiles.py SOURCE READER      READER: readDictionaries
 
-Both with the types of PyYAML (YAML 1.1) and with those of editors (YAML 1.2). The first line names the schema. The schemas in etc/schema
-are those of the programs, and their messages name the key that is wrong.
+Values are tested with the types of PyYAML (YAML 1.1) and with those of editors (YAML 1.2). The first line names the schema. The schemas in
+etc/schema are those of the programs, and their messages name the wrong key.
 """
 import pathlib
 import subprocess

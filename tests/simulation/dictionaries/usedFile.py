@@ -1,9 +1,9 @@
-"""What a run writes as used.yaml is YAML to everybody, and can be read again: each of its tables is a dictionary.
+"""The used.yaml that a run writes is valid YAML for every reader, and can be read again: each of its tables is a dictionary.
 
     python3 usedFile.py SOURCE BIN READER
 
-Of a case with cells, of one with rigid bodies, and of a relaxation. Their schemas stand in .schema/ of the case, where the first lines of
-the dictionaries look for them.
+Tested for a case with cells, one with rigid bodies, and a relaxation. Their schemas are in .schema/ of the case, as the first lines of
+the dictionaries name them.
 """
 import pathlib
 import re

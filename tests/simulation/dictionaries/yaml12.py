@@ -32,7 +32,7 @@ def real(loader, node):
 
 
 def table(loader, node):
-    """Keys are texts, whatever they look like; each only once."""
+    """A table whose keys are text, whatever they look like, and occur only once."""
     pairs = [(loader.construct_object(value, deep=True), key.value) for key, value in node.value]
     if len({key for _, key in pairs}) != len(pairs):
         raise yaml.YAMLError("a key stands twice")

@@ -31,7 +31,7 @@ def run(name, n):
 
 
 def band(strain):
-    """Least and greatest D of the sources that are not known to have no rest curvature, each with its error of reading."""
+    """Least and greatest D of the sources, except those known to have no rest curvature, each with its reading error."""
     found = [at(table, strain, "D") for source, table in reference.items() if source not in (UNBOUNDED, BOXED)]
     found = [value for value in found if math.isfinite(value)]
     return min(found) - READING, max(found) + READING
@@ -56,7 +56,7 @@ def figures(done, n):
 
 
 def curves(done):
-    """Each with the published curve that it is nearest to by law and box, in its colour."""
+    """Each curve in the colour of the published curve whose law and box are nearest to its own."""
     labels = {"unbounded": ("no rest curvature", UNBOUNDED), "boxed": ("no rest curvature, box of 4 radii", BOXED),
               "curved": ("rest curvature of the sphere", "Le and others 2009")}
     ours = [(labels[name][0], *Course(folder).curve("D12_inertia", 0.1)) for name, folder in done.items()]

@@ -11,7 +11,7 @@ RESOLUTIONS = (6, 8, 12)
 UNBOUNDED = True
 ALLOWED = {6: {"0.3": 2}, 8: {"0.3": 2, "0.6": 2.5, "1.2": 5}}  # % of D12; 2 % at the finest is the aim
 PERIOD = {6: 4, 8: 3}  # %; likewise
-STRAINS = [0.1 * k for k in range(5, 10 * STRAIN + 1)]  # every look from where D12 is half of what it comes to
+STRAINS = [0.1 * k for k in range(5, 10 * STRAIN + 1)]  # all observations from the strain at which D12 is half of its final value
 
 capsules = Capsules("capsuleSkalak", ("0.3", "0.6", "1.2"))
 runs = capsules.runs

@@ -41,7 +41,7 @@ def expected(law, Ca):
 
 
 def intrinsic(row, key):
-    """Of a stress [Pa] over mu gammadot phi."""
+    """Intrinsic value of a stress [Pa]: over mu gammadot phi."""
     return row[key] / (VISCOSITY * row["strain"] / row["time_s"] * row["haematocrit"])
 
 
@@ -50,7 +50,7 @@ def mean(table, key):
 
 
 def byImages(folder, n):
-    """Relative viscosity by the work of the sliding images."""
+    """Relative viscosity from the work of the sliding images."""
     first, *_, last = [row for row in series(folder, "balance", "budget.csv") if row["strain"] > STEADY - 1e-9]
     rate = last["strain"] / last["time_s"]
     volume = math.prod(fromOn(BOX, n)) * RADIUS**3

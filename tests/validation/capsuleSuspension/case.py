@@ -39,7 +39,7 @@ def table(folder):
 
 
 def viscosity(folder):
-    """Volume fraction; relative viscosity less 1, and the share of contact in it: means from STEADY on."""
+    """Volume fraction; relative viscosity minus 1, and the share of contact in it: means from STEADY on."""
     steady = [row for row in table(folder) if row["strain"] > STEADY]
     mean = lambda key: statistics.mean(row[key] for row in steady)
     of = mean("shearStress_membranes_Pa") + mean("shearStress_interiors_Pa") + mean("shearStress_contact_Pa")

@@ -1,6 +1,6 @@
-"""A stretched red cell let go, against Hochmuth, Worthy and Evans 1979 (recovery.csv) and the sheet of Kelvin and Voigt.
+"""Recovery of a stretched red cell, against Hochmuth, Worthy and Evans 1979 (recovery.csv) and the Kelvin-Voigt sheet.
 
-membraneRelax draws the cell out; that shape starts in a fluid at rest, with the undeformed mesh as its shape without tension.
+membraneRelax stretches the cell; this shape starts in fluid at rest, with the undeformed mesh as its stress-free shape.
 """
 import math
 import shutil
@@ -37,7 +37,7 @@ def run(name, n, ratio):
 
 
 def stretch(folder):
-    """The mesh as made becomes the stress-free shape, the last of membraneRelax the cell."""
+    """Makes the original mesh the stress-free shape, and the last shape of membraneRelax the cell."""
     made = vtp.File(folder / "0/rbc.vtp")
     last = vtp.File(max((folder / "results/rbc").glob("*/*.vtp")))
     shutil.move(folder / "0/rbc.vtp", folder / "constant/stressFree.vtp")
@@ -56,7 +56,7 @@ def sheet(t, first, tc, last):
 
 
 def fit(times, ratios, last=None):
-    """first, tc and, where it is not given, last of least squares; Gauss and Newton."""
+    """first, tc and, if not given, last by least squares, with the Gauss-Newton method."""
     p = [ratios[0], 0.13] + ([1.05] if last is None else [])
     end, count, h = [] if last is None else [last], range(len(p)), 1e-6
     for _ in range(50):
@@ -111,7 +111,7 @@ def figures(done, n):
 
 
 def left(times, ratios, last=None):
-    """Times and what is left of the stretch by the sheet's formula, with the ratios of the fit at the start and at the end."""
+    """Times and the remaining stretch by the sheet's formula, with the ratios of the fit at the start and at the end."""
     first, _, last = fit(times, ratios, last)
     points = [(t, (r - last) * (first + last) / ((r + last) * (first - last))) for t, r in zip(times, ratios)]
     return zip(*((t, share) for t, share in points if share > LEAST))

@@ -1,4 +1,4 @@
-"""The paper's exhibits at four resolutions: D12 over strain at its three Ca (figure 5), shapes (6), rupture (7), against what it says."""
+"""The paper's exhibits at four resolutions: D12 over strain at its three Ca (figure 5), shapes (6), rupture (7), against the paper's values."""
 import json
 import pathlib
 
@@ -11,8 +11,8 @@ ACROSS = "particles along the radius"
 RESOLUTIONS = (4, 5, 6, 8)
 ENDS = {"0.002": 12, "0.02": 12, "3": 6}  # strain, by Ca
 BOX = {"0.002": (5, 5, 5), "0.02": (5, 5, 5), "3": (8, 5, 5), "rupture": (8, 4, 4)}  # radii: those of the tutorials
-BROKEN = 0.5  # strain to which the rupture runs go: past the first break; the panels are the tutorial's
-EDGE, TORN = 1, 0.8  # of the mesh, in spacings: those of the tutorials; where membranes are particles edges are shorter
+BROKEN = 0.5  # final strain of the rupture runs: past the first break; the panels are those of the tutorial
+EDGE, TORN = 1, 0.8  # of the mesh, in spacings: those of the tutorials; with dual identity edges are shorter
 ROUNDED = 0.005  # the paper prints two digits
 FIRST = 0.0994  # strain of the first break at 10 particles along the radius: tutorials/rbcRupture
 ALLOWED = {  # D12 by inertia against boundary elements, by Ca; strain of a quarter turn, of the first break, %

@@ -1,4 +1,4 @@
-"""A rigid red cell in shear flow against boundary elements: free, as the spheroids are."""
+"""A free rigid red cell in shear flow against boundary elements, as in the case spheroid."""
 import math
 import pathlib
 
@@ -10,7 +10,7 @@ ACROSS = "particles along the diameter"
 RESOLUTIONS = (12, 16, 24)
 UNBOUNDED = True
 ALLOWED = {12: 5, 16: 3, 24: 1}  # %, of the period; at 24 the aim
-RATES = {12: 1, 24: 2.5}  # what is allowed for rates, in that
+RATES = {12: 1, 24: 2.5}  # allowed error of rates, as a multiple of this
 MISSED = {24: {"period, from the rates at both ends": 1.8, "rate, axis near the gradient": 3.6}}
 SHAPE = "{type: kuchelFackerell, d: 8 um, h: 2.12 um, b: 1 um}"
 spheroid = load("spheroid")

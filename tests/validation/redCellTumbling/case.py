@@ -16,7 +16,7 @@ MISSED = {8: {"tumble 1: period": 3.1}, 12: {"tumble *: period": 1.6}}
 
 
 def cell(n=RESOLUTIONS[-1]):
-    strain = 20.8 * fromOn(TUMBLES, n) + 1  # with slack: a narrow box and coarse particles make it late
+    strain = 20.8 * fromOn(TUMBLES, n) + 1  # with a margin: a narrow box and coarse particles delay the cell
     return Sheared("redCellShear", TUTORIALS / "rbcShear" / "Ca0.02", {"0.002": (strain, TUMBLING)},
                    ["constant/flow.yaml:/inertia/Re=0.01", "system/observers.yaml:/deformation/every=0.1 strain",
                     f"system/numerics.yaml:/implicit/step={fromOn(STEP, n)}"], edge=1.25)

@@ -1,6 +1,6 @@
-"""One free rigid sphere in each cell of a cubic lattice that is sheared: relative viscosity and spin over the strain, against Stokes flow.
+"""A sheared cubic lattice of free rigid spheres, one in each cell: relative viscosity and spin over the strain, against Stokes flow.
 
-The viscosity is that of the work of the sliding images (budget.csv) over each step.
+The viscosity follows from the work of the sliding images (budget.csv) over each step.
 """
 import math
 import pathlib
@@ -15,7 +15,7 @@ ACROSS = "particles along a cell"
 RESOLUTIONS = (16, 24, 32, 48)
 FRACTIONS = {16: (0.05, 0.1), 32: (0.05, 0.1, 0.3)}  # a sphere must not reach its own image within two supports
 ALLOWED = (1, 0.01)  # % of the viscosity; of the spin over gammadot
-FROM = 1.5  # of strain: until there the lattice of the start is drawn out and falls apart
+FROM = 1.5  # strain; before, the initial lattice of particles is sheared and becomes disordered
 L, MU, RATE = 10e-6, 1e-3, 100.0  # m, Pa s, 1/s: of system/mesh.yaml and constant
 EDGES = 16  # of the mesh along the radius
 
@@ -38,7 +38,7 @@ def runs(n):
 
 
 def theirs(c, key, strain):
-    """Even and of period 1 in the strain: the sum of cosines through the rows, at 0, 1/8, ..., 1/2."""
+    """Reference value at a strain. It is even and of period 1 in the strain: the sum of cosines through the rows, at 0, 1/8, ..., 1/2."""
     values = [row[key] for row in reference[c]]
     N = len(values) - 1
     ends = [0.5 if k in (0, N) else 1 for k in range(N + 1)]

@@ -1,8 +1,8 @@
 """Drag of simple cubic arrays of fixed spheres in Stokes flow against Zick and Homsy (zickHomsy.csv).
 
 The flow between walls has LAYERS layers of spheres across it; drag and flux are those of the middle layer and of its cells. There the walls are
-two cells away: what they do falls as exp(-2 pi) = 1/535 per cell, or as cosh(z/sqrt(k)) with k = L^3/(6 pi a K), sqrt(k) = 0.38 L at c = 0.027
-and less in denser arrays; and K is the ratio of two numbers that both fall by as much.
+two cells away: their effect falls as exp(-2 pi) = 1/535 per cell, or as cosh(z/sqrt(k)) with k = L^3/(6 pi a K), sqrt(k) = 0.38 L at c = 0.027
+and less in denser arrays; and K is the ratio of two numbers that both decrease by the same factor.
 """
 import math
 import pathlib
@@ -18,7 +18,7 @@ ALLOWED = {8: (2, 10), 12: (1, 2), 16: (1, 2), 24: (1, 3)}  # %: c <= 0.216; c =
 
 L, NU, RHO = 1e-3, 1e-6, 1000.0  # m, m^2/s, kg/m^3: of a cell; constant/fluid.yaml
 RE, LAYERS = 1e-3, 5  # Re = U a/nu
-STEPS = 6  # of three times that in which the flow follows the force: what is missing at the end falls by 3 to 4 in each
+STEPS = 6  # each of three times the response time of the flow: the missing part falls by a factor of 3 to 4 in each
 EDGES = 16  # of the mesh along the radius
 REACH = 2.4  # system/numerics.yaml: support over dx
 
@@ -54,16 +54,16 @@ def name(c):
 
 
 def runs(n):
-    """At n; at 16 and more also at half of it, for the extrapolation."""
+    """Runs at n; from 16 on also at n/2, for the extrapolation."""
     return [run(c, n) for c in FRACTIONS] + [run(c, n // 2, "half-") for c in FRACTIONS if n >= 16]
 
 
 def run(c, n, prefix=""):
     N, m, a, K = across(c, n), wide(c, n), radius(c), reference[c]
     force = 6 * math.pi * RE * NU**2 * K / L**3  # per mass, so that U = RE nu/a
-    tau = L**3 / (6 * math.pi * NU * a * K) * (1 + c / 2) / (1 - c)  # the factor: inertia of a flow that winds about spheres
+    tau = L**3 / (6 * math.pi * NU * a * K) * (1 + c / 2) / (1 - c)  # the factor: inertia of a flow that winds around spheres
     sound = 0.5 * L / tau  # pressure spreads over a cell, against the drag, at a rate of pi^2/tau
-    rate = force * LAYERS * L / (8 * NU)  # that of the flow between walls without spheres, which counts the steps
+    rate = force * LAYERS * L / (8 * NU)  # shear rate of the flow between walls without spheres, the unit of the steps
     bodies = ", ".join(
         f"{{name: sphere{x}{y}{z}, body: sphere, shape: {{type: sphere, radius: {1e6 * a:.8g} um}}, edge: {1e6 * a / EDGES:.6g} um, "
         f"centre: [{1e3 * L * (x - (m - 1) / 2):g} mm, {1e3 * L * (y - (m - 1) / 2):g} mm, {1e3 * L * (z - (LAYERS - 1) / 2):g} mm]}}"
@@ -105,7 +105,7 @@ def figures(done, n):
 
 
 def curves(done):
-    """K over Zick and Homsy's, by all resolutions that have been run."""
+    """K over that of Zick and Homsy, at all resolutions that have been run."""
     work = next(iter(done.values())).parent.parent
     ours = []
     for n in RESOLUTIONS:

@@ -1,6 +1,6 @@
 """Force on a sphere that moves near a plane wall, towards it and along it (wallDrag.csv).
 
-The box is periodic along the wall and has a second one; what that changes is computed (wallBox.py) and added to the mobility near one wall.
+The box is periodic along the wall and has a second wall; the effect of both is computed (wallBox.py) and added to the mobility near one wall.
 """
 import math
 
@@ -43,14 +43,14 @@ def run(way, x, n):
 
 
 def expected(way, x):
-    """Force in this box over 6 pi mu a U, that near one wall alone, and what images and the second wall change of the mobility."""
+    """Force in this box over 6 pi mu a U, the force near one wall alone, and the changes of the mobility by images and by the second wall."""
     (alone,) = (row[way] for row in reference if row["h_over_a"] == x)
     changes = box.mobility(x, WIDE, HIGH, way == "towards")
     return 1 / (1 / alone + sum(changes)), alone, changes
 
 
 def drag(folder, way):
-    """Over 6 pi mu a U at the end."""
+    """Force over 6 pi mu a U at the end."""
     last = rows(folder / "postProcessing/force/sphere.csv")[-1]
     return -last["force_z_N" if way == "towards" else "force_y_N"] / (6 * math.pi * MU * A * U)
 
@@ -67,7 +67,7 @@ def figures(done, n):
 
 
 def curves(done):
-    """Ours without what the box changes."""
+    """Our results, corrected for the effect of the box."""
     ours, theirs = [], []
     for way in WAYS:
         found = {x: done[f"{way}{x:g}"] for x in DISTANCES if f"{way}{x:g}" in done}

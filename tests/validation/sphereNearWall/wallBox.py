@@ -1,15 +1,15 @@
-"""Mobility of a sphere in a box that is periodic along two plane walls less that near one wall alone, to first order in the sphere's radius.
+"""Mobility of a sphere in a box that is periodic along two plane walls, minus that near one wall alone, to first order in the sphere's radius.
 
-Velocity at the sphere's centre by the Stokeslets of its images along the wall (Blake's tensor, J. R. Blake, Proc. Camb. Phil. Soc. 70:303 (1971)),
-plus what the second wall changes: over wave vectors k of the box, each a solution of Stokes flow between z = 0 and H that is exact in z.
+Velocity at the sphere's centre from the Stokeslets of its images along the wall (Blake's tensor, J. R. Blake, Proc. Camb. Phil. Soc. 70:303 (1971)),
+plus the change by the second wall: a sum over wave vectors k of the box, each a solution of Stokes flow between z = 0 and H that is exact in z.
 Lengths in a; results over 1/(6 pi mu a).
 """
 import math
 
 
 def images(h, W, towards, reach=40):
-    """Stokeslets at (i W, j W, h) near a wall at z = 0, without that of the sphere."""
-    # What lies beyond falls as 1/s^5 towards the wall and as 6 h^2/s^3 along it: its integral outside the square.
+    """Sum of the Stokeslets at (i W, j W, h) near a wall at z = 0, without that of the sphere itself."""
+    # Farther Stokeslets decrease as 1/s^5 towards the wall, and as 6 h^2/s^3 along it: added is their integral outside the square.
     total = 0.0 if towards else 6 * h**2 * 4 * math.sqrt(2) / ((reach + 0.5) * W**3)
     for i in range(-reach, reach + 1):
         for j in range(-reach, reach + 1):
@@ -50,7 +50,7 @@ def twoWalls(k, h, H, towards):
     the walls: (D^2 - k^2) u = 0, u zero on the walls.
     """
     up, near, far, gap = H - h, math.exp(-k * h), math.exp(-k * (H - h)), math.exp(-k * H)
-    if towards:  # w and Dw on the walls, without them
+    if towards:  # w and Dw at the walls, in unbounded fluid
         free = [(1 + k * h) * near / (4 * k), k * h * near / 4, (1 + k * up) * far / (4 * k), -k * up * far / 4]
     else:
         free = [h * near / 4, -(1 - k * h) * near / 4, -up * far / 4, -(1 - k * up) * far / 4]

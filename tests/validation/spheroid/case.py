@@ -12,11 +12,11 @@ UNBOUNDED = True
 ALLOWED = {12: {0.5: 1.5, 0.265: 2.5}, 16: {0.5: 1.2, 0.265: 2}, 24: {0.5: 1, 0.265: 3}}  # %, of the period; at 24 the aim
 BY_RATES = "r = 0.5: period, from the rates at both ends"
 MISSED = {16: {BY_RATES: 1.5}, 24: {BY_RATES: 1.5, "r = 0.5: rate, axis near the gradient": 3.2}}
-TORQUE = 2.5  # what is allowed for rates and torques, in those of the period
+TORQUE = 2.5  # allowed error of rates and torques, as a multiple of that of the period
 BOX = (8, 6, 8)  # along flow, vorticity and gradient, in a
 RE, STEP = 0.01, 0.05  # rho gammadot a^2/mu; strain
 START = 0.2  # strain from which rates and torques are taken
-TURNS = {12: (0.5,), 16: (0.5, 0.265), 24: (0.5, 0.265)}  # spheroids that turn through a quarter; the thin one is too coarse for it at 12
+TURNS = {12: (0.5,), 16: (0.5, 0.265), 24: (0.5, 0.265)}  # spheroids that make a quarter turn; for the thin one, 12 is too coarse
 
 A, RATE, VISCOSITY = 4e-6, 100.0, 1e-3  # m, 1/s, Pa s: tutorials/jeffery
 tutorial = module(TUTORIALS / "jeffery" / "compare.py", "jeffery")
@@ -29,7 +29,7 @@ def jeffery(r, phi):
 
 
 def angle(r, strain):
-    """phi from 0, until two right angles."""
+    """phi, which starts at 0, up to two right angles."""
     return math.atan2(r * math.sin(strain / (r + 1 / r)), math.cos(strain / (r + 1 / r)))
 
 
@@ -91,7 +91,7 @@ def figures(done, n):
 
 
 def curves(done):
-    """Of those that turned through a quarter."""
+    """Curves of the spheroids that made a quarter turn."""
     ours, theirs, work = [], [], next(iter(done.values())).parent.parent
     for r, exact in reference.items():
         for n in (n for n in reversed(RESOLUTIONS) if (work / f"{n}/{r:g}-turn/run.json").exists()):

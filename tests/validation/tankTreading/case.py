@@ -1,6 +1,6 @@
 """A red cell with its own moduli in shear flow against experiments: tank-treading frequency, elongation, inclination; the stress that ends tumbling.
 
-Frequencies f are in rad/s: 2 pi over the time in which the membrane goes once round. Fischer's are in cycles per second: times 2 pi.
+Frequencies f are in rad/s: 2 pi over the time of one revolution of the membrane. Fischer's are in cycles per second and are multiplied by 2 pi.
 """
 import math
 import pathlib
@@ -21,8 +21,8 @@ STRESSES = {5: (0.03,), 6: (0.03,), 8: (0.03, 0.06, 0.12, 0.23, 0.46), 12: (0.03
 THIN = 23.9
 BOX = {5: (5, 5, 5), 6: (5, 5, 5), 8: (7, 5, 5)}  # 4 um, along the flow, the vorticity and the gradient
 STRAIN = {5: 24, 6: 22, 8: 22}  # half a turn of the membrane from DRAWN on
-DRAWN = 5  # strain by which a cell has been drawn out
-TURN = {5: 6.5, 6: 6.5, 8: 10}  # strain to which the runs for STRESSES go: by Jeffery's orbit a rigid cell is upright at 5
+DRAWN = 5  # strain after which the cell is fully elongated
+TURN = {5: 6.5, 6: 6.5, 8: 10}  # final strain of the runs for STRESSES: on Jeffery's orbit a rigid cell is upright at 5
 EDGE = 1  # of the mesh, in spacings
 SPREAD = 2  # standard deviations of the measured cells
 STEEP = {"35 mPa s, 171.4 1/s: inclination, *": 1, "28.9 mPa s, 258 1/s: inclination, *": 2.7}  # degrees
@@ -33,7 +33,7 @@ INSIDE = 10  # mPa s
 
 
 def skeleton(folder):
-    """Puts the shape that membraneRelax found where the membrane looks for its stress-free shape; its record is not that of the run."""
+    """Makes the shape that membraneRelax found the stress-free shape of the membrane; removes the record, which is not that of the run."""
     (made,) = (folder / "results" / "skeleton" / "skeleton_000000").glob("*.vtp")
     shutil.copy(made, folder / "constant" / "stressFree.vtp")
     shutil.rmtree(folder / "results")
@@ -58,10 +58,10 @@ def runs(n):
 
 
 class Steady:
-    """The last half turn of the membrane, after which the shape repeats: f by the time that it took, and means over it.
+    """The last half turn of the membrane, after which the shape repeats: f from its duration, and means over it.
 
-    The turn is that of the node which at rest is nearest to the main axis and goes round near the shear plane, as a particle stuck to a membrane
-    does. f is not a number where the half turn began before DRAWN.
+    The turn is that of the node that is nearest to the main axis at rest and moves near the shear plane, like a particle attached to the membrane.
+    f is NaN if the half turn began before DRAWN.
     """
 
     def __init__(self, folder):
@@ -93,8 +93,8 @@ def near(table, key, value, within):
 
 
 def inclinations(viscosity, rate):
-    """Least and greatest of all donors at the nearest shear rate, between the thinner and the thicker fluid beside ours by the logarithm of the
-    viscosity."""
+    """Least and greatest inclination of all donors at the nearest shear rate, interpolated in the logarithm of the viscosity between the next less
+    viscous and the next more viscous fluid."""
     ends = []
     for beside in BESIDE:
         table = [row for row in rows(HERE / "inclination.csv") if row["viscosity_mPa_s"] == beside]
@@ -172,7 +172,7 @@ def curves(done):
 
 
 def shapes(done, n, means, rates):
-    """Lengths of the cells in 35 mPa s and, tenths of degrees, inclinations of all, each with what was measured."""
+    """Lengths of the cells in 35 mPa s, and inclinations of all in tenths of degrees, each with the measured values."""
     found = sorted((rate, viscosity, Steady(done[label(viscosity, rate)])) for viscosity, rate in fromOn(TREADING, n))
     thick = [(rate, steady) for rate, viscosity, steady in found if viscosity == 35]
     ours = [("projected half-length [um]", [rate for rate, _ in thick], [steady.halfLength() for _, steady in thick]),

@@ -29,7 +29,7 @@ def energies(done, Re):
 
 
 def between(points, time):
-    """The energy then: its logarithm is taken as linear between two looks."""
+    """The energy at that time, with its logarithm interpolated linearly."""
     for (t0, e0), (t1, e1) in zip(points, points[1:]):
         if t0 <= time <= t1:
             return e0 * (e1 / e0) ** ((time - t0) / (t1 - t0))
@@ -49,7 +49,7 @@ def figures(done, n):
 
 
 def curves(done):
-    """The decay, and how far off it is by all resolutions that have been run."""
+    """The decay, and its error at all resolutions that have been run."""
     work, ours, theirs, off = next(iter(done.values())).parent.parent, [], [], []
     for Re in REYNOLDS:
         points = energies(done, Re)[::4]

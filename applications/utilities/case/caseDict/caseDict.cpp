@@ -1,7 +1,8 @@
-// caseDict: shows, changes, adds, removes and compares entries of the dictionaries of a case; comments and layout stay.
+// caseDict: shows, changes, adds, removes and compares entries in the dictionaries of a case, keeping comments and
+// layout.
 //
-// A change is read as the programs will read it before anything is written: a key that is misspelt or a unit that is
-// wrong is refused, with all that is wrong, and no file is changed.
+// Before anything is written, the changed dictionary is read in the same way as the solvers and utilities read it: a
+// misspelt key or a wrong unit is rejected, all problems are reported, and no file is changed.
 //
 // Sample runs:
 //     caseDict system/mesh.yaml:/cells/0/edge
@@ -49,7 +50,7 @@ Entry entryOf(const std::string& text) {
     return colon == std::string::npos ? Entry{text, ""} : Entry{text.substr(0, colon), text.substr(colon + 1)};
 }
 
-// The text of a dictionary of the case.
+// The text of a dictionary in the case.
 std::string textOf(const fs::path& caseDir, const std::string& file) {
     const fs::path normal = fs::path(file).lexically_normal();
     if (normal.is_absolute() || *normal.begin() == ".." || normal.extension() != ".yaml")
@@ -98,7 +99,7 @@ std::vector<std::string> split(const std::string& text) {
 
 void change(Application& app) {
     const fs::path caseDir = app.caseDirectory();
-    app.lockCase();  // what is read is what is changed
+    app.lockCase();  // locked before reading, so that the text that is changed is the text that was read
     std::map<std::string, std::string> before, after;
     const auto text = [&](const std::string& file) -> std::string& {
         const std::string name = fs::path(file).lexically_normal().string();

@@ -1,7 +1,7 @@
-// caseMonitor: how far a run is, while it runs: progress, time left, what limits the step, and a curve.
+// caseMonitor: the progress of a run while it runs, the time left, what limits the time step, and a curve of results.
 //
-// It reads run.json, which the solver writes anew every few seconds, and the tables of the observers; the run is not
-// disturbed, and may be on another machine that shares the folder.
+// Reads run.json, which the solver writes every few seconds, and the tables of the observers. The run is not disturbed;
+// it may be on another machine that shares the folder.
 //
 // Sample runs:
 //     caseMonitor
@@ -58,7 +58,7 @@ bool hasUnicode() {
     return false;
 }
 
-// OBSERVER/FILE of every table, those of the observers named first in system/observers.yaml first.
+// OBSERVER/FILE of each table, in the order of the observers in system/observers.yaml.
 std::vector<std::string> tablesOf(const fs::path& caseDir) {
     std::vector<std::string> names;
     std::error_code ignored;
@@ -83,7 +83,7 @@ std::vector<std::string> tablesOf(const fs::path& caseDir) {
 
 bool isPlace(const std::string& column) { return column == "time_s" || column == "strain" || column == "cell"; }
 
-// What -table and -column name; without them the first column of a table of cells, else of any.
+// The curve that -table and -column name; by default the first column of a table of cells, otherwise of any table.
 Curve curveOf(const Application& app, const fs::path& caseDir) {
     const auto wanted = app.value("column");
     const std::vector<std::string> tables = app.has("table") ? std::vector{*app.value("table")} : tablesOf(caseDir);
@@ -181,7 +181,7 @@ std::vector<std::string> screen(const Application& app, const fs::path& caseDir,
         addCurve(lines, caseDir, curveOf(app, caseDir), columns);
     } catch (const Failure& fault) {
         if (fault.code() == ExitCode::usage) throw;
-        lines.emplace_back(fault.what());  // a table that does not exist yet
+        lines.emplace_back(fault.what());  // the table does not exist yet
     }
     return lines;
 }

@@ -8,7 +8,7 @@
 namespace corpuscle {
 namespace {
 
-// Of the dots in a character, by column and row (Unicode 2800).
+// The bit of each dot of a Braille character, by column and row (Unicode 2800).
 constexpr unsigned brailleDot[2][4] = {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}};
 
 std::string utf8(unsigned code) {
@@ -42,14 +42,14 @@ std::vector<std::string> plotText(const std::vector<double>& x, const std::vecto
               tall = unicode ? 4 : 1;
     std::vector<std::vector<unsigned>> cells(static_cast<std::size_t>(lines),
                                              std::vector<unsigned>(static_cast<std::size_t>(width), 0));
-    const auto set = [&](int column, int row) {  // of dots, from the top
+    const auto set = [&](int column, int row) {  // column and row of a dot, counted from the top
         cells[static_cast<std::size_t>(row / tall)][static_cast<std::size_t>(column / wide)] |=
             unicode ? brailleDot[column % 2][row % 4] : 1U;
     };
     int lastColumn = -1, lastRow = 0;
     for (const auto& [at, value] : points) {
         const int column = across.place(at, width * wide), row = lines * tall - 1 - up.place(value, lines * tall);
-        // A line from the point before, dot by dot.
+        // A line of dots from the previous point.
         const int steps = lastColumn < 0 ? 0 : std::max(std::abs(column - lastColumn), std::abs(row - lastRow));
         for (int k = 1; k < steps; ++k)
             set(lastColumn + (column - lastColumn) * k / steps, lastRow + (row - lastRow) * k / steps);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the process that writes in a case, as case.lock names it.
+// The host of the process that writes in a case, as stated in case.lock.
 std::string hostOf(const fs::path& lock) {
     std::ifstream stream(lock);
     for (std::string line; std::getline(stream, line);)
@@ -23,7 +23,8 @@ std::string hostOf(const fs::path& lock) {
     return {};
 }
 
-// The system lets go of the lock when a process ends. Of another host nothing can be known: its file is believed.
+// The operating system releases the lock when a process ends. For a process on another host this cannot be seen; there
+// the existence of the file is taken as proof.
 bool isAtWork(const fs::path& caseDir) {
     const fs::path lock = caseDir / "case.lock";
     const int file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);

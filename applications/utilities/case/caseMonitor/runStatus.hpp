@@ -1,4 +1,5 @@
-// How far the run of a case is: run.json as the solver writes it every few seconds, and whether a process is at work.
+// Progress of the run of a case: the content of run.json, which the solver writes every few seconds, and whether a
+// process is still running.
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@ struct RunStatus {
     std::string reason;
 
     bool isRunning() const { return state == "running"; }
-    // Throws Failure(io) where no run has begun.
+    // Throws Failure(io) if no run of the case has begun.
     static RunStatus of(const std::filesystem::path& caseDir);
 };
 

@@ -1,10 +1,10 @@
-// caseSweep: a parameter study. Makes a case for each combination of values from one template, runs them several at a
-// time, goes on where it was stopped or killed, and collects summary.csv and report.html.
+// caseSweep: a parameter study. Makes a case from one template for each combination of values, runs several cases at a
+// time, continues after having been stopped or killed, and collects summary.csv and report.html.
 //
 //     study.yaml (study/studySettings.hpp)
 //       -> cases        cases/NAME, a copy of the template with its settings written into the dictionaries
-//       -> programs     in each case, output in log.caseSweep; what has ended is noted in sweep.json
-//       -> summary.csv  parameters and results of all cases, written anew whenever a case ends
+//       -> programs     run in each case, output in log.caseSweep; those that have ended are noted in sweep.json
+//       -> summary.csv  parameters and results of all cases, rewritten whenever a case ends
 //       -> report.html  plots, table, logs of failures
 #include <fmt/format.h>
 
@@ -54,18 +54,19 @@ Usage usage() {
             .samples = {"caseSweep study.yaml", "caseSweep -list", "caseSweep -jobs 4 -retry"}};
 }
 
-// What a study.yaml amounts to.
+// The content of a study.yaml, with the cases that follow from it.
 struct Study {
     fs::path file, base;
     study::StudySettings settings;
     std::vector<study::StudyCase> cases;
     study::SweepOptions options;
-    std::string name;  // of the file without its ending
+    std::string name;  // of the file, without its extension
 };
 
-// All dictionaries of all cases, read as the programs will read them. Each fault is told once, with its first case.
+// Reads all dictionaries of all cases as the programs will read them. Each fault is reported once, with the first case
+// that has it.
 void checkCases(const Study& study) {
-    std::map<std::string, std::string> found;  // fault, and the case
+    std::map<std::string, std::string> found;  // each fault, with the first case that has it
     std::vector<std::string> order;
     const auto note = [&](const std::string& fault, const std::string& name) {
         if (found.emplace(fault, name).second) order.push_back(fault);
@@ -87,7 +88,7 @@ void checkCases(const Study& study) {
     throw Failure(ExitCode::invalidCase, text);
 }
 
-// Every program that a case needs can be started.
+// Checks that every program that a case needs can be started.
 void checkPrograms(const Study& study) {
     std::vector<std::string> known;
     for (const auto& entry : fs::directory_iterator(study.options.programFolder))
@@ -242,7 +243,7 @@ void writeBatch(Application& app, const Study& study) {
     write("snakemake", ".smk", study::snakefile(batch));
 }
 
-// Two studies in one folder would take each other's cases and tables for their own.
+// Two studies in one folder would each mistake the other's cases and tables for their own.
 void requireOwnFolder(const Study& study) {
     const fs::path summary = study.options.cases / "summary.csv";
     std::error_code ignored;
@@ -290,7 +291,7 @@ void showResults(Application& app, const study::Summary& summary) {
     for (const auto& [name, result] : summary.results) header.push_back(name);
     header.emplace_back("run time");
     std::vector<std::vector<std::string>> rows;
-    std::map<std::string, std::string> problems;  // with the first case
+    std::map<std::string, std::string> problems;  // each with the first case that has it
     bool isDoubtful = false;
     for (const study::SummaryRow& row : summary.rows) {
         rows.push_back({row.status->what.name, nameOf(row.status->state)});
@@ -359,16 +360,18 @@ ExitCode sweep(Application& app, const Study& study, const study::Environment& e
         return ExitCode::done;
     }
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
-        if (std::signal(signal, noteSignal) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup
+        // Ignored signals stay ignored (nohup).
+        if (std::signal(signal, noteSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
     LiveTable table(app.log(), app.has("quiet") || app.json());
-    const bool isPart = app.has("only");  // the whole study is for -collect
+    // With -only, summary and report are left to -collect, since they cover the whole study.
+    const bool isPart = app.has("only");
     bool changed = true;
     std::sig_atomic_t handled = 0;
     while (true) {
         table.show(sweep.cases(), changed);
         if (sweep.isEnded()) break;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        if (stopSignals > handled) {  // a second one ends solvers at once
+        if (stopSignals > handled) {  // a second signal ends solvers at once
             if (handled == 0) app.log().info("stopping: solvers write a checkpoint first");
             handled = stopSignals;
             sweep.stop();
@@ -386,7 +389,7 @@ ExitCode sweep(Application& app, const Study& study, const study::Environment& e
     return outcomeOf(app, sweep.cases());
 }
 
-// Editors find the schema that the first line of a study names.
+// Editors find the schema through the first line of a study, which names it.
 void refreshSchema(const Study& study) {
     for (const auto& [file, info] : simulation::dictionaries())
         if (file == "study.yaml") try {
@@ -394,14 +397,15 @@ void refreshSchema(const Study& study) {
                 const fs::path path = study.base / ".schema" / "study.json";
                 if (!fs::exists(path) || readFile(path) != text) writeFileAtomically(path, text);
             } catch (const std::exception&) {
-                return;  // a folder that cannot be written to is no fault here
+                // Not an error: the folder may be read-only.
+                return;
             }
 }
 
 }  // namespace
 
 int main(int argc, char* argv[]) {
-    const study::Environment environment = study::Environment::ofThisProcess();  // before MPI adds to it
+    const study::Environment environment = study::Environment::ofThisProcess();  // taken before MPI adds variables
     Application app("caseSweep", "Runs a parameter study: cases from one template, several at a time.", argc, argv,
                     usage());
     return app.run([&] {

@@ -58,7 +58,7 @@ void LiveTable::finish(const std::vector<CaseStatus>& cases) {
     draw(cases);
 }
 
-// Of more cases than lines, those that run and that failed first.
+// If there are more cases than lines, running and failed cases come first.
 void LiveTable::draw(const std::vector<CaseStatus>& cases) {
     std::vector<const CaseStatus*> shown;
     shown.reserve(cases.size());

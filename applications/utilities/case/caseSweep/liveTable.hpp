@@ -1,5 +1,5 @@
-// How far a study is, on the terminal: a table of all cases that is drawn anew in its place, or, where the output is no
-// terminal, a line whenever something happens.
+// Progress of a study on the terminal: a table of all cases that is redrawn in place or, if the output is not a
+// terminal, one line for each event.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,9 +12,9 @@ namespace corpuscle {
 class LiveTable {
   public:
     LiveTable(Log& log, bool quiet);
-    // Shows the state of all cases; at most twice a second where nothing has changed.
+    // Shows the state of all cases, at most twice a second while nothing has changed.
     void show(const std::vector<study::CaseStatus>& cases, bool changed);
-    // The last time.
+    // Shows the final state.
     void finish(const std::vector<study::CaseStatus>& cases);
 
   private:
@@ -25,7 +25,7 @@ class LiveTable {
     bool isTerminal_;
     std::size_t drawnLines_ = 0;
     std::chrono::steady_clock::time_point drawn_;
-    std::vector<std::string> told_;  // of each case, what was said of it last
+    std::vector<std::string> told_;  // for each case, the state that was last reported
 };
 
 }  // namespace corpuscle

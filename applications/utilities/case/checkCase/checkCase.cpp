@@ -1,9 +1,9 @@
-// checkCase: everything about a case that can be known before it runs.
+// checkCase: reports everything that can be known about a case before it runs.
 //
-// Reads all dictionaries (every problem at once, exit code 2), then prints on one screen the case, the dimensionless
-// groups, the resolution, the memory and disk it will take, what the integrators that can do it would cost, and, if 0/
-// has been filled, every limit of the time step and the run time predicted from a short burst; at the end what looks
-// wrong. -json has all of it, and more. Nothing is written.
+// Reads all dictionaries (reporting every problem at once, exit code 2), then prints on one screen the case, the
+// dimensionless groups, the resolution, the required memory and disk space, the cost of each integrator that can run
+// the case, and, if 0/ has been filled, every limit of the time step and the run time predicted from a short burst of
+// steps; at the end come warnings. -json has all of this, and more. Nothing is written.
 //
 // Sample runs:
 //     checkCase -case tutorials/rbcShear/Ca0.02
@@ -39,14 +39,14 @@ namespace {
 
 constexpr int burstSteps = 20;
 
-// Lines of the screen, group by group, and what is kept for -json.
+// The lines printed, section by section, and the data for -json.
 struct Report {
     Application& app;
     ordered_json json;
     std::vector<std::string> warnings;
 
     void section(const char* title) { app.log().info("{}", title); }
-    // Broken at blanks where it is wider than the screen; `hanging`: columns before what follows.
+    // A line that is wider than the screen is broken at blanks; `hanging`: indentation of the continuation lines.
     void line(std::string text, std::size_t hanging = 4) {
         constexpr std::size_t width = 118;
         while (text.size() > width) {
@@ -57,11 +57,11 @@ struct Report {
         }
         app.log().info("  {}", text);
     }
-    // Aligned, without the header if it is empty.
+    // Aligned columns; without a header line if `header` is empty.
     void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
         const std::vector<std::string> none(rows.empty() ? 0 : rows.front().size());
         const std::vector<std::string> lines = alignedTable(header.empty() ? none : header, rows);
-        std::size_t last = 2 * (none.size() - 1);  // where the last column begins
+        std::size_t last = 2 * (none.size() - 1);  // column in which the last column of the table begins
         for (std::size_t c = 0; c + 1 < none.size(); ++c) {
             std::size_t widest = header.empty() ? 0 : header[c].size();
             for (const auto& row : rows) widest = std::max(widest, row[c].size());
@@ -80,7 +80,7 @@ std::string vectorText(const Vec3& v) {
                        formatQuantity(v[2], unit::metre));
 }
 
-// Cells that share shape, membrane and mesh: one entry however many there are.
+// Cells of the same shape, membrane and mesh, counted in one entry.
 struct CellKind {
     const simulation::CellSettings* first;
     std::size_t count;
@@ -106,7 +106,7 @@ std::string withoutLineEnds(std::string text) {
     return text;
 }
 
-// Of the mesh in 0/, where it has been made; what is wrong with it is said where it is put to use.
+// The number of nodes of the mesh in 0/, if there is one; faults of the mesh are reported where it is used.
 std::optional<long> nodesInMesh(const simulation::Case& input, const simulation::CellSettings& cell) {
     try {
         return static_cast<long>(io::readVtp(input.directory / "0" / (cell.name + ".vtp")).points.size());
@@ -159,7 +159,7 @@ void reportCase(Report& report, const simulation::Case& input) {
                                 {"membraneNodes", whole(nodes)}};
 }
 
-// Groups of resolution have /dx in them; the others are of the flow.
+// Groups whose symbol ends in /dx describe the resolution; the others describe the flow.
 void reportGroups(Report& report, const simulation::Case& input) {
     std::vector<std::vector<std::string>> flow, resolution;
     for (const simulation::Group& g : simulation::dimensionlessGroups(input)) {
@@ -176,9 +176,9 @@ void reportGroups(Report& report, const simulation::Case& input) {
     }
 }
 
-// Edges of meshes that no spacing goes with.
+// Warns of mesh edges that do not suit any particle spacing.
 void findEdges(Report& report, const simulation::Case& input) {
-    constexpr double finest = 0.5, coarsest = 1.8;  // of the spacing
+    constexpr double finest = 0.5, coarsest = 1.8;  // in spacings
     const auto check = [&](const std::string& what, double edge) {
         const double ratio = edge / input.spacing();
         if (ratio >= finest && ratio <= coarsest) return;
@@ -195,7 +195,7 @@ void findEdges(Report& report, const simulation::Case& input) {
     for (const simulation::BodyPlaceSettings& body : input.mesh.bodies) check("body " + body.name, body.edge);
 }
 
-// A density that the stated Re sets, far from that of any liquid that was meant.
+// Warns of a density, set by the given Re, that is far from that of any likely liquid.
 void findDensity(Report& report, const simulation::Case& input) {
     constexpr double far = 100;
     const double ratio = input.flow.density / input.fluid.density;
@@ -214,7 +214,8 @@ void findDensity(Report& report, const simulation::Case& input) {
 void reportCosts(Report& report, const simulation::Case& input) {
     const schemes::CaseFacts facts = input.facts();
     const std::vector<schemes::IntegratorCost> costs = schemes::predictCosts(input.written, facts);
-    std::vector<schemes::IntegratorCost> possible;  // of the others the case has no use
+    // Those that can run the case, and the one in use.
+    std::vector<schemes::IntegratorCost> possible;
     for (const schemes::IntegratorCost& cost : costs) {
         ordered_json& entry = report.json["integrators"][cost.name];
         entry = {{"step_s", cost.step().seconds}, {"limit", cost.step().name}, {"steps", cost.steps},
@@ -248,7 +249,7 @@ void reportSize(Report& report, const simulation::Case& input) {
     report.json["results_B"] = results, report.json["checkpoint_B"] = size.checkpoint;
 }
 
-// Moduli as the networks have them, a line for each kind of cell.
+// Moduli measured on the networks, one line for each kind of cell.
 void reportMembranes(Report& report, const coupling::Scene& scene) {
     std::vector<std::string> told;
     for (const coupling::CellType& type : scene.cells.types()) {
@@ -276,8 +277,9 @@ void reportBodies(Report& report, const simulation::Case& input, const coupling:
     }
 }
 
-// Steps and seconds of the whole run with steps as long as in the second half of the burst; those of rkl2 grow, with
-// their stages.
+// Number of steps and wall-clock time [s] of the whole run, with the mean step of the second half of the burst. For
+// rkl2, whose steps and numbers of stages grow during a run, both follow from the predicted costs and the measured time
+// of a step.
 std::pair<double, double> predictRun(const simulation::Case& input, double dt, int stages, double perStep) {
     if (stages == 0) {
         const double steps = input.duration() / dt;
@@ -288,7 +290,7 @@ std::pair<double, double> predictRun(const simulation::Case& input, double dt, i
     return {};
 }
 
-// Says now and then how far the timing has come.
+// Reports from time to time how far the timing has come.
 class Timing {
   public:
     explicit Timing(Report& report) : report_(report), last_(std::chrono::steady_clock::now()) {}
@@ -326,9 +328,10 @@ void reportRun(Report& report, const simulation::Case& input) {
     Timing timing(report);
     const auto begin = std::chrono::steady_clock::now();
     simulation::Rollback step(input, scene, time, integrator,
-                              app.log());  // as the solver steps, and back where it would go back
+                              app.log());  // steps and rolls back as the solver does
     int made = 0;
-    std::pair<int, double> from{0, time.t};  // the first steps of a run are longer or shorter than the later ones
+    // The first steps of a run are longer or shorter than the later ones.
+    std::pair<int, double> from{0, time.t};
     for (int tries = 0; made < burstSteps && tries < 2 * burstSteps && time.running(); ++tries) {
         if (made == burstSteps / 2 && from.first == 0) from = {made, time.t};
         made += step.advance();
@@ -350,7 +353,7 @@ void reportRun(Report& report, const simulation::Case& input) {
     report.json["predicted_s"] = seconds;
 }
 
-// Where the solver would go on, and whether it may: refused here as there.
+// The checkpoint from which the solver would continue, and whether it may; refused here for the same reasons as there.
 void findCheckpoint(Report& report, const simulation::Case& input) {
     const MPI_Comm comm = report.app.communicator().handle();
     const auto checkpoint = simulation::chooseCheckpoint(input, input.control.startFrom, comm, report.app.log());

@@ -1,6 +1,6 @@
 // cleanCase: removes what solvers have written into a case: results/, postProcessing/, checkpoints/, log.*, run.json,
-// used.yaml and the stop file. The mesh and the particles in 0/ stay unless -mesh is given. Of 0/ only .vtp files are
-// removed, and nothing that programs do not write is touched.
+// used.yaml and the stop file. The mesh and the particles in 0/ stay unless -mesh is given. In 0/ only .vtp files are
+// removed. Files that Corpuscle does not write are never touched.
 //
 // Sample runs:
 //     cleanCase
@@ -56,7 +56,7 @@ int main(int argc, char* argv[]) {
         }
         if (removed.empty()) app.log().info("nothing to remove");
         std::error_code ignored;
-        if (app.has("mesh") && !app.has("dry-run")) fs::remove(caseDir / "0", ignored);  // if it is empty
+        if (app.has("mesh") && !app.has("dry-run")) fs::remove(caseDir / "0", ignored);  // only if it is empty
         if (app.json()) std::cout << removed.dump(2) << '\n';
         return ExitCode::done;
     });

@@ -1,9 +1,8 @@
-// cloneCase: copies a case without what its runs have left, so that the copy starts anew.
+// cloneCase: copies a case without the output of its runs, so that the copy starts afresh.
 //
-// Copied: system/, constant/, and whatever else is beside them (Allrun, README.md, surfaces), but for what programs
-// write: 0/, results/, postProcessing/, checkpoints/, runs/, log.*, run.json, used.yaml, stop, and hidden files.
-// Changes by -set are written into the dictionaries of the copy, with their comments kept
-// (core/dictionaryEdit.hpp).
+// Copied: system/, constant/, and everything beside them (Allrun, README.md, surfaces) except what programs write (0/,
+// results/, postProcessing/, checkpoints/, runs/, log.*, run.json, used.yaml, stop) and hidden files. Changes given by
+// -set are written into the dictionaries of the copy, whose comments are kept (core/dictionaryEdit.hpp).
 #include <fmt/format.h>
 
 #include <map>
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The dictionaries that -set changes, by their path in the case.
+// The dictionaries that -set changes: new text, by path in the case.
 std::map<std::string, std::string> changedFiles(const Application& app, const fs::path& from) {
     std::map<std::string, std::string> files;
     for (const Override& change : app.overrides()) {
@@ -36,7 +35,7 @@ std::map<std::string, std::string> changedFiles(const Application& app, const fs
     return files;
 }
 
-// The case of the option -set is the first argument.
+// The case to which -set applies is the first argument: passes it on as -case.
 std::vector<char*> withCase(int argc, char** argv) {
     static char option[] = "-case";
     std::vector<char*> words(argv, argv + argc);

@@ -1,6 +1,7 @@
-// listModels: what can be chosen in a case: every family of models, every model with its settings, every dictionary.
+// listModels: everything that can be chosen in a case: every family of models, every model with its settings, every
+// dictionary.
 //
-// All of it comes from the declarations in the libraries; a model that is added there shows here without further work.
+// All of this comes from declarations in the libraries, so a new model appears here without further work.
 //
 // Sample runs:
 //     listModels
@@ -24,13 +25,14 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// For a cell of a Markdown table.
+// Escapes a text for a cell of a Markdown table.
 std::string inTable(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, 1, '\\');
     return text;
 }
 
-// A model with its defaults; what it says of itself does not depend on the settings that a case must give.
+// A model with its default settings. What it reports about itself does not depend on required settings, which are
+// missing here.
 template <class Family>
 std::shared_ptr<const Family> sample(const std::string& name) {
     Problems missing;
@@ -42,7 +44,7 @@ struct Table {
     std::vector<io::Column> columns;
 };
 
-// What a model writes under postProcessing; none of most families.
+// The tables that a model writes below postProcessing; most families write none.
 std::vector<Table> tablesOf(const std::string& family, const std::string& name) {
     std::vector<Table> all;
     if (family == observers::Observer::familyName)
@@ -140,7 +142,7 @@ void printModel(const std::string& family, const ModelInfo& model) {
     }
 }
 
-// The family or the models of that name; a dictionary file goes by its name too ("numerics").
+// Shows the family or the models of that name; a dictionary is found by the name of its file ("numerics").
 void show(const std::string& wanted, bool asJson) {
     ordered_json json = ordered_json::object();
     std::vector<std::string> known;

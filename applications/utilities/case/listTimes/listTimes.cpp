@@ -1,6 +1,6 @@
-// listTimes: the times of which a case has results and checkpoints.
+// listTimes: the times for which a case has results and checkpoints.
 //
-// The strain of a time is taken from the tables of observers, which have both, by linear interpolation.
+// The strain at each time is interpolated linearly in the tables of observers, which contain time and strain.
 //
 // Sample runs:
 //     listTimes
@@ -30,7 +30,7 @@ struct Moment {
     std::vector<int> checkpoints;  // their numbers
 };
 
-// Times that agree to rounding are one.
+// Times that agree up to rounding are treated as one.
 class Moments {
   public:
     Moment& at(double time) {
@@ -59,7 +59,7 @@ Moments momentsOf(const fs::path& caseDir) {
     return moments;
 }
 
-// Strain over time, from the table with the most rows.
+// Strain as a function of time, from the table with the most rows.
 std::map<double, double> strainsOf(const fs::path& caseDir) {
     std::map<double, double> strains;
     if (!fs::is_directory(caseDir / "postProcessing")) return strains;
@@ -72,7 +72,7 @@ std::map<double, double> strainsOf(const fs::path& caseDir) {
             for (std::size_t i = 0; i < times.size(); ++i) found[times[i]] = strain[i];
             if (found.size() > strains.size()) strains = std::move(found);
         } catch (const Failure&) {
-            continue;  // a table of another kind
+            continue;  // a table of another kind, without time or strain
         }
     }
     return strains;

@@ -1,5 +1,5 @@
-// cellPack: puts many cells in place without overlap, by system/pack.yaml, and writes the table of their places, which
-// system/mesh.yaml names.
+// cellPack: places many cells without overlap, according to system/pack.yaml, and writes the tables of their places
+// that system/mesh.yaml names.
 //
 //     system/mesh.yaml:  cells:
 //                          - {name: redCell, cell: healthyRBC, edge: 0.9 dx, table: constant/redCells.csv}
@@ -7,8 +7,8 @@
 //                          - {name: redCell, haematocrit: 0.3}
 //     cellPack; membraneMesh; particleFill; dmpFlow
 //
-// Cells and rigid bodies with a place of their own stay there, and the others keep clear of them, of each other and of
-// walls (packing/packing.hpp).
+// Cells and rigid bodies that already have a place stay there; the packed cells keep clear of them, of each other and
+// of walls (packing/packing.hpp).
 //
 // Sample runs:
 //     cellPack -case blood
@@ -37,20 +37,20 @@ namespace {
 
 constexpr const char *packFile = "system/pack.yaml", *meshFile = "system/mesh.yaml";
 
-// A case whose tables are still to be written, and what they are to hold.
+// A case whose tables have not been written yet, with the settings of their contents.
 struct Input {
     simulation::Case scene;
     packing::PackSettings pack;
-    std::vector<std::size_t> entries;  // in system/mesh.yaml, of each type that is packed
+    std::vector<std::size_t> entries;  // indices in system/mesh.yaml of the types that are packed
 };
 
-// All problems of both files at once.
+// Adds the problems of one file, so that those of both files are reported together.
 void join(Problems& problems, const CaseError& error) {
     for (const Problem& p : error.problems()) problems.add(p.mark, p.key, p.message);
     problems.addUncounted(error.more());
 }
 
-// The entry of system/mesh.yaml that each type of system/pack.yaml means; it has to name the table that is written.
+// For each type of system/pack.yaml, its entry in system/mesh.yaml, which must name the table to be written.
 std::vector<std::size_t> findEntries(const simulation::Case& scene, const packing::PackSettings& pack, const Node& node,
                                      Problems& problems) {
     const std::vector<CellTypeSettings>& types = scene.mesh.cells;
@@ -58,7 +58,7 @@ std::vector<std::size_t> findEntries(const simulation::Case& scene, const packin
     names.reserve(types.size());
     for (const CellTypeSettings& type : types) names.push_back(type.name);
     std::vector<std::size_t> entries;
-    std::map<std::string, std::string> tables;  // and who writes them
+    std::map<std::string, std::string> tables;  // each table, with the type that writes it
     for (std::size_t i = 0; i < pack.cells.size(); ++i) {
         const std::string& name = pack.cells[i].name;
         const Node& key = *node.find("cells")->items[i].find("name");
@@ -165,7 +165,7 @@ class CellPack {
 
     std::size_t numberOf(const packing::PackedTypeSettings& wanted, const TriangleMesh& mesh, const std::string& key,
                          Problems& problems) const {
-        constexpr double perNode = 400;  // bytes: places, velocities, the triangles around it, its share of contacts
+        constexpr double perNode = 400;  // bytes: places, velocities, adjacent triangles, share of contacts
         const double number = wanted.number ? static_cast<double>(*wanted.number)
                                             : std::round(*wanted.haematocrit * scene().fluidVolume() / mesh.volume());
         const double bytes = number * perNode * static_cast<double>(mesh.nodes.size());
@@ -212,7 +212,7 @@ class CellPack {
         for (const packing::Pose& pose : poses) entryOf(pose.kind).placed.push_back({pose.centre, pose.axis, 1});
     }
 
-    // By the method of the programs that come next.
+    // Checks by the method that the later programs use.
     void requireClear() const {
         const std::vector<TriangleMesh> cells = utilities::placedCells(scene(), meshes_);
         const std::vector<Problem> faults =
@@ -240,7 +240,8 @@ class CellPack {
 
     Application& app_;
     Input input_;
-    std::vector<TriangleMesh> meshes_, bodies_;  // of each entry, around the origin where it has several places
+    // Of each entry; centred on the origin if the entry has several places.
+    std::vector<TriangleMesh> meshes_, bodies_;
     std::vector<packing::Packing::Type> types_;
     nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
 };

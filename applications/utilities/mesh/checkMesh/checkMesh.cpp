@@ -1,8 +1,9 @@
-// checkMesh: whether what stands in 0/ is sound and belongs to the case.
+// checkMesh: checks that the contents of 0/ are valid and match the case.
 //
-// Cells and rigid bodies: closed, on their shape, with the wanted edges, in the box and clear of each other. Particles:
-// on the lattice's count, sides right by an inside test other than particleFill's, as many in a cell as its volume asks
-// for, none on top of another. Reads only; ends with "Mesh OK." or with what failed, exit code 2.
+// Cells and rigid bodies have to be closed surfaces of the right shape and edge length, inside the box and clear of
+// each other. Particles have to be as many as the lattice gives, on the right side of membranes (by an inside test
+// other than particleFill's), as many in each cell as its volume requires, and not on top of each other. Nothing is
+// written. The output ends with "Mesh OK." or with the failed checks, exit code 2.
 //
 // Sample runs:
 //     checkMesh -case tutorials/rbcShear/Ca0.02
@@ -25,18 +26,22 @@ using simulation::Case;
 
 namespace {
 
-constexpr double leastAngle = 20;           // degrees
-constexpr double edgeTolerance = 0.05;      // of the mean edge, relative
-constexpr double surfaceTolerance = 1e-6;   // of nodes from the shape, over the radius; of the volume enclosed exactly
-constexpr double moveTolerance = 0.25;      // of nodes from the shape where they enclose its volume, in edges
-constexpr double leastDistance = 0.25;      // of two particles, in spacings
-constexpr double leastNodeDistance = 0.1;   // of a fluid particle and a node
-constexpr double leastCellDistance = 0.25;  // of the nodes of two cells
-constexpr double facesOffLattice = 0.25;  // a flat face between two layers of the lattice: layers, at most, of its area
+constexpr double leastAngle = 20;       // degrees
+constexpr double edgeTolerance = 0.05;  // relative, for the mean edge
+// Distance of nodes from the shape, relative to its radius; relative error of a volume that is to be enclosed exactly.
+constexpr double surfaceTolerance = 1e-6;
+// Distance of nodes from the shape if they are moved to enclose its volume, in edges.
+constexpr double moveTolerance = 0.25;
+constexpr double leastDistance = 0.25;      // between two particles, in spacings
+constexpr double leastNodeDistance = 0.1;   // between a fluid particle and a node, in spacings
+constexpr double leastCellDistance = 0.25;  // between nodes of two cells, in spacings
+// A flat face may lie between two layers of the lattice: largest error of a particle count, in layers of the area of
+// the surface.
+constexpr double facesOffLattice = 0.25;
 
 using Faults = std::vector<std::string>;
 
-// isSound: cleared where the mesh is no closed surface.
+// isSound: set to false if the mesh is not a closed surface.
 geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, const TriangleMesh& mesh, bool& isSound,
                                    const std::function<void(const std::string&)>& fault) {
     geometry::MeshQuality quality =
@@ -65,7 +70,7 @@ geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, c
     return quality;
 }
 
-// Whether all meshes are closed surfaces; likewise of bodies.
+// Returns whether all meshes are closed surfaces; likewise checkBodies.
 bool checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
                 Faults& faults) {
     bool areSound = true;
@@ -79,7 +84,7 @@ bool checkCells(Application& app, const Case& input, const std::vector<TriangleM
             const membrane::NetworkModuli moduli = utilities::moduliOf(meshes[c], input.membraneOf(cell));
             app.log().info("{}", utilities::indented(membrane::describe(moduli)));
             json["cells"][cell.name]["moduli"] = utilities::toJson(moduli);
-        } catch (const Failure& failure) {  // no network can be made of it
+        } catch (const Failure& failure) {  // the mesh allows no network
             fault(failure.what());
         }
     }
@@ -102,7 +107,8 @@ bool checkBodies(Application& app, const Case& input, const std::vector<Triangle
     return areSound;
 }
 
-// The number of lattice points is that of the fluid, of the bodies, and of the fluid that the nodes displace.
+// Checks that the lattice points are as many as the fluid particles, the particles of bodies, and the fluid particles
+// displaced by nodes together.
 void checkLattice(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, std::size_t fluid,
                   std::size_t walls, std::size_t bodies, ordered_json& json, Faults& faults) {
     long count[3];
@@ -117,7 +123,7 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
     for (int k = 0; k < 3; ++k) count[k] = std::lround(input.mesh.domain.size[k] / input.spacing());
     const simulation::ParticleEstimate whole = simulation::estimateLattice(input);
     const long lattice = std::lround(whole.fluid), wantedWalls = std::lround(whole.walls);
-    // Plane walls leave whole layers; of others the lattice may miss or take a part of a layer along the surface.
+    // Plane walls leave whole layers. Along other walls the lattice may lose or gain part of a layer.
     long slack = 0;
     if (!input.planesAcross())
         for (const boundary::Wall& wall : input.flow.walls)
@@ -141,7 +147,7 @@ void checkLattice(Application& app, const Case& input, const std::vector<Triangl
                                      walls, wantedWalls));
 }
 
-// Counts particles of which something is wrong and keeps the first.
+// Counts faulty particles and describes the first.
 struct Wrong {
     long count = 0;
     std::string first;
@@ -153,9 +159,9 @@ struct Wrong {
     }
 };
 
-// Sides are those of cells: bodies hold no fluid. What particleFill found by one inside test is held against another
-// (sidesByRays.hpp), and the number of particles in each cell against its volume. Meshes are sound and clear of each
-// other.
+// `side` numbers cells only, since bodies hold no fluid. The sides that particleFill found by one inside test are
+// compared with those of another (sidesByRays.hpp), and the number of particles in each cell with its volume. The
+// meshes have to be closed surfaces, clear of each other.
 void checkSides(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, const io::PolyData& fluid,
                 const std::vector<Vec3>& ofBodies, ordered_json& json, Faults& faults) {
     const particles::Box box = input.fluidBox();
@@ -198,7 +204,7 @@ void checkSides(Application& app, const Case& input, const std::vector<TriangleM
         const double dx = input.spacing(), V = input.particleVolume(), area = meshes[c].area();
         const auto bodies = std::count_if(
             solid.begin(), solid.end(), [&](const geometry::RaySide& s) { return s.mesh == static_cast<int>(c) + 1; });
-        // Half of each node that is a particle lies inside.
+        // If nodes are particles, half of the volume of each node lies inside.
         const double found = static_cast<double>(inside[c + 1] + bodies),
                      expected = (meshes[c].volume() - (input.numerics.isImmersed() ? 0 : 0.5 * area * dx)) / V,
                      tolerance = facesOffLattice * area / (dx * dx) + 2;
@@ -254,7 +260,7 @@ int main(int argc, char* argv[]) {
         const std::vector<TriangleMesh> meshes = utilities::placedCells(input, ofTypes);
         for (const TriangleMesh& mesh : meshes) members.cells.push_back(mesh.nodes);
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
-        // Of meshes that are no closed surfaces there are no questions of inside and outside.
+        // Inside and outside are defined for closed surfaces only.
         const bool areSound = checkBodies(app, input, bodies, json, faults) && areCellsSound;
         bool areClear = areSound;
         if (areSound)

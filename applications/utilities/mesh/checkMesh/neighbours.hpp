@@ -1,4 +1,5 @@
-// Shortest distances in a start, by what the two particles are: overlaps show here. Periodic images included.
+// Shortest distances between particles of 0/, by the kinds of the two particles, to detect overlaps. Periodic images
+// are included.
 #pragma once
 #include <vector>
 
@@ -8,12 +9,12 @@ namespace corpuscle::utilities {
 
 struct Shortest {
     double fluidFluid, fluidWall, fluidBody, fluidNode;  // [m]
-    double cellCell;                                     // nodes of two cells
+    double cellCell;                                     // nodes of two different cells
 };
 
 struct Members {
     std::vector<Vec3> fluid, walls, bodies;
-    std::vector<std::vector<Vec3>> cells;  // nodes of each
+    std::vector<std::vector<Vec3>> cells;  // nodes of each cell
 };
 
 // Distances beyond `reach` count as `reach`.

@@ -1,9 +1,9 @@
 // membraneMesh: meshes every type of cell and every rigid body of system/mesh.yaml and writes them to 0/<name>.vtp. The
-// mesh of a type with `places` or `table` stands around the origin; that of one cell or body where it is.
+// mesh of a type with `places` or `table` is centred on the origin; that of a single cell or body stands at its place.
 //
-// Nodes lie on the exact surface; the mesh of a cell is the stress-free state of its membrane, that of a body gives its
-// volume and inertia. Prints quality, and the moduli of the network
-// beside the closed form that Ca is computed with. Surfaces of the same shape and edge length are meshed once.
+// Nodes lie exactly on the surface of the shape. The mesh of a cell is the stress-free state of its membrane; that of a
+// body gives its volume and inertia. Prints the quality of each mesh, and the moduli of the network beside the closed
+// form that is used to compute Ca. Surfaces of the same shape and edge length are meshed once.
 //
 // Sample runs:
 //     membraneMesh -case tutorials/rbcShear/Ca0.02
@@ -24,7 +24,7 @@ using geometry::TriangleMesh;
 
 namespace {
 
-// Surfaces are the same kind when shape, its settings, edge length and what the mesh encloses are.
+// Surfaces are of the same kind if shape, settings of the shape, edge length and `enclose` agree.
 std::string kindOf(const simulation::SurfaceSettings& surface) {
     return emit(writeChoice(surface.shape)) + fmt::format("{:a} {}", surface.edge, surface.enclose);
 }
@@ -53,7 +53,8 @@ class Meshes {
   public:
     Meshes(Application& app, const simulation::Case& input) : app_(app), input_(input) {}
 
-    // Meshes, places and writes one surface; `describe` says of its mesh what it is for.
+    // Meshes, places and writes one surface; `describe` returns the lines on its mesh that depend on its use as a cell
+    // or body.
     TriangleMesh make(const simulation::SurfaceSettings& surface, const std::string& what,
                       const std::function<std::string(const TriangleMesh&)>& describe, nlohmann::ordered_json& json) {
         const auto begin = std::chrono::steady_clock::now();

@@ -15,7 +15,7 @@ std::vector<int> bodyOfEach(const simulation::Case& input, const std::vector<geo
     const double reach = std::numbers::sqrt3 * input.spacing();
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const geometry::PeriodicSurface surface(bodies[b], reach, period);
-        std::vector<std::pair<double, std::size_t>> order;  // distance from the surface and number
+        std::vector<std::pair<double, std::size_t>> order;  // signed distance from the surface, and number
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (taken[i] > 0) continue;
             if (const double distance = surface.at(points[i]).distance; std::isfinite(distance))

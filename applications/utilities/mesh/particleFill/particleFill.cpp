@@ -1,13 +1,13 @@
-// particleFill: fills the box of a case with particles around the cells and in the rigid bodies of 0/ and writes
+// particleFill: fills the box of a case with particles, around the cells and inside the rigid bodies of 0/, and writes
 // 0/fluid.vtp, 0/walls.vtp and 0/bodies.vtp.
 //
-// A cubic lattice; wall layers as deep as the kernel reaches. The nodes of a membrane are particles too, one spacing
-// thick, so as many fluid particles as make up their volume are taken out, those nearest to the nodes, so that each
-// cell stays filled to its volume; where the coupling is immersed, nodes lie between the fluid's particles, the lattice
-// stays whole, and what is nearer than 0.05 dx to a membrane is moved out to that (noFlux.hpp). A rigid body takes as
-// many lattice points as make up its volume, those deepest in it. What is left has its side (0 outside, n inside cell
-// n), is evened out around membranes of particles (relaxation.hpp), and starts with the velocity and pressure of the
-// flow.
+// Particles start on a cubic lattice, with wall layers as deep as the kernel reaches. With the dual identity the nodes
+// of a membrane are particles too, of one spacing thickness: as many fluid particles as make up the nodes' volume are
+// removed, those nearest to the nodes, so that each cell stays filled to its volume. With immersed coupling nodes lie
+// between the fluid particles: no particle is removed, and particles nearer than 0.05 dx to a membrane are moved away
+// to that distance (noFlux.hpp). A rigid body takes the lattice points deepest inside it, as many as make up its
+// volume. The remaining particles are given their side (0 outside, n inside cell n). With the dual identity they are
+// made more uniform around membranes (relaxation.hpp). They start with the velocity and pressure of the flow.
 //
 // Sample runs:
 //     particleFill -case tutorials/rbcShear/Ca0.02
@@ -37,16 +37,16 @@ namespace {
 
 struct Filling {
     std::vector<Vec3> fluid, walls, bodies;
-    std::vector<int> side;  // of the fluid
-    std::vector<int> body;  // of the bodies' particles: number, 1 and up
+    std::vector<int> side;  // side of each fluid particle
+    std::vector<int> body;  // number of the body, from 1, of each body particle
     double nodeVolume = 0;  // of all membranes [m^3]
     std::size_t nodes = 0, carved = 0, movedBack = 0, heldOff = 0;
-    double longestMove = 0;  // of the relaxation [m]
+    double longestMove = 0;  // longest displacement by the relaxation [m]
     utilities::Evenness before, after;
 };
 
-// Takes out `carved` particles: on the inner side of each cell as many as leave its volume less the inner half of its
-// nodes, the rest outside, each time those nearest to the nodes.
+// Removes `carved` particles, always those nearest to the nodes: inside each cell as many as exceed the cell's volume
+// less the inner half of its nodes, and the rest outside.
 void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling& f) {
     std::vector<std::vector<int>> members(cells.size() + 1);
     for (std::size_t i = 0; i < f.side.size(); ++i)
@@ -78,7 +78,7 @@ void takeOut(const Case& input, const std::vector<TriangleMesh>& cells, Filling&
     f.side.resize(count);
 }
 
-// Hands each body's particles over.
+// Moves the particles inside each body from the fluid to the body.
 void fillBodies(const Case& input, const std::vector<TriangleMesh>& bodies, Filling& f) {
     if (bodies.empty()) return;
     const std::vector<int> body = utilities::bodyOfEach(input, bodies, f.fluid);
@@ -92,7 +92,7 @@ void fillBodies(const Case& input, const std::vector<TriangleMesh>& bodies, Fill
     f.side.resize(left);
 }
 
-// Lattice, and what bodies hold and nodes displace taken out.
+// Places particles on the lattice; points taken by bodies and displaced by nodes are removed from the fluid.
 Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells,
                        const std::vector<TriangleMesh>& bodies) {
     geometry::LatticeBox box;
@@ -138,7 +138,7 @@ Filling placeParticles(const Case& input, const std::vector<TriangleMesh>& cells
     return f;
 }
 
-// A particle that would change its side or leave the fluid goes back to where it was.
+// A particle that would change its side or leave the fluid is moved back to its original position.
 void relax(const Case& input, MPI_Comm comm, const std::vector<TriangleMesh>& cells, Filling& f) {
     std::vector<Vec3> fixed = f.walls;
     fixed.insert(fixed.end(), f.bodies.begin(), f.bodies.end());
@@ -214,7 +214,7 @@ void write(const Case& input, const Filling& f) {
             [&](const Vec3& x) { return walls.nearest(x).velocityAt(x); }, [](const Vec3&) { return 0.0; }));
 }
 
-double peakMemory() {  // of this program so far [MiB]
+double peakMemory() {  // peak memory of this program so far [MiB]
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;

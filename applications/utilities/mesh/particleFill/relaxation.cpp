@@ -18,7 +18,7 @@ namespace {
 
 constexpr double strength = 0.02, largestInSpacings = 0.1;
 
-// Of each point to the nearest membrane, infinity beyond `reach`; periodic images included.
+// Distance of each point from the nearest membrane, with periodic images; infinity beyond `reach`.
 std::vector<double> distances(const std::vector<Vec3>& points, const std::vector<TriangleMesh>& cells, double reach,
                               const Periodicity& period) {
     std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());

@@ -1,8 +1,8 @@
-// averageTable: means over time of the columns of an observer's table, with standard errors by blocks
+// averageTable: time averages of the columns of an observer's table, with standard errors from block averages
 // (core/blockAverage.hpp).
 //
-// A table with a row for each cell gives the mean over the cells at each time, then over time. A table with a row for
-// each place (the observer `profile`) gives the mean over time at each place.
+// In a table with a row for each cell, values are averaged over the cells at each time, then over time. In a table with
+// a row for each place (the observer `profile`), values are averaged over time at each place.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using namespace corpuscle;
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of a mean: values that differ by less are the same
+constexpr double rounding = 1e-9;  // relative to a mean: values that differ by less count as equal
 
 Usage usage() {
     return {.options = {{"from", "TIME", "Where averaging starts, a time or a strain; half of the run without it."},

@@ -68,7 +68,8 @@ void addLights(vtkRenderer* renderer) {
     add(0.3, 0.2, 1.0, 0.42);
 }
 
-// Outside and inside as two actors: the inside, seen through a hole, is plain and dark, whatever the field.
+// The outer and the inner side are two actors: the inner side, visible through a hole, is plain and dark for every
+// field.
 void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::string& name, const std::string& field,
                 const Scale* scale, bool mesh) {
     vtkNew<vtkPolyData> poly;
@@ -202,7 +203,7 @@ double wallThickness(const particles::Box& box) { return 0.03 * box.size().maxCo
 void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const Camera& camera,
             double metresPerPixel) {
     const Vec3 low = box.low * perMetre, high = box.high * perMetre;
-    const auto isBehind = [&](int axis, bool upper) {  // whether the eye sees this face from within
+    const auto isBehind = [&](int axis, bool upper) {  // whether the camera sees the inner side of this face
         Vec3 outwards = Vec3::Zero(), middle = box.middle();
         outwards[axis] = upper ? 1 : -1;
         middle[axis] = upper ? box.high[axis] + wallThickness(box) : box.low[axis] - wallThickness(box);

@@ -1,5 +1,5 @@
-// The box of a case, as its last run had it (used.yaml) or, before any run, as system/mesh.yaml has it; before any run
-// also where its cells are to stand.
+// The box of a case: as the last run used it (used.yaml) or, before any run, from system/mesh.yaml. Before any run also
+// the places where cells will start.
 #pragma once
 #include <optional>
 
@@ -9,10 +9,11 @@
 
 namespace corpuscle {
 
-// Empty for a case without a box (membraneRelax), and, with a warning, where its dictionary cannot be read.
+// Empty for a case without a box (membraneRelax); also empty, with a warning, if the dictionary cannot be read.
 std::optional<particles::Box> readBox(Application& app, bool hasRun);
 
-// Of the cells of system/mesh.yaml that have `places` or a `table`. What is wrong there is a warning, and no places.
+// The places of the cells of system/mesh.yaml that have `places` or a `table`. If any of these is invalid, a warning is
+// given and no places are returned.
 PlacesByName readPlacesOfCells(Application& app);
 
 }  // namespace corpuscle

@@ -6,7 +6,7 @@
 namespace corpuscle {
 namespace {
 
-// `right` and `up` of an eye that looks from this azimuth (from -y towards +x) and height [degrees].
+// `right` and `up` of a camera that looks from this azimuth (from -y towards +x) and elevation [degrees].
 View fromAngles(const std::string& name, double azimuth, double elevation, bool perspective) {
     const double a = azimuth * M_PI / 180, e = elevation * M_PI / 180;
     const Vec3 ahead(-std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), -std::sin(e));
@@ -14,7 +14,8 @@ View fromAngles(const std::string& name, double azimuth, double elevation, bool 
     return {name, right, right.cross(ahead), perspective, 1};
 }
 
-constexpr double halfAngle = 13 * M_PI / 180;  // at which the eye sees the sphere around all points
+// Half of the angle at which the camera sees the sphere around all points.
+constexpr double halfAngle = 13 * M_PI / 180;
 
 }  // namespace
 
@@ -25,7 +26,7 @@ void ValueRange::add(double value) {
 }
 
 const std::vector<View>& views() {
-    // From a little upstream a red cell that turns in shear shows its dimple in each quarter of a turn.
+    // Seen from slightly upstream, a red cell that turns in shear shows a dimple in each quarter of a turn.
     static const std::vector<View> all{
         fromAngles("tilted", -14, 36, true),
         {"xz", Vec3::UnitX(), Vec3::UnitZ(), false, 1},

@@ -1,7 +1,7 @@
-// The eye: directions, perspective or parallel, and where a point appears.
+// The camera: its directions, perspective or parallel projection, and where a point appears in the picture.
 //
-// A point appears at (u, v) metres from the focus along the picture's right and up. In perspective these are metres at
-// the distance of the focus, the middle of what is shown: there alone a scale bar holds.
+// A point appears at (u, v) metres from the focus along the picture's right and up directions. In perspective these are
+// metres at the distance of the focus, the middle of what is shown: a scale bar is valid only there.
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
@@ -15,7 +15,7 @@ namespace corpuscle {
 
 struct ValueRange {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    void add(double value);  // values that are not finite are passed over
+    void add(double value);  // non-finite values are ignored
     bool empty() const { return low > high; }
     double middle() const { return 0.5 * (low + high); }
     double length() const { return high - low; }
@@ -25,19 +25,19 @@ struct View {
     std::string name;
     Vec3 right, up;  // unit vectors of the picture
     bool perspective = false;
-    int sliceAxis = 1;  // normal of the plane in which the fluid is shown, unless another is asked for
+    int sliceAxis = 1;  // normal of the plane in which the fluid is shown, unless the user chooses another
     Vec3 ahead() const { return up.cross(right); }
 };
 
-// tilted: from in front, above and a little upstream, in perspective; iso: the same kind of view without perspective;
-// xz, xy, yz: along an axis.
+// tilted: from the front, above and slightly upstream, in perspective; iso: a similar view without perspective; xz, xy,
+// yz: along an axis.
 const std::vector<View>& views();
-// With walls across y the tilted view has y upwards.
+// If there are walls across y, the tilted view is turned so that y points upwards.
 View turnedForWalls(View view, const std::array<bool, 3>& periodic);
 
 class Camera {
   public:
-    // Looks at the middle of these points from so far that all are seen.
+    // Looks at the middle of the points `shown`, from so far that all of them are visible.
     Camera(const View& view, const std::vector<Vec3>& shown);
 
     Vec3 focus() const { return focus_; }
@@ -47,7 +47,7 @@ class Camera {
     bool seesFromSide(const Vec3& place,
                       const Vec3& normal) const;         // whether the eye is on the side that the normal points to
     std::array<double, 2> project(const Vec3& x) const;  // u, v [m]
-    const ValueRange& u() const { return u_; }           // of the points
+    const ValueRange& u() const { return u_; }           // range over the points shown
     const ValueRange& v() const { return v_; }
 
   private:

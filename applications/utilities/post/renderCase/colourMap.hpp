@@ -1,4 +1,4 @@
-// Colour maps that do not depend on telling red from green, as a few anchors that are interpolated linearly.
+// Colour maps that can be read without telling red from green. Each is a few anchors, interpolated linearly.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -19,14 +19,14 @@ inline constexpr std::array<Colour, 9> viridis{{{0.267, 0.005, 0.329},
                                                 {0.678, 0.864, 0.190},
                                                 {0.993, 0.906, 0.144}}};
 
-// Diverging about zero: cool to warm (Moreland, ISVC 2009).
+// Diverging from zero: cool to warm (Moreland, ISVC 2009).
 inline constexpr std::array<Colour, 5> coolWarm{{{0.230, 0.299, 0.754},
                                                  {0.552, 0.690, 0.996},
                                                  {0.865, 0.865, 0.865},
                                                  {0.958, 0.604, 0.483},
                                                  {0.706, 0.016, 0.150}}};
 
-// Kinds without an order, after "none", which is grey (Okabe and Ito, 2008).
+// Unordered kinds; the first colour, grey, is for "none" (Okabe and Ito, 2008).
 inline constexpr std::array<Colour, 7> kinds{{{0.82, 0.82, 0.82},
                                               {0.835, 0.369, 0.000},
                                               {0.000, 0.447, 0.698},
@@ -35,7 +35,7 @@ inline constexpr std::array<Colour, 7> kinds{{{0.82, 0.82, 0.82},
                                               {0.800, 0.475, 0.655},
                                               {0.337, 0.706, 0.914}}};
 
-// The colour at a place in [0, 1].
+// The colour at a position in [0, 1] along the map.
 inline Colour colourAt(std::span<const Colour> anchors, double place) {
     const double at = place * static_cast<double>(anchors.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(std::max(at, 0.0)), anchors.size() - 2);
@@ -45,7 +45,7 @@ inline Colour colourAt(std::span<const Colour> anchors, double place) {
     return colour;
 }
 
-// Of a kind: 0 is none, and after the last one the colours begin again.
+// The colour of a kind: 0 is none; after the last kind the colours repeat.
 inline Colour colourOfKind(int kind) { return kinds[kind <= 0 ? 0 : 1 + (kind - 1) % (kinds.size() - 1)]; }
 
 }  // namespace corpuscle

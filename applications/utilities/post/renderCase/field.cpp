@@ -12,12 +12,11 @@ namespace {
 
 using Colours = FieldStyle::Colours;
 
-// The unit in which the larger end of a range is a number of at least 1, and what the numbers are divided by: "mm/s"
-// and 1e-3.
+// The unit in which the larger bound of a range is at least 1, and its value in SI: "mm/s" and 1e-3.
 std::pair<std::string, double> unitFor(const ValueRange& range, Dimension dimension) {
     if (dimension.isDimensionless()) return {"", 1};
     const double size = std::max(std::abs(range.low), std::abs(range.high));
-    // "3.2 mm/s" has the prefix.
+    // The prefix is taken from a formatted quantity, such as "3.2 mm/s".
     const std::string text = formatQuantity(size > 0 && std::isfinite(size) ? size : 1, dimension, 3);
     const std::string name = text.substr(text.find(' ') + 1);
     std::string shown = name;
@@ -141,7 +140,7 @@ ValueRange parseRange(const std::string& option, const std::string& text) {
     try {
         if (comma == std::string::npos) throw std::invalid_argument("there is no comma");
         const Quantity low = parseQuantity(text.substr(0, comma)), high = parseQuantity(text.substr(comma + 1));
-        // "0,20 uN/m": the unit of the second holds for both.
+        // In "0,20 uN/m" the unit applies to both numbers.
         const double factor =
             high.hasUnit && !low.hasUnit
                 ? parseQuantity("1 " + text.substr(text.find_first_not_of(" +-.0123456789eE", comma + 1))).value

@@ -1,4 +1,4 @@
-// An array of the results as it is shown: its numbers, title, unit and colours.
+// An array of the results as shown in a picture: its numbers, title, unit and colours.
 #pragma once
 #include <vtkLookupTable.h>
 #include <vtkSmartPointer.h>
@@ -14,14 +14,14 @@
 
 namespace corpuscle {
 
-// How an array is named and coloured, whatever its numbers.
+// The name and colours of an array, independent of its numbers.
 struct FieldStyle {
-    // signedOrNot: about zero where numbers have both signs, else sequential from zero.
+    // signedOrNot: diverging about zero if the numbers have both signs, otherwise sequential from zero.
     enum class Colours { sequential, aboutZero, signedOrNot, kinds } colours = Colours::sequential;
     std::string title;
-    Dimension dimension;                  // of the numbers, SI
+    Dimension dimension;                  // of the numbers in SI units
     bool percent = false;                 // a ratio that is shown in per cent
-    std::vector<std::string> names = {};  // of kinds 0, 1, ...; empty: "none", "1", "2", ...
+    std::vector<std::string> names = {};  // names of kinds 0, 1, ...; empty: "none", "1", "2", ...
 };
 FieldStyle styleOf(const std::string& field);
 
@@ -30,22 +30,23 @@ struct Values {
     std::vector<double> numbers;
     bool ofCells = false;
 };
-// Vectors by their magnitude, integers as numbers. Of kinds always one number for each triangle, the largest of its
-// corners. Throws Failure(usage) naming the arrays that the surface has and the nearest name.
+// Vectors are replaced by their magnitude, integers by floating-point numbers. Kinds always have one number for each
+// triangle, the largest of its corners. Throws Failure(usage) that names the arrays of the surface and the nearest
+// name.
 Values valuesOf(const io::PolyData& surface, const std::string& name, const std::string& field);
 
-// A field with its range, ready to be drawn and explained by a bar.
+// A field with its range, ready to be drawn with its colour bar.
 struct Scale {
     FieldStyle style;
     ValueRange range;                         // SI
-    double perUnit = 1;                       // the bar's numbers are SI divided by this
+    double perUnit = 1;                       // the numbers of the bar are SI values divided by this
     std::string title;                        // with the unit: "tension T1, uN/m"
     vtkSmartPointer<vtkLookupTable> colours;  // by SI values
 };
-// The range found, or the one asked for.
+// The range is the one asked for, otherwise the one found.
 Scale makeScale(const FieldStyle& style, ValueRange found, const std::optional<ValueRange>& asked);
 
-// "-5,5", "0,20 uN/m": SI where no unit is given. Throws Failure(usage).
+// Reads "-5,5" or "0,20 uN/m": the unit applies to both numbers; without a unit they are in SI. Throws Failure(usage).
 ValueRange parseRange(const std::string& option, const std::string& text);
 
 }  // namespace corpuscle

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names of the files <folder>/<name><extension> that hold surfaces.
+// Names of the surfaces in files <folder>/<name><extension>.
 std::vector<std::string> surfacesIn(const fs::path& folder, const std::string& extension) {
     std::vector<std::string> names;
     std::error_code ignored;
@@ -27,7 +27,7 @@ std::vector<std::string> surfacesIn(const fs::path& folder, const std::string& e
     return names;
 }
 
-// One stream of results; files are read when asked for and kept.
+// One stream of results. Files are read on demand and kept.
 class Stream {
   public:
     Stream(const fs::path& caseDir, const std::string& name) {
@@ -56,7 +56,7 @@ class Stream {
         const auto found = all.find(name);
         return found == all.end() ? std::nullopt : std::optional(found->second);
     }
-    // A flow without a shear rate has the strain 0 at all times: none.
+    // In a flow without a shear rate the strain is 0 at all times, which counts as no strain.
     bool hasStrain() {
         const auto end = field(last(), "strain");
         return end && (*end != 0 || time(last()) == 0);
@@ -67,7 +67,7 @@ class Stream {
     int nearestTime(double wanted) const {
         return nearest(wanted, [&](int i) { return time(i); });
     }
-    // The values grow with time, so a bisection reads few files.
+    // Values increase with time, so that bisection reads few files.
     template <class Value>
     int nearest(double wanted, Value&& value) const {
         int low = 0, high = last();
@@ -100,13 +100,13 @@ void removeBroken(io::PolyData& surface) {
     for (auto& item : surface.cell.integers) keepWhole(item.second);
 }
 
-// Each cell of the stream; a surface without the array `cell` is one.
+// Moves each cell of the stream; a surface without the array `cell` counts as one cell.
 void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
     const auto numbers = surface.point.integers.find("cell");
     const auto cellOf = [&](std::size_t p) {
         return numbers == surface.point.integers.end() ? std::int64_t{0} : numbers->second[p];
     };
-    std::map<std::int64_t, std::pair<Vec3, double>> means;  // sum and number of its points
+    std::map<std::int64_t, std::pair<Vec3, double>> means;  // sum and number of the cell's points
     for (std::size_t p = 0; p < surface.points.size(); ++p) {
         auto& [sum, count] = means.try_emplace(cellOf(p), Vec3(Vec3::Zero()), 0.0).first->second;
         sum += surface.points[p], ++count;
@@ -125,8 +125,8 @@ void moveIntoBox(io::PolyData& surface, const particles::Box& box) {
     }
 }
 
-// One mesh, once at each place, as cells of one stream. Arrays of a mesh in 0/ are those of the stress-free state, the
-// same for each.
+// Copies of one mesh at each place, as cells of one stream. Arrays in 0/ describe the stress-free state and are the
+// same for each copy.
 io::PolyData placed(const io::PolyData& mesh, const std::vector<geometry::Place>& places) {
     io::PolyData all, one = mesh;
     all.field = mesh.field;

@@ -1,5 +1,5 @@
-// What a picture shows: the surfaces of a case at some times. Cells in a periodic box are unwrapped in the results;
-// here each cell is moved as a whole, by box lengths, until the mean of its points lies in the box.
+// The content of a picture: the surfaces of a case at certain times. Results hold cells unwrapped across periodic
+// faces; here each cell is moved as a whole, by box lengths, until the mean of its points lies in the box.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -18,11 +18,11 @@ struct Frame {
     double time = 0;                               // s
     std::optional<double> strain;                  // gammadot t; empty where the flow has no shear rate
     std::optional<double> stage;                   // of a protocol
-    std::map<std::string, io::PolyData> surfaces;  // by name of the type of cells or of the rigid body
-    std::optional<Slice> slice;                    // of the fluid, where it is shown
+    std::map<std::string, io::PolyData> surfaces;  // by the name of the type of cell or of the rigid body
+    std::optional<Slice> slice;                    // slice of the fluid, if the fluid is shown
 };
 
-// One wanted time of the results.
+// One time that the user asks for.
 struct Wanted {
     enum class Kind {
         time,
@@ -37,27 +37,28 @@ struct Wanted {
 };
 
 struct FrameChoice {
-    std::string membrane;        // empty: all there are
-    std::vector<Wanted> wanted;  // the nearest results are taken; empty: `count` at equal distances in time
-    int count = 4;               // 0: all
-    bool keepBroken = false;     // triangles marked `broken` are left out otherwise
+    std::string membrane;        // empty: all membranes
+    std::vector<Wanted> wanted;  // for each, the nearest results; empty: `count` times at equal intervals
+    int count = 4;               // 0: all times
+    bool keepBroken = false;     // false: triangles marked `broken` are left out
 };
 
-// Of types of cells that are placed by a list: where the mesh in 0/, which stands around the origin, is put.
+// By the name of each type of cell that has `places` or a `table`: the places of its cells. The mesh of such a type in
+// 0/ is centred on the origin.
 using PlacesByName = std::map<std::string, std::vector<geometry::Place>>;
 
-// The streams of a case. Files are read when asked for.
+// The result streams of a case. Files are read on demand.
 class Results {
   public:
-    // Throws Failure(io) when there is neither results/*.pvd nor 0/*.vtp.
+    // Throws Failure(io) if there are neither results/*.pvd nor 0/*.vtp.
     explicit Results(const std::filesystem::path& caseDir);
 
-    bool hasRun() const { return hasRun_; }  // false: only 0/ is there
+    bool hasRun() const { return hasRun_; }  // false: there is only 0/
     bool hasFluid() const { return hasFluid_; }
     const std::vector<std::string>& surfaces() const { return surfaces_; }
 
-    // `places` of the meshes in 0/, where nothing has run. Throws Failure: usage for times outside the results or an
-    // unknown membrane, io for unreadable files.
+    // `places`: for the meshes in 0/, used if nothing has run yet. Throws Failure: usage for times outside the results
+    // or an unknown membrane, io for unreadable files.
     std::vector<Frame> frames(const FrameChoice& choice, const std::optional<particles::Box>& box,
                               const PlacesByName& places) const;
     // The particles at the time nearest to this one.

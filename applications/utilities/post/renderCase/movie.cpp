@@ -55,7 +55,7 @@ Movie::~Movie() {
 
 fs::path Movie::picture(std::size_t number) const { return folder_ / fmt::format("{:06}.png", number); }
 
-// Players want even widths and heights, and colours of half the resolution.
+// Video players need even widths and heights, and colours at half the resolution.
 void Movie::write() const {
     const fs::path log = folder_ / "log", made = folder_ / "movie.mp4";
     study::Process process({"ffmpeg",

@@ -1,4 +1,4 @@
-// Pictures of a series put together by ffmpeg: H.264 in MP4, as browsers and slides play it.
+// A movie made by ffmpeg from a series of pictures: H.264 in MP4, which browsers and presentation programs play.
 #pragma once
 #include <filesystem>
 
@@ -6,15 +6,15 @@ namespace corpuscle {
 
 class Movie {
   public:
-    // Throws Failure: usage where the name does not end in .mp4, io where ffmpeg is not installed or the pictures
-    // cannot be kept beside the movie.
+    // Throws Failure: usage if the name does not end in .mp4, io if ffmpeg is not installed or the pictures cannot be
+    // stored beside the movie.
     Movie(std::filesystem::path file, long picturesPerSecond);
     ~Movie();  // removes the pictures
     Movie(const Movie&) = delete;
     Movie& operator=(const Movie&) = delete;
 
-    std::filesystem::path picture(std::size_t number) const;  // where it is to be drawn
-    // Throws Failure(io) with what ffmpeg said.
+    std::filesystem::path picture(std::size_t number) const;  // the file in which this picture is to be stored
+    // Throws Failure(io) with the message of ffmpeg.
     void write() const;
 
   private:

@@ -10,9 +10,9 @@
 
 #include "core/error.hpp"
 
-// Debian's GLEW, which VTK loads OpenGL with, insists on GLX. This definition in the executable (which exports its
-// symbols) takes the place of GLEW's own and lets it go on; the OpenGL functions themselves come from libglvnd all the
-// same.
+// Debian's GLEW, with which VTK loads OpenGL, requires GLX. This definition in the executable (which exports its
+// symbols) replaces GLEW's own function and lets it proceed without GLX; the OpenGL functions come from libglvnd as
+// before.
 extern "C" unsigned glxewInit(void);
 extern "C" unsigned glxewInit(void) { return 0; }
 

@@ -19,7 +19,7 @@
 namespace corpuscle {
 namespace {
 
-// VTK's own font has no Greek letter with a dot; DejaVu has. Without it labels are spelt in plain letters.
+// VTK's own font has no dotted Greek letter; DejaVu has. Without DejaVu, labels use Latin letters only.
 constexpr const char* fontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 bool hasFont() { return std::filesystem::exists(fontFile); }
@@ -47,10 +47,10 @@ void setFont(vtkTextProperty* property, double size) {
     property->SetFontSize(std::max(1, static_cast<int>(std::lround(size))));
 }
 
-constexpr int mostKinds = 7;  // that a bar names
+constexpr int mostKinds = 7;  // shown on a bar
 
 struct Tick {
-    double place;  // 0 to 1 along the bar
+    double place;  // position along the bar, 0 to 1
     std::string words;
 };
 std::vector<Tick> ticksOf(const Scale& scale) {
@@ -72,7 +72,7 @@ std::vector<Tick> ticksOf(const Scale& scale) {
     for (int i = 0; i <= 2; ++i) {
         const double value = (range.low + range.length() * i / 2) / scale.perUnit;
         const double tiny = 1e-9 * range.length() / scale.perUnit;
-        // As many digits as tell the ends apart, and no powers of ten where five digits do.
+        // Enough digits to distinguish the two ends; no powers of ten for numbers of up to five digits.
         const double largest = std::max(std::abs(range.low), std::abs(range.high));
         const int apart = 3 + static_cast<int>(std::ceil(std::log10(largest / range.length())));
         const int whole = 1 + static_cast<int>(std::floor(std::log10(std::max(largest / scale.perUnit, 1.0))));
@@ -157,7 +157,7 @@ void Overlay::colourBar(double x, double y, double wholeHeight, const Scale& sca
                         const std::vector<std::string>& title, double textHeight) {
     const Colour grey{0.3, 0.3, 0.3};
     const double width = 1.3 * textHeight, lineHeight = 1.35 * textHeight;
-    y += 0.6 * textHeight;  // half a number
+    y += 0.6 * textHeight;  // half the height of a number
     const double height = wholeHeight - 1.6 * textHeight - lineHeight * static_cast<double>(title.size());
     const auto ticks = ticksOf(scale);
     const bool ofKinds = scale.style.colours == FieldStyle::Colours::kinds;

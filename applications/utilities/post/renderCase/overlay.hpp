@@ -1,4 +1,4 @@
-// Words, lines and colour bars drawn over the panels, in pixels from the bottom left.
+// Text, lines and colour bars drawn over the panels, in pixels from the bottom left.
 #pragma once
 #include <vtkRenderer.h>
 
@@ -12,7 +12,7 @@ namespace corpuscle {
 
 enum class Align { left, centre, right };
 
-// A rectangle of the picture that holds a word, a bar or a panel: none may lie on another.
+// A rectangle of the picture that holds a text, a bar or a panel; these must not overlap.
 struct Place {
     std::string what;
     double x, y, width, height;  // pixels, from the bottom left
@@ -20,7 +20,7 @@ struct Place {
 
 class Overlay {
   public:
-    // scale: pixels of the window for each pixel of the finished picture.
+    // scale: window pixels per pixel of the finished picture.
     Overlay(vtkRenderer* renderer, int scale) : renderer_(renderer), scale_(scale) {}
 
     static double widthOf(const std::string& words, double height);
@@ -30,7 +30,8 @@ class Overlay {
     void rectangle(double x, double y, double width, double height, const Colour& colour);
     void line(double x0, double y0, double x1, double y1, double width, const Colour& colour);
     void arrow(double x, double y, double length, double headLength, const Colour& colour);  // to the right
-    // Upright, with its title above and numbers, or names of kinds, beside it. The whole takes `height` upwards from y.
+    // A vertical bar with its title above, and numbers or names of kinds beside it. The whole occupies `height` upwards
+    // from y.
     void colourBar(double x, double y, double height, const Scale& scale, const std::vector<std::string>& title,
                    double textHeight);
     static double barWidthOf(const Scale& scale, const std::vector<std::string>& title, double textHeight);

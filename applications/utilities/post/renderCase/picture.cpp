@@ -18,11 +18,11 @@
 namespace corpuscle {
 namespace {
 
-constexpr int oversampling = 3;    // drawn three times as large and averaged: smooth outlines, thin edges
+constexpr int oversampling = 3;    // drawn at three times the size, then averaged: smooth outlines, thin edges
 constexpr int mostInRow = 5;       // panels
 constexpr double leastText = 8.5;  // pixels
 
-// 1.5, 2.05: one decimal where that tells the strain exactly, otherwise two.
+// 1.5, 2.05: one decimal if the second would be 0, otherwise two.
 std::string strainWords(double strain) {
     const double tenths = 10 * strain;
     return fmt::format("{:.{}f}", strain, std::abs(tenths - std::round(tenths)) < 0.05 ? 1 : 2);
@@ -88,7 +88,7 @@ std::string lengthWords(double metres) {
     return words;
 }
 
-// Everything in pixels of the finished picture.
+// Lengths in pixels of the finished picture.
 struct Layout {
     double textHeight = 0, labelHeight = 0;
     int columns = 0, rows = 0, panelWidth = 0, imageHeight = 0, labelStrip = 0, bottomStrip = 0, barColumn = 0;
@@ -140,7 +140,7 @@ Layout layOut(const Plan& plan, int count, const std::vector<std::string>& label
     const int imageWidth = out.panelWidth - out.gap;
     if (imageWidth < 40 || out.labelHeight < leastText) throw tooSmall();
 
-    constexpr double filled = 0.96;  // of a panel by what it shows
+    constexpr double filled = 0.96;  // fraction of a panel that the contents fill
     const double byWidth = plan.camera.u().length() / (filled * imageWidth);
     const int strips = out.rows * out.labelStrip + out.bottomStrip;
     if (options.height > 0) {
@@ -170,7 +170,8 @@ void aim(vtkCamera* eye, const Camera& camera, const Layout& layout, int imageWi
     eye->SetWindowCenter(camera.u().middle() / halfWidth, camera.v().middle() / halfHeight);
 }
 
-// Scale bar, axes and the length of an arrow, from the left below all panels. Returns where it ends.
+// Draws the scale bar, the axes and the reference arrow, from the left below all panels. Returns the right end of what
+// was drawn.
 double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, double lengthPerSpeed) {
     const Colour black{0, 0, 0};
     const double text = layout.textHeight, middle = 0.5 * layout.bottomStrip;
@@ -183,7 +184,7 @@ double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, doub
     overlay.text(length, x, middle, text);
     x += Overlay::widthOf(length, text) + 2 * text;
 
-    // The axes as the eye sees them.
+    // The axes as seen by the camera.
     const View& view = plan.camera.view();
     std::array<std::array<double, 2>, 3> ends{};
     double left = 0, low = 0, right = 0, high = 0;
@@ -198,9 +199,9 @@ double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, doub
     const double x0 = x + 0.8 * text - left, y0 = middle - 0.5 * (low + high);
     for (int k = 0; k < 3; ++k) {
         const auto& [u, v] = ends[k];
-        if (std::hypot(u, v) < 0.3 * text) continue;  // it points at the eye
+        if (std::hypot(u, v) < 0.3 * text) continue;  // this axis points towards the camera
         overlay.line(x0, y0, x0 + u, y0 + v, std::max(1.5, 0.1 * text), black);
-        // The letter stands away from the other axes.
+        // The letter is placed away from the other axes.
         const auto &a = ends[(k + 1) % 3], &b = ends[(k + 2) % 3];
         const double du = u - 0.25 * (a[0] + b[0]), dv = v - 0.25 * (a[1] + b[1]);
         const double size = std::max(std::hypot(du, dv), 1e-6);
@@ -260,7 +261,7 @@ Panel panelOf(std::size_t number, const Layout& layout) {
             layout.imageHeight};
 }
 
-// Two layers, so that a slice through a cell does not hide half of it.
+// Two layers: the slice in the back one, so that it does not hide half of a cell through which it passes.
 void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, const Panel& panel, const Layout& layout,
                double lengthPerSpeed) {
     const PictureOptions& options = plan.options;
@@ -288,7 +289,7 @@ void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, co
     }
 }
 
-// Below the panels and at their right.
+// Draws what is below the panels and to their right.
 void drawMargins(Overlay& overlay, const Plan& plan, const Bars& bars, const Layout& layout, double lengthPerSpeed) {
     if (drawLegend(overlay, plan, layout, lengthPerSpeed) > layout.width - layout.barColumn)
         throw Failure(ExitCode::usage,

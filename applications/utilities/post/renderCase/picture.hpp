@@ -1,5 +1,5 @@
-// Panels side by side, one per time, seen by one eye and with the same colours; labels above, a scale bar, the axes and
-// an arrow for the velocity below, colour bars at the right.
+// Panels side by side, one for each time, with the same camera and colours; labels above; a scale bar, the axes and a
+// velocity arrow below; colour bars at the right.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -16,42 +16,43 @@ namespace corpuscle {
 
 struct PictureOptions {
     View view;
-    std::string field = "none";            // of the triangles or points: areaStrain, tension1, ...; none: plain
-    std::optional<ValueRange> fieldRange;  // none: that of all frames
+    std::string field = "none";            // of triangles or points: areaStrain, tension1, ...; none: plain surfaces
+    std::optional<ValueRange> fieldRange;  // empty: the range over all frames
     std::string fluidField = "u";          // of the slice
     std::optional<ValueRange> fluidRange;
     bool arrows = false;
-    bool frameCells = false;  // as far as the cells reach, without the box
+    bool frameCells = false;  // the view covers only the cells, not the box
     bool mesh = false;        // edges of the triangles
-    bool labelTime = false;   // times even where there is a strain
-    int width = 0;            // pixels; 0: by the number of panels
-    int height = 0;           // 0: from what is shown
+    bool labelTime = false;   // label with times even if there is a strain
+    int width = 0;            // pixels; 0: depends on the number of panels
+    int height = 0;           // pixels; 0: depends on what is shown
     std::optional<particles::Box> box;
 };
 
-// What all panels, and all pictures of a series, have in common.
+// What is common to all panels and to all pictures of a series.
 struct Plan {
     PictureOptions options;
     Camera camera;
     std::optional<Scale> field, fluid;
     double arrowSpacing = 0, largestSpeed = 0;  // m, m/s
-    double largestTime = 0;                     // s; sets the unit of the labels
+    double largestTime = 0;                     // s; determines the unit of the labels
 };
-// Throws Failure(usage) for an unknown field (naming those there are).
+// Throws Failure(usage) for an unknown field; the message names the existing fields.
 Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options);
 
 struct Panel {
-    int x, y, width, height;  // pixels from the top left of the picture, without its label
+    int x, y, width, height;  // pixels from the top left of the picture; without its label
 };
 
 struct Picture {
     int width = 0, height = 0;
-    double metresPerPixel = 0;  // in perspective at the focus of the camera
+    double metresPerPixel = 0;  // in perspective: at the focus of the camera
     std::vector<Panel> panels;
-    std::vector<Place> places;  // of words and bars; y from the bottom
+    std::vector<Place> places;  // of texts and bars; y from the bottom
 };
 
-// Draws the frames and writes the PNG. Throws Failure: usage for a size that is too small, io for the file.
+// Draws the frames and writes the PNG file. Throws Failure: usage for a size that is too small, io for a file that
+// cannot be written.
 Picture drawPicture(const Plan& plan, std::span<const Frame> frames, const std::filesystem::path& output);
 
 }  // namespace corpuscle

@@ -27,7 +27,7 @@ const View& viewNamed(const std::string& name) {
                                                joinWords(names), didYouMean(name, names)));
 }
 
-// "1600" or "1600x500"
+// Reads "1600" or "1600x500".
 void parseSize(const std::string& text, PictureOptions& options) {
     char end = 0;
     const int read = std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end);
@@ -52,7 +52,7 @@ std::vector<std::string> itemsOf(const std::string& text) {
     return items;
 }
 
-// One item of -time, -strain, -stage or -times.
+// Reads one item of -time, -strain, -stage or -times.
 Wanted parseWanted(const std::string& option, Wanted::Kind kind, const std::string& item) {
     using Kind = Wanted::Kind;
     Wanted wanted{kind, 0, fmt::format("{} {}", option, item)};
@@ -85,7 +85,7 @@ Wanted parseWanted(const std::string& option, Wanted::Kind kind, const std::stri
     return wanted;
 }
 
-// A file for each time, or a movie of them.
+// Whether each time has a picture of its own, as a file or as part of a movie.
 bool isSeries(const Application& app) { return app.has("series") || app.has("movie"); }
 
 FrameChoice choiceOf(const Application& app) {
@@ -110,7 +110,7 @@ FrameChoice choiceOf(const Application& app) {
     return choice;
 }
 
-// "y" or "y=2 um"
+// Reads "y" or "y=2 um".
 SlicePlane parseSlice(const std::string& text, std::optional<double>& position) {
     const std::size_t equals = text.find('=');
     const std::string axis = text.substr(0, equals);
@@ -135,7 +135,7 @@ SlicePlane parseSlice(const std::string& text, std::optional<double>& position) 
     return plane;
 }
 
-// Through the mean of all cells at all times, unless a position is asked for.
+// The slice passes through the mean of all cells at all times unless the user gives a position.
 void sampleSlices(const Application& app, const Results& results, const PictureOptions& options,
                   std::vector<Frame>& frames) {
     std::optional<double> position;
@@ -151,7 +151,7 @@ void sampleSlices(const Application& app, const Results& results, const PictureO
         }
         const double middle = options.box ? options.box->middle()[plane.axis] : 0;
         position = count > 0 ? sum / count : middle;
-        // A mesh's mean lies a little beside its middle.
+        // The mean of a mesh's points deviates slightly from the middle of the mesh.
         if (options.box && std::abs(*position - middle) < 0.02 * options.box->size()[plane.axis]) position = middle;
     }
     plane.position = *position;
@@ -257,7 +257,7 @@ std::filesystem::path numbered(const std::filesystem::path& output, std::size_t 
 int main(int argc, char* argv[]) {
     Application app("renderCase", "Pictures of a case's cells and fluid, without a display.", argc, argv, usage());
     return app.run([&] {
-        // 1. What is asked for.
+        // 1. What the user asks for.
         FrameChoice choice = choiceOf(app);
         PictureOptions options = optionsOf(app);
         choice.keepBroken = options.field == "broken";
@@ -274,7 +274,7 @@ int main(int argc, char* argv[]) {
             throw Failure(ExitCode::usage,
                           fmt::format("-output {}: a PNG file is written; its name ends in .png.", output.string()));
 
-        // 2. What there is.
+        // 2. What the case has.
         const Results results(app.caseDirectory());
         options.box = readBox(app, results.hasRun());
         if (options.box) options.view = turnedForWalls(options.view, options.box->periodic);
@@ -288,7 +288,7 @@ int main(int argc, char* argv[]) {
             throw Failure(ExitCode::usage, "-fluid: the case has no fluid, neither results/fluid.pvd nor 0/fluid.vtp.");
         if (sliced) sampleSlices(app, results, options, frames);
 
-        // 3. One picture, or one for each time.
+        // 3. One picture for all times, or one for each time.
         const Plan plan = makePlan(frames, options);
         const std::size_t each = isSeries(app) ? 1 : frames.size();
         nlohmann::json reports = nlohmann::json::array();

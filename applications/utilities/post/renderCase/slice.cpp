@@ -13,13 +13,13 @@ namespace corpuscle {
 namespace {
 
 constexpr double reach = 2.2, near = 1.3;  // in spacings
-constexpr int mostPoints = 700;            // of the grid along an axis
+constexpr int mostPoints = 700;            // number of grid points along an axis
 
-// What is shown of a particle, or of its image, whose velocity is greater by `slide`.
+// The values shown for a particle or for a periodic image of it, whose velocity is greater by `slide`.
 struct Source {
-    std::vector<double> values;                     // empty: of the velocity
-    const std::vector<Vec3>* velocities = nullptr;  // where there are
-    int component = -1;                             // of the velocity; -1: its magnitude
+    std::vector<double> values;                     // empty: the values are velocities
+    const std::vector<Vec3>* velocities = nullptr;  // if the particles have velocities
+    int component = -1;                             // component of the velocity; -1: its magnitude
     bool nearest = false;
 
     Vec3 velocity(std::size_t i, const Vec3& slide) const { return (*velocities)[i] + slide; }
@@ -63,13 +63,13 @@ double spacingOf(const io::PolyData& fluid, const Vec3& size) {
     return std::cbrt(size.prod() / static_cast<double>(fluid.points.size()));
 }
 
-// The particles and their images near a plane, in squares of the reach.
+// The particles and images near a plane, sorted into squares of the size of the reach.
 class NearPlane {
   public:
     struct Particle {
         Vec3 x;
         std::size_t source;
-        Vec3 slide;  // of the image's velocity
+        Vec3 slide;  // of the image relative to the particle
     };
 
     NearPlane(const io::PolyData& fluid, const particles::Box& box, const SlicePlane& plane, double h)
@@ -118,7 +118,7 @@ struct Fit {
 Fit fitAt(const Vec3& x, const NearPlane& particles, double dx, const Source& source, bool withVelocity) {
     const double h = reach * dx;
     Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-    Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // columns: value, velocity
+    Eigen::Matrix4d sums = Eigen::Matrix4d::Zero();  // columns: value, then the three velocity components
     double closest = std::numeric_limits<double>::max();
     Fit fit;
     double closestValue = fit.value;
