@@ -81,12 +81,12 @@ inline std::vector<Vec3> mapped(const Mesh& mesh, const Mat2& F) {
     return x;
 }
 
-inline std::unique_ptr<Membrane> membraneOf(const Mesh& mesh, const MembraneSettings& laws) {
+inline std::unique_ptr<Membrane> makeMembrane(const Mesh& mesh, const MembraneSettings& laws) {
     return std::make_unique<Membrane>("cell", 1, mesh.nodes, mesh.triangles, laws, 1.0);
 }
 
 inline double energyOf(const Mesh& mesh, const MembraneSettings& laws, const Mat2& F) {
-    const auto membrane = membraneOf(mesh, laws);
+    const auto membrane = makeMembrane(mesh, laws);
     membrane->position = mapped(mesh, F);
     return membrane->energy();
 }

@@ -15,7 +15,7 @@ using namespace testing;
 TEST(InPlaneLaws, BondsAtTheirContourLength) {
     for (const MembraneSettings& laws : {only(contour<WlcPow>(0.5, 2)), only(contour<FenePow>(0.5, 2))}) {
         const Mesh mesh = hexagonalPatch(2);
-        const auto membrane = membraneOf(mesh, laws);
+        const auto membrane = makeMembrane(mesh, laws);
         membrane->position = mapped(mesh, 1.999 * Mat2::Identity());
         EXPECT_NO_THROW(membrane->computeForces());
         EXPECT_TRUE(std::isfinite(membrane->energy()));
@@ -72,7 +72,7 @@ TEST(InPlaneLaws, RuptureAndDiagnosticsWithoutBondLaw) {
     auto rupture = std::make_shared<BondStretch>();
     rupture->limit = 1.3;
     laws.rupture = {"bondStretch", rupture};
-    const auto membrane = membraneOf(mesh, laws);
+    const auto membrane = makeMembrane(mesh, laws);
     EXPECT_NEAR(membrane->scale().shearModulus, G, 1e-15);
     for (Vec3& x : membrane->position) {
         x.x() *= 1.4;
@@ -102,7 +102,7 @@ class CountElements : public Stiffness {
 TEST(InPlaneLaws, WhatIsNotNamedCostsNothing) {
     const Mesh mesh = icosphere(1);
     for (const ModuliCase& c : moduliCases()) {
-        const auto membrane = membraneOf(mesh, c.laws);
+        const auto membrane = makeMembrane(mesh, c.laws);
         CountElements count;
         membrane->addStiffness(Definiteness::exact, count);
         const auto wanted = c.laws.bonds ? std::map<std::size_t, int>{{2, 120}} : std::map<std::size_t, int>{{3, 80}};

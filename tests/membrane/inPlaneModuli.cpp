@@ -74,7 +74,7 @@ TEST(InPlaneLaws, MeasuredModuliOfScaledBonds) {
 // network of bonds on an irregular mesh relaxes and is softer than its affine modulus.
 double relaxedShear(const Mesh& mesh, int n, const MembraneSettings& laws) {
     constexpr double e = 1e-4;
-    const auto membrane = membraneOf(mesh, laws);
+    const auto membrane = makeMembrane(mesh, laws);
     membrane->position = mapped(mesh, Eigen::Vector2d(1 + e, 1 - e).asDiagonal());
     membrane->computeForces();
     AssembledStiffness stiffness(mesh.nodes.size());
