@@ -1,9 +1,10 @@
 // Family of equations of state: pressure of a weakly compressible fluid from its density.
 //
 // The sound speed is not that of water but a numerical one: large enough that density varies by less than a per cent.
-// `soundSpeed: auto` takes, with plain operators,  c0^2 = 100 max(U^2, nu U/l, Gs/(rho a), F L)  with U the largest speed
-// that walls or body force give, l the smallest of gap and cell radius, F the body force, L the length of the flow
-// (flow.hpp).
+// With plain operators `soundSpeed: auto` takes
+//     c0^2 = 100 max(U^2, nu U/l, Gs/(rho a), F L)
+// with U the largest speed that walls or body force give, l the smallest of gap and cell radius, F the body force and L
+// the length of the flow (flow.hpp).
 #pragma once
 #include <optional>
 
