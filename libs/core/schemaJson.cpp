@@ -78,7 +78,7 @@ class Writer {
     // A table with `type` and the settings of the model of that name beside it.
     Json reference(const std::string& family) {
         if (!definitions_.contains(family)) {
-            definitions_[family] = Json::object();  // placeholder: a family may contain itself
+            definitions_[family] = Json::object();  // named before it is filled: a family may contain itself
             Json names = Json::array(), branches = Json::array();
             const std::string usual = families()[family].usual;
             for (const ModelInfo& model : families()[family].models()) {

@@ -14,7 +14,7 @@ constexpr std::size_t components = 3;
 }
 
 // Values on the grid and their Fourier transforms, component after component. Between walls each plane is transformed
-// by itself, otherwise all planes at once.
+// separately, otherwise all planes at once.
 struct CoarseGrid::Plans {
     std::size_t nodes, modes;           // of one component
     std::size_t realPart, complexPart;  // of one part: what is transformed at once

@@ -34,7 +34,7 @@ struct FlowState {
     double speed = 0;      // largest speed that walls or body force give [m/s]
     double length = 0;     // length over which velocity changes: gap, or wavelength/(2 pi) [m]
     double rate = 0;       // shearRate, or speed/length [1/s]
-    double transient = 0;  // time in which the flow changes by a factor e by itself [s]; 0: fully developed at t = 0
+    double transient = 0;  // time in which an unsteady flow changes by a factor e [s]; 0: fully developed at t = 0
     bool settles = false;  // true: the flow approaches a steady one; false: it decays
     Vec3 bodyForce = Vec3::Zero();                // per unit mass [m/s^2]
     Vec3 slide = Vec3::Zero();                    // of the next image along axis `gradient` [m/s]; 0: no sliding

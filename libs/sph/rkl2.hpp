@@ -24,7 +24,7 @@ namespace corpuscle::sph {
 
 struct Rkl2Settings {
     long stages = 31;        // largest number of stages in a step; odd
-    double resolution = 40;  // least number of steps in the time in which the flow changes by itself
+    double resolution = 40;  // least number of steps in the time in which an unsteady flow changes
     static const Schema<Rkl2Settings>& schema();
     // Largest dt that resolves the flow's own change, at time t after its start: t/resolution if the flow settles (as
     // from rest), but not less than 2/lambda; flow.transient/resolution if the flow decays; infinity if it is fully
