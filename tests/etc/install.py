@@ -79,6 +79,8 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
         environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
+        if "CORPUSCLE_SANITIZE:BOOL=ON" in (BUILD / "CMakeCache.txt").read_text():  # what uses sanitized libraries needs it, too
+            environment["CXXFLAGS"] = environment["LDFLAGS"] = "-fsanitize=address,undefined"
         run(["cmake", "--install", BUILD, "--prefix", folder / "first"], folder, environment)
         # As for packages: the same files below another root.
         run(["cmake", "--install", BUILD, "--prefix", "/usr"], folder, dict(environment, DESTDIR=str(folder / "package")))
