@@ -29,6 +29,40 @@ T readAttribute(hid_t object, const std::string& name, const std::string& what) 
     }
 }
 
+// HDF5 1.10 frees uninitialised memory where a list of links or attributes that is too long for the header of its
+// object is damaged. The writer keeps them all in headers; a file in which they are elsewhere is not read.
+void requireInHeader(hid_t object, const std::string& what) {
+    H5G_info_t links{};
+    checked(H5Gget_info(object, &links), what);
+    H5O_info_t info{};
+    checked(H5Oget_info2(object, &info, H5O_INFO_META_SIZE), what);
+    const H5_ih_info_t& attributes = info.meta_size.attr;
+    if (links.storage_type != H5G_STORAGE_TYPE_COMPACT || attributes.index_size > 0 || attributes.heap_size > 0)
+        throw Failure(ExitCode::io, what +
+                                        " (its lists are not in the headers of the groups: it is damaged, or was "
+                                        "written by an earlier version)");
+}
+
+// Adds the datasets below a group, as paths from its top.
+void addDatasets(hid_t group, const std::string& path, int depth, const std::string& what,
+                 std::vector<std::string>& datasets) {
+    constexpr int deepest = 8;
+    if (depth > deepest) throw Failure(ExitCode::io, what);
+    requireInHeader(group, what);
+    std::vector<std::string> links;
+    const auto visit = [](hid_t, const char* name, const H5L_info_t* info, void* list) -> herr_t {
+        if (info->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    checked(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &links), what);
+    for (const std::string& name : links) {
+        const Handle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose, what);
+        const H5I_type_t type = H5Iget_type(object);
+        if (type == H5I_DATASET) datasets.push_back(path + name);
+        if (type == H5I_GROUP) addDatasets(object, path + name + "/", depth + 1, what, datasets);
+    }
+}
+
 bool contains(const std::vector<std::string>& sorted, const std::string& name) {
     return std::binary_search(sorted.begin(), sorted.end(), name);
 }
@@ -44,6 +78,7 @@ CheckpointAccess::CheckpointAccess(const std::filesystem::path& path) : path_(pa
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     checked(H5Pset_file_locking(access, false, true), what);
     file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access), H5Fclose, what);
+    requireInHeader(Handle(H5Gopen2(file_, "/", H5P_DEFAULT), H5Gclose, what), what);
     ranksWritten_ = readAttribute<std::int64_t>(file_, checkpoint::ranksName, what);
     names_ = namesBelow(checkpoint::dataGroup);
     distributed_ = namesBelow(checkpoint::rowsGroup);
@@ -65,6 +100,7 @@ Contents CheckpointAccess::contents() const {
     all.ranks(ranksWritten_);
     const std::string what = fmt::format("{}: the attributes are corrupt.", path_.string());
     const Handle group(H5Gopen2(file_, checkpoint::attributeGroup, H5P_DEFAULT), H5Gclose, what);
+    requireInHeader(group, what);
     std::vector<std::string> names;
     const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
         static_cast<std::vector<std::string>*>(list)->push_back(name);
@@ -103,11 +139,7 @@ std::vector<std::string> CheckpointAccess::namesBelow(const char* group) const {
     std::vector<std::string> names;
     if (checked(H5Lexists(file_, group, H5P_DEFAULT), what) == 0) return names;
     const Handle id(H5Gopen2(file_, group, H5P_DEFAULT), H5Gclose, what);
-    auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* list) -> herr_t {
-        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(list)->push_back(name);
-        return 0;
-    };
-    checked(H5Ovisit2(id, H5_INDEX_NAME, H5_ITER_INC, visit, &names, H5O_INFO_BASIC), what);
+    addDatasets(id, "", 0, what, names);
     std::sort(names.begin(), names.end());
     return names;
 }

@@ -23,6 +23,14 @@ void writeAttribute(hid_t object, const std::string& name, T value) {
     checked(H5Awrite(attribute, memoryType<T>(), &value), fmt::format("attribute '{}'", name));
 }
 
+// Objects made with these properties have their links and attributes in their headers, which HDF5 verifies before it
+// reads them. Longer lists would go into structures of their own, which it verifies too late (CheckpointAccess).
+void keepInHeader(hid_t creation) {
+    constexpr unsigned most = 65535;
+    checked(H5Pset_link_phase_change(creation, most, 0), "storage of links");
+    checked(H5Pset_attr_phase_change(creation, most, 0), "storage of attributes");
+}
+
 }  // namespace
 
 struct CheckpointWriter::File {
@@ -45,8 +53,11 @@ struct CheckpointWriter::File {
             checked(H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL), "parallel file access");
             // The file format of 1.10 has checksums in all its own structures.
             checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "file format");
-            file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "new file");
-            attributes = Handle(H5Gcreate2(file, checkpoint::attributeGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            const Handle ofFile(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file"),
+                ofGroup(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "group");
+            keepInHeader(ofFile), keepInHeader(ofGroup);
+            file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, ofFile, access), H5Fclose, "new file");
+            attributes = Handle(H5Gcreate2(file, checkpoint::attributeGroup, H5P_DEFAULT, ofGroup, H5P_DEFAULT),
                                 H5Gclose, "attribute group");
             writeAttribute(file, checkpoint::ranksName, static_cast<std::int64_t>(size));
             contents.ranks(size);

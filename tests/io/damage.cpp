@@ -1,6 +1,8 @@
 // Every byte of a checkpoint, and of a file of 0/, flipped in turn: what is then read is what was written, or an error.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <array>
 #include <fstream>
 #include <random>
 
@@ -8,6 +10,7 @@
 #include "core/error.hpp"
 #include "io/checkpointFile.hpp"
 #include "io/dataChecksum.hpp"
+#include "io/hdf5Handle.hpp"
 #include "io/polyData.hpp"
 #include "temporaryFolder.hpp"
 
@@ -22,8 +25,11 @@ struct State {
     double time = 0;
     std::int64_t step = 0;
     std::string scheme;
+    // More in one group than HDF5 keeps in a header unless told to.
+    std::array<double, 12> figures{}, sums{};
     bool operator==(const State&) const = default;
 };
+std::string numbered(const std::string& name, std::size_t k) { return name + std::to_string(k); }
 
 State someState() {
     State s;
@@ -34,6 +40,8 @@ State someState() {
     }
     s.bonds = {1, 1, 0, 1};
     s.time = 1.25e-3, s.step = 4711, s.scheme = "implicit";
+    for (std::size_t k = 0; k < s.figures.size(); ++k)
+        s.figures[k] = 0.5 + static_cast<double>(k), s.sums[k] = 1 / s.figures[k];
     return s;
 }
 
@@ -42,6 +50,10 @@ void save(const fs::path& path, const State& s) {
     file.attribute("time", s.time);
     file.attribute("step", s.step);
     file.attribute("scheme", s.scheme);
+    for (std::size_t k = 0; k < s.figures.size(); ++k) {
+        file.attribute(numbered("figure", k), s.figures[k]);
+        file.writeReplicated(numbered("sums/sum", k), std::span<const double>(&s.sums[k], 1));
+    }
     file.writeDistributed("particles/place", std::span<const double>(s.place), 3);
     file.writeDistributed("particles/id", std::span<const std::int64_t>(s.id));
     file.writeReplicated("cells/rbc/bonds", std::span<const std::int64_t>(s.bonds));
@@ -54,6 +66,10 @@ State load(const fs::path& path) {
     s.time = file.attribute<double>("time");
     s.step = file.attribute<std::int64_t>("step");
     s.scheme = file.attribute<std::string>("scheme");
+    for (std::size_t k = 0; k < s.figures.size(); ++k) {
+        s.figures[k] = file.attribute<double>(numbered("figure", k));
+        s.sums[k] = file.readReplicated<double>(numbered("sums/sum", k)).at(0);
+    }
     s.place = file.readDistributed<double>("particles/place", 3);
     s.id = file.readDistributed<std::int64_t>("particles/id");
     s.bonds = file.readReplicated<std::int64_t>("cells/rbc/bonds");
@@ -90,6 +106,7 @@ TEST(Damage, ofACheckpointIsHarmlessOrFound) {
     save(path, state);
     ASSERT_EQ(checkCheckpoint(path), "");
     ASSERT_EQ(load(path), state);
+    mallopt(M_PERTURB, 165);  // new memory is not zero, so that use of it before it is set is seen
     const Damage damage = flipAll(path, 5, [&] {
         const bool found = !checkCheckpoint(path).empty();
         try {
@@ -105,6 +122,45 @@ TEST(Damage, ofACheckpointIsHarmlessOrFound) {
     EXPECT_GT(damage.accepted, 0);  // bytes that HDF5 does not use
     RecordProperty("found", static_cast<int>(damage.found));
     RecordProperty("accepted", static_cast<int>(damage.accepted));
+}
+
+// Lists of links and attributes outside the headers of groups are not read: HDF5 1.10 frees memory that it has not set
+// where they are damaged.
+TEST(Damage, listsOutsideHeadersAreRefused) {
+    const TemporaryFolder folder;
+    const fs::path path = folder.path() / "000003.h5";
+    const auto spoilt = [&](const auto& spoil) {
+        save(path, someState());
+        EXPECT_EQ(checkCheckpoint(path), "");
+        {
+            const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "access");
+            checked(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110), "format");
+            const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, access), H5Fclose, "file");
+            spoil(file);
+        }
+        return checkCheckpoint(path);
+    };
+    const auto groupOf = [](hid_t file, const std::string& name, int links) {
+        const Handle group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name);
+        for (int k = 0; k < links; ++k)
+            Handle(H5Gcreate2(group, numbered("g", static_cast<std::size_t>(k)).c_str(), H5P_DEFAULT, H5P_DEFAULT,
+                              H5P_DEFAULT),
+                   H5Gclose, name);
+    };
+    const std::string why = "its lists are not in the headers";
+    EXPECT_NE(spoilt([&](hid_t file) { groupOf(file, "data/more", 20); }).find(why), std::string::npos);
+    EXPECT_EQ(spoilt([&](hid_t file) { groupOf(file, "data/more", 4); }), "") << "short lists stay in the header";
+    EXPECT_NE(spoilt([](hid_t file) {
+                  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "creation");
+                  checked(H5Pset_attr_phase_change(creation, 0, 0), "attributes");
+                  checked(H5Ldelete(file, checkpoint::attributeGroup, H5P_DEFAULT), "group");
+                  const Handle group(H5Gcreate2(file, checkpoint::attributeGroup, H5P_DEFAULT, creation, H5P_DEFAULT),
+                                     H5Gclose, "group");
+                  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "space");
+                  Handle(H5Acreate2(group, "time", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "attribute");
+              }).find(why),
+              std::string::npos);
 }
 
 TEST(Damage, ofOneCheckpointLeavesTheOneBefore) {
