@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace corpuscle::io {
 namespace {
@@ -30,25 +31,27 @@ T readAttribute(hid_t object, const std::string& name, const std::string& what) 
 }
 
 // HDF5 1.10 frees uninitialised memory where a list of links or attributes that is too long for the header of its
-// object is damaged. The writer keeps them all in headers; a file in which they are elsewhere is not read.
-void requireInHeader(hid_t object, const std::string& what) {
+// object is damaged. The writer keeps them all in headers; a file in which they are elsewhere is not read. Returns the
+// address of the object.
+haddr_t requireInHeader(hid_t object, const std::string& what) {
     H5G_info_t links{};
     checked(H5Gget_info(object, &links), what);
     H5O_info_t info{};
-    checked(H5Oget_info2(object, &info, H5O_INFO_META_SIZE), what);
+    checked(H5Oget_info2(object, &info, H5O_INFO_BASIC | H5O_INFO_META_SIZE), what);
     const H5_ih_info_t& attributes = info.meta_size.attr;
     if (links.storage_type != H5G_STORAGE_TYPE_COMPACT || attributes.index_size > 0 || attributes.heap_size > 0)
         throw Failure(ExitCode::io, what +
                                         " (its lists are not in the headers of the groups: it is damaged, or was "
                                         "written by an earlier version)");
+    return info.addr;
 }
 
-// Adds the datasets below a group, as paths from its top.
-void addDatasets(hid_t group, const std::string& path, int depth, const std::string& what,
+// Adds the datasets below a group, as paths from its top. seen: addresses of the groups before. Each group has one
+// link: groups with eight links to the next one, eight levels deep, would otherwise be seventeen million.
+void addDatasets(hid_t group, const std::string& path, const std::string& what, std::set<haddr_t>& seen,
                  std::vector<std::string>& datasets) {
-    constexpr int deepest = 8;
-    if (depth > deepest) throw Failure(ExitCode::io, what);
-    requireInHeader(group, what);
+    if (!seen.insert(requireInHeader(group, what)).second)
+        throw Failure(ExitCode::io, what + " (more than one link leads to a group)");
     std::vector<std::string> links;
     const auto visit = [](hid_t, const char* name, const H5L_info_t* info, void* list) -> herr_t {
         if (info->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(list)->push_back(name);
@@ -59,7 +62,7 @@ void addDatasets(hid_t group, const std::string& path, int depth, const std::str
         const Handle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose, what);
         const H5I_type_t type = H5Iget_type(object);
         if (type == H5I_DATASET) datasets.push_back(path + name);
-        if (type == H5I_GROUP) addDatasets(object, path + name + "/", depth + 1, what, datasets);
+        if (type == H5I_GROUP) addDatasets(object, path + name + "/", what, seen, datasets);
     }
 }
 
@@ -139,7 +142,8 @@ std::vector<std::string> CheckpointAccess::namesBelow(const char* group) const {
     std::vector<std::string> names;
     if (checked(H5Lexists(file_, group, H5P_DEFAULT), what) == 0) return names;
     const Handle id(H5Gopen2(file_, group, H5P_DEFAULT), H5Gclose, what);
-    addDatasets(id, "", 0, what, names);
+    std::set<haddr_t> seen;
+    addDatasets(id, "", what, seen, names);
     std::sort(names.begin(), names.end());
     return names;
 }

@@ -1,4 +1,5 @@
 // Every byte of a checkpoint, and of a file of 0/, flipped in turn: what is then read is what was written, or an error.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -161,6 +162,21 @@ TEST(Damage, listsOutsideHeadersAreRefused) {
                          "attribute");
               }).find(why),
               std::string::npos);
+    const auto linkTo = [](hid_t file, const std::string& target, const std::string& name) {
+        checked(H5Lcreate_hard(file, target.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), name);
+    };
+    const std::string twice = "more than one link leads to a group";
+    EXPECT_NE(spoilt([&](hid_t file) {
+                  groupOf(file, "data/l0", 0);
+                  for (int level = 1; level < 9; ++level) {
+                      const std::string group = fmt::format("data/l{}", level);
+                      groupOf(file, group, 0);
+                      for (int k = 0; k < 8; ++k)
+                          linkTo(file, fmt::format("data/l{}", level - 1), fmt::format("{}/g{}", group, k));
+                  }
+              }).find(twice),
+              std::string::npos);
+    EXPECT_NE(spoilt([&](hid_t file) { linkTo(file, "data", "data/data"); }).find(twice), std::string::npos);
 }
 
 TEST(Damage, ofOneCheckpointLeavesTheOneBefore) {
