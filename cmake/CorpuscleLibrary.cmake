@@ -31,6 +31,16 @@ function(corpuscle_application NAME)
     set_property(GLOBAL APPEND PROPERTY CORPUSCLE_PROGRAMS ${NAME})
 endfunction()
 
+# corpuscle_script(NAME): a program in Python, the file NAME of the folder. It finds the package `corpuscle` from where it lies.
+function(corpuscle_script NAME)
+    set(program ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${NAME})
+    add_custom_command(OUTPUT ${program} COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} ${program}
+        DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${NAME} VERBATIM)
+    add_custom_target(${NAME} ALL DEPENDS ${program})
+    install(PROGRAMS ${NAME} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT corpuscle)
+    set_property(GLOBAL APPEND PROPERTY CORPUSCLE_PROGRAMS ${NAME})
+endfunction()
+
 # corpuscle_test(NAME SOURCES a.cpp ... DEPENDS library ... [RANKS 1 2 4] [GROUP fast|mpi|physics])
 # One GoogleTest executable; RANKS adds one ctest entry per number of ranks, run through mpirun.
 function(corpuscle_test NAME)

@@ -7,14 +7,15 @@
     cell = case.surface("rbc", strain=2)             # points, triangles, arrays as numpy
     corpuscle.period(shape, "D12_extent")
 
-Needs python3-pandas; python3-vtk9 for meshes and particles; the programs of Corpuscle for changes and runs. They are looked for in
+Needs python3-pandas; python3-vtk9 for meshes and particles; python3-matplotlib for reports; the programs of Corpuscle for changes and runs. They are looked for in
 $CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
 """
 from .analysis import Mean, crossing, mean, period, tankTreadingFrequency, unwrapped
 from .case import Case
 from .programs import CorpuscleError, program
+from .report import report
 from .results import Surface
 from .study import Study
 from .tables import readTable
 
-__all__ = ["Case", "CorpuscleError", "Mean", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "tankTreadingFrequency", "unwrapped"]
+__all__ = ["Case", "CorpuscleError", "Mean", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "report", "tankTreadingFrequency", "unwrapped"]

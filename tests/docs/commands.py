@@ -40,6 +40,10 @@ SESSIONS = {
 cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && membraneMesh && particleFill && dmpFlow
 command -v ffmpeg >/dev/null || { mkdir ffmpeg && printf '#!/bin/sh\\nfor last; do :; done; echo >$last' >ffmpeg/ffmpeg && chmod +x ffmpeg/ffmpeg && PATH=$PATH:$PWD/ffmpeg; }
 """, ["myCell/film/frame_0000.png"]),
+    "docs/caseReport.md": (CLONE + """
+cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && caseDict -quiet -set system/control.yaml:/endStrain=0.5
+membraneMesh && particleFill && dmpFlow && printf 'strain,D12_extent\\n0,0.58\\n0.4,0.58\\n' >myReference.csv
+""", ["myCell/postProcessing/report.html", "myCell/cell.html"]),
     "docs/study.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell
 cp page.yaml study.yaml

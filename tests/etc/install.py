@@ -105,7 +105,7 @@ def main():
         assert (share / "docs/quickstart.md").exists() and (share / "schema/mesh.json").exists()
 
         names = sorted(path.name for path in (root / "bin").iterdir() if path.name != "newModel")
-        assert {"dmpFlow", "caseSweep", "renderCase"} <= set(names) and not any(name.startswith("test_") for name in names), names
+        assert {"dmpFlow", "caseSweep", "renderCase", "caseReport"} <= set(names) and not any(name.startswith("test_") for name in names), names
         assert sorted(path.stem for path in (root / "share/man/man1").iterdir()) == names
         page = (root / "share/man/man1/caseSweep.1").read_text()
         assert '.BR "\\-jobs" " N"' in page and ".SH EXAMPLES" in page, page
