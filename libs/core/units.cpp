@@ -69,6 +69,7 @@ std::string namesOf(bool prefixable) {
 }
 std::string prefixLetters() {
     std::vector<std::string> letters;
+    letters.reserve(std::size(prefixes));
     for (const Prefix& p : prefixes) letters.emplace_back(1, p.letter);
     return joinWords(letters, " ");
 }

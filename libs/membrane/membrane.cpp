@@ -51,8 +51,8 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, const std::vector<Vec
                    std::vector<Index3> triangles, const MembraneSettings& settings, double radius,
                    std::vector<Vec3> stressFree)
     : Membrane(std::move(nameOfCell), cellNumber, nodes,
-               std::make_shared<MembraneType>(stressFree.empty() ? nodes : std::move(stressFree), std::move(triangles),
-                                              settings, radius)) {}
+               std::make_shared<MembraneType>(stressFree.empty() ? std::vector<Vec3>(nodes) : std::move(stressFree),
+                                              std::move(triangles), settings, radius)) {}
 
 // The new type is built from the data that rupture leaves unchanged, since some terms read rest values off the living
 // elements.
