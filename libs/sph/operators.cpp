@@ -160,8 +160,7 @@ void Operators<Real>::findMoments(ParticleSystem& system) {
                 const Vec3 x = system.store().position(i);
                 fault = fmt::format(
                     "particle {} at ({:.4g}, {:.4g}, {:.4g}) m has too few neighbours for a gradient: particles have "
-                    "moved "
-                    "away from it and left a void",
+                    "moved away from it and left a void",
                     system.store().id[i], x[0], x[1], x[2]);
                 break;
             }

@@ -225,8 +225,8 @@ def _view(case, names, field, areStages):
         return ""
     times = sorted({time for entries in streams.values() for time, _ in entries})
     last = {name: results.readSurface(entries[-1][1]) for name, entries in streams.items()}
-    points = sum(len(surface.points) for surface in last.values())
-    most = max(1, min(len(times), MOST_POINTS // max(points, 1)))
+    count = sum(len(surface.points) for surface in last.values())
+    most = max(1, min(len(times), MOST_POINTS // max(count, 1)))
     shown = [times[round(k * (len(times) - 1) / max(most - 1, 1))] for k in range(most)] if most > 1 else times[-1:]
     frames, low, high, strains = [], numpy.full(3, math.inf), numpy.full(3, -math.inf), []
     if box is not None:
@@ -236,13 +236,12 @@ def _view(case, names, field, areStages):
         for name, entries in streams.items():
             nearest = min(entries, key=lambda entry: abs(entry[0] - time))
             surface = results.readSurface(nearest[1])
-            frame[name] = surface, _wrapped(surface, box)
-            strain = surface.strain
-            low, high = numpy.minimum(low, frame[name][1].min(axis=0)), numpy.maximum(high, frame[name][1].max(axis=0))
+            points, strain = _wrapped(surface, box), surface.strain
+            frame[name] = surface, points, _perNode(surface, field) if field else numpy.zeros(0)
+            low, high = numpy.minimum(low, points.min(axis=0)), numpy.maximum(high, points.max(axis=0))
         frames.append(frame)
         strains.append(strain)
-    values = [_perNode(surface, field) for frame in frames for surface, _ in frame.values()] if field else []
-    known = numpy.concatenate(values) if values else numpy.zeros(0)
+    known = numpy.concatenate([values for frame in frames for _, _, values in frame.values()])
     known = known[numpy.isfinite(known)]
     bounds = [float(known.min()), float(known.max())] if len(known) else None
     if bounds and bounds[0] < 0 < bounds[1]:  # the grey in the middle of the colours is 0
@@ -253,18 +252,18 @@ def _view(case, names, field, areStages):
     for time, strain, frame in zip(shown, strains, frames):
         label = f"strain {strain:.4g}" if math.isfinite(strain) and (strain or time == 0) else f"t = {time:.4g} s"
         one = {"label": f"stage {time:g}" if areStages else label, "meshes": {}}
-        for name, (surface, points) in frame.items():
+        for name, (surface, points, values) in frame.items():
             mesh = {"points": _packed(_quantised(points, low, high, 65535), "<u2")}
             if bounds:
-                mesh["values"] = _packed(_quantised(numpy.nan_to_num(_perNode(surface, field), nan=bounds[0]), *bounds, 255), "u1")
+                mesh["values"] = _packed(_quantised(numpy.nan_to_num(values, nan=bounds[0]), *bounds, 255), "u1")
             if "broken" in surface.cellData and surface.cellData["broken"].any():
                 mesh["broken"] = _packed(surface.cellData["broken"] != 0, "u1")
             one["meshes"][name] = mesh
         data["frames"].append(one)
-    count = f" {len(shown)} of {len(times)} times are shown." if len(shown) < len(times) else ""
+    fewer = f" {len(shown)} of {len(times)} times are shown." if len(shown) < len(times) else ""
     legend = f'<span id="legend">{html.escape(field)}: {bounds[0]:.4g} <i></i> {bounds[1]:.4g}</span>' if bounds else ""
     meshes = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    return (f'<h2>Cells</h2><p>Drag to turn, use the wheel or two fingers to zoom.{count}</p><div id="view"><canvas></canvas></div>'
+    return (f'<h2>Cells</h2><p>Drag to turn, use the wheel or two fingers to zoom.{fewer}</p><div id="view"><canvas></canvas></div>'
             f'<p id="controls"><button>play</button> <input type="range" min="0" max="{len(shown) - 1}" value="{len(shown) - 1}" aria-label="time"> '
             f'<span id="label"></span> {legend}</p><script type="application/json" id="meshes">{meshes}</script>')
 
@@ -328,12 +327,12 @@ class _Curves:
             key = self._key(table, along)
             if key is not None and key != "cell":
                 continue  # rows of another kind, as layers of a profile
+            before = len(self.compared)
             figures = [self._figure(name, table, along, key, column, used) for column in table.columns if column not in (*ALONG, "cell")]
             figures = list(filter(None, figures))
             if figures:
                 title = table.attrs["title"].split(" of Corpuscle, ")[-1]
-                isCompared = any(one[0].startswith(html.escape(f"{name}: ")) for one in self.compared)
-                self.parts.append((not isCompared, "residualShare" in table or "density_max" in table, name, title, figures))
+                self.parts.append((len(self.compared) == before, "residualShare" in table or "density_max" in table, name, title, figures))
         for one in references:
             if one not in used:
                 raise ReportError(f"{one.path} has no column that a table has too (it has {', '.join(one.table.columns)}); "
