@@ -1,6 +1,7 @@
 """One page about a case: pictures, a view of the cells that can be turned, curves, settings, and what the run cost.
 
-    corpuscle.report(corpuscle.Case("myCell"))       # writes myCell/postProcessing/report.html
+    corpuscle.report(corpuscle.Case("myCell"))                                         # writes myCell/postProcessing/report.html
+    corpuscle.report(corpuscle.Case("fine"), others=[corpuscle.Case("coarse")])        # with the curves of another case
 
 The page is one file that needs nothing else: pictures, meshes and curves are in it. The program `caseReport` calls this.
 """
@@ -33,7 +34,7 @@ class ReportError(ValueError):
     """What cannot be reported, in a sentence for the user."""
 
 
-def report(case, output=None, field=None, names=None, references=(), pictures=4, warn=print):
+def report(case, output=None, field=None, names=None, references=(), pictures=4, warn=print, others=()):
     """Writes the page and returns its path.
 
     output      HTML file; postProcessing/report.html of the case if none is given
@@ -42,6 +43,7 @@ def report(case, output=None, field=None, names=None, references=(), pictures=4,
     references  CSV files with a column strain, time_s or stage: other columns are drawn beside those of the same name, and compared with them
     pictures    number of times in the picture; 0: no picture
     warn        is called with what is left out, and why
+    others      cases whose curves are drawn beside those of this one, and whose settings are compared with its own
     """
     output = pathlib.Path(output) if output else case.folder / "postProcessing" / "report.html"
     record = case.record
@@ -51,6 +53,7 @@ def report(case, output=None, field=None, names=None, references=(), pictures=4,
     if unknown:
         raise ReportError(f"there is no table {unknown[0]!r}; there are {', '.join(case.tables) or 'none'}")
     given = [_Reference(path) for path in references]
+    beside = _distinct(case, others)
     surfaces = [name for name in case.streams if name not in ("fluid", "walls")]
     field = _field(case, surfaces, field)
     warnings = _warnings(case)
@@ -59,8 +62,8 @@ def report(case, output=None, field=None, names=None, references=(), pictures=4,
         sections.append(_picture(case, field, pictures, warn))
     if surfaces:
         sections.append(_view(case, surfaces, field, record.get("application") == "membraneRelax"))
-    curves = _Curves(case, names, given, warn)
-    sections += [curves.comparison(), curves.section(), _budget(record), _cost(record), _groups(record), _settings(case), _list("Warnings", warnings)]
+    curves = _Curves(case, names, given, beside, warn)
+    sections += [_differences(beside), curves.comparison(), curves.section(), curves.values(), _budget(record), _cost(record), _groups(record), _settings(case), _list("Warnings", warnings)]
     title = html.escape(case.folder.resolve().name)
     page = (HERE / "report.html").read_text(encoding="utf-8")
     for mark, text in (("@TITLE@", title), ("@SCRIPT@", (HERE / "report.js").read_text(encoding="utf-8")), ("@BODY@", "\n".join(filter(None, sections)))):
@@ -288,6 +291,67 @@ def _along(table):
     return next((name for name in ALONG[1:] if name in table), None)
 
 
+def _distinct(case, others):
+    """The other cases by their names: the last parts of their paths, as many as tell them and the case itself apart."""
+    for one in others:
+        if not one.record:
+            raise ReportError(f"{one.folder} has no run.json: run the case first")
+    paths = [one.folder.resolve().parts for one in (case, *others)]
+    if len(set(paths)) < len(paths):
+        raise ReportError("a case is compared with itself, or twice with the same one")
+    count = next(n for n in range(1, max(map(len, paths)) + 1) if len({parts[-n:] for parts in paths}) == len(paths))
+    names = ["/".join(parts[-count:]) for parts in paths]
+    return [_Other(name, one) for name, one in zip(names, (case, *others))]
+
+
+class _Other:
+    """A case whose curves are drawn: its name and its tables."""
+
+    def __init__(self, name, case):
+        self.name, self.case, self._tables = name, case, {}
+
+    def curve(self, table, along, column):
+        """A column over `along`, the median where there are several cells; None where the case has no such numbers."""
+        if table not in self._tables:
+            try:
+                self._tables[table] = self.case.table(table)
+            except (FileNotFoundError, ValueError):
+                self._tables[table] = None
+        rows = self._tables[table]
+        if rows is None or column not in rows or along not in rows or not pandas.api.types.is_numeric_dtype(rows[column]):
+            return None
+        curve = rows.groupby(along)[column].median()
+        return curve if numpy.isfinite(curve).any() else None
+
+
+def _entries(settings, path=""):
+    """Entries of nested settings by their paths, FILE:/a/b/0 as for -set."""
+    if isinstance(settings, dict) and settings:
+        for key, value in settings.items():
+            yield from _entries(value, f"{path}/{key}" if path else f"{key}:")
+    elif isinstance(settings, list) and any(isinstance(one, (dict, list)) for one in settings):
+        for k, value in enumerate(settings):
+            yield from _entries(value, f"{path}/{k}")
+    else:
+        yield path, settings
+
+
+def _differences(beside):
+    """The settings in which the cases differ, as the runs understood them."""
+    if len(beside) < 2:
+        return ""
+    all_ = [dict(_entries(one.case.used)) for one in beside]
+    keys = list(dict.fromkeys(key for entries in all_ for key in entries))
+    rows = [(html.escape(key), *("" if key not in entries else _number(entries[key]) for entries in all_))
+            for key in keys if any(entries.get(key) != all_[0].get(key) or key not in entries for entries in all_)]
+    head = ("setting", *(html.escape(one.name) for one in beside))
+    return "<h2>Settings that differ</h2>" + (_table(rows, head) if rows else "<p>None.</p>")
+
+
+def _thinned(rows):
+    return rows.iloc[::max(1, -(-len(rows) // MOST_SAMPLES))]
+
+
 class _Reference:
     """A CSV file with comments, a head and numbers."""
 
@@ -312,8 +376,9 @@ class _Reference:
 class _Curves:
     """Curves of all tables over strain, over time where the flow has no strain, or over stages of membraneRelax."""
 
-    def __init__(self, case, names, references, warn):
+    def __init__(self, case, names, references, beside, warn):
         self.references, self.compared, self.parts = references, [], []
+        self.name, self.others, self.last = beside[0].name, beside[1:], []
         used = set()
         for name in names or case.tables:
             try:
@@ -351,14 +416,19 @@ class _Curves:
             return None
         groups = [(str(cell), rows) for cell, rows in table.groupby("cell")] if key == "cell" else [("", table)]
         same = [one for one in self.references if one.along == along and column in one.table]
-        if numpy.nanmax(values) == numpy.nanmin(values) and not same:
+        beside = [(one.name, one.curve(name, along, column)) for one in self.others]
+        beside = [(label, curve) for label, curve in beside if curve is not None]
+        both = numpy.concatenate([values, *(curve for _, curve in beside)])
+        if numpy.nanmax(both) == numpy.nanmin(both) and not same:
             return None  # nothing to see; the last value is in run.json
+        if beside:
+            self._compareLast(name, table, along, column, dict(beside))
         for one in same:
             used.add(one)
             self._compare(name, groups, along, column, one)
         meaning = table.attrs["meanings"].get(column, "")
         label = html.escape(column)
-        return (f'<figure>{self._svg(groups, along, column, table.attrs["units"].get(column, ""), same)}'
+        return (f'<figure>{self._svg(groups, along, column, table.attrs["units"].get(column, ""), same, beside)}'
                 f'<figcaption><b>{label}</b>: {html.escape(meaning)}</figcaption></figure>')
 
     def _compare(self, name, groups, along, column, reference):
@@ -375,6 +445,22 @@ class _Curves:
                                   f"{numpy.sqrt((difference**2).mean()):.3g}", f"{numpy.abs(difference).max():.3g}",
                                   f"{100 * numpy.abs(difference).max() / scale:.2g} %" if scale > 0 else "", f"{difference[-1]:+.3g}"))
 
+    def _compareLast(self, name, table, along, column, beside):
+        """Values of all cases where the shortest of the runs ends."""
+        curves = {self.name: table.groupby(along)[column].median(), **beside}
+        curves = {label: curve.dropna() for label, curve in curves.items()}
+        end = min(curve.index.max() for curve in curves.values())
+        at = {label: f"{numpy.interp(end, curve.index, curve):.6g}" for label, curve in curves.items()}
+        self.last.append((html.escape(f"{name}: {column}"), f"{end:.6g}", *(at.get(label, "") for label in (self.name, *(one.name for one in self.others)))))
+
+    def values(self):
+        """A table of the last values of all cases."""
+        if not self.last:
+            return ""
+        head = ("curve", "at", *(html.escape(name) for name in (self.name, *(one.name for one in self.others))))
+        return ("<h2>Last values</h2><details><summary>At the last strain, time or stage that all of these cases have reached; medians where there are "
+                f"several cells</summary>{_table(self.last, head)}</details>")
+
     def comparison(self):
         if not self.compared:
             return ""
@@ -389,24 +475,26 @@ class _Curves:
                           f'<div class="plots">{"".join(figures)}</div></details>' for k, (_, _, name, title, figures) in enumerate(self.parts))
         return "<h2>Curves</h2>" + several
 
-    @staticmethod
-    def _svg(groups, along, column, unit, references):
+    def _svg(self, groups, along, column, unit, references, beside):
         import matplotlib
         matplotlib.use("Agg")
         from matplotlib.figure import Figure
         with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "report", "font.size": 9, "axes.grid": True, "grid.color": "#dddddd"}):
             figure = Figure(figsize=(4.2, 2.7), layout="constrained")
             axes = figure.add_subplot()
-            if len(groups) <= MOST_CURVES:
+            own = self.name if beside else "run" if references else None
+            if len(groups) <= (1 if beside else MOST_CURVES):
                 for cell, rows in groups:
-                    thin = rows.iloc[::max(1, -(-len(rows) // MOST_SAMPLES))]
-                    axes.plot(thin[along], thin[column], lw=1.2, label=f"cell {cell}" if len(groups) > 1 else "run" if references else None)
+                    thin = _thinned(rows)
+                    axes.plot(thin[along], thin[column], lw=1.2, label=f"cell {cell}" if len(groups) > 1 else own)
             else:
-                all_ = pandas.concat([rows.set_index(along)[column] for _, rows in groups], axis=1)
-                all_ = all_.iloc[::max(1, -(-len(all_) // MOST_SAMPLES))]
+                all_ = _thinned(pandas.concat([rows.set_index(along)[column] for _, rows in groups], axis=1))
                 low, middle, high = (all_.quantile(share, axis=1) for share in (0.1, 0.5, 0.9))
                 axes.fill_between(middle.index, low, high, alpha=0.25, lw=0, label="80 % of the cells")
-                axes.plot(middle.index, middle, lw=1.2, label="median")
+                axes.plot(middle.index, middle, lw=1.2, label=own if beside else "median")
+            for label, curve in beside:
+                thin = _thinned(curve)
+                axes.plot(thin.index, thin, lw=1.2, ls="--", label=label)
             for one in references:
                 axes.plot(one.table[along], one.table[column], "o", ms=3, mfc="none", label=one.path.stem)
             if references:  # as far as the run has come
@@ -414,7 +502,7 @@ class _Curves:
                 axes.set_xlim(first - 0.02 * (last - first), last + 0.02 * (last - first))
             axes.set_xlabel("time [s]" if along == "time_s" else along)
             axes.set_ylabel(column if not unit else f"{column} [{unit}]")
-            if axes.get_legend_handles_labels()[1] and len(groups) + len(references) <= 8 or len(groups) > MOST_CURVES:
+            if axes.get_legend_handles_labels()[1] and len(axes.lines) <= 8:
                 axes.legend(fontsize=7)
             text = io.StringIO()
             figure.savefig(text, format="svg", metadata={"Date": None})

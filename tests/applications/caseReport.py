@@ -10,6 +10,8 @@ import json
 import math
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -142,6 +144,7 @@ def oneCell(folder):
     assert page.text["Curves"].index("deformation/rbc:") < page.text["Curves"].index("balance/budget:")
     only = Page(pathlib.Path(json.loads(run(case, "-table", "deformation/rbc", "-pictures", 0, "-field", "none", "-output", folder / "few.html", "-json"))["output"]))
     assert "balance/budget:" not in only.text["Curves"] and not any(tag == "img" for tag, _ in only.elements) and meshes(only)[0]["field"] is None
+    beside(case, folder)
     # Text of the case is text of the page.
     (case / "log.dmpFlow").open("a").write("warning: <b>odd</b> & 1 of 3\nwarning: <b>odd</b> & 2 of 3\n")
     run(case, "-pictures", 0)
@@ -163,6 +166,38 @@ def oneCell(folder):
     refused(case, 2, "run the case first")
     refused(folder, 4, "is not a case")
     refused(folder / "nowhere", 4, "there is no such directory")
+
+
+def beside(case, folder):
+    """Another case is a copy with one setting, one column and the end of a table changed by known amounts."""
+    other = folder / "other" / case.name
+    shutil.copytree(case, other)
+    table = other / "postProcessing/deformation/rbc.csv"
+    lines = table.read_text().splitlines()
+    first = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+    head, rows = lines[first].split(","), [line.split(",") for line in lines[first + 1:]]
+    column = head.index("D12_inertia")
+    for row in rows:
+        row[column] = repr(float(row[column]) + 0.25)
+    table.write_text("\n".join([*lines[:first + 1], *(",".join(row) for row in rows[:-1])]) + "\n")  # ends one row earlier
+    used = (other / "used.yaml").read_text()
+    changed = re.sub(r"(endStrain: )\S+", r"\g<1>0.375", used)
+    assert changed != used
+    (other / "used.yaml").write_text(changed)
+    page = Page(pathlib.Path(json.loads(run(case, "-with", other, "-pictures", 0, "-output", folder / "beside.html", "-json"))["output"]))
+    names = [f"{case.parent.name}/{case.name}", f"other/{case.name}"]
+    assert page.text["Settings that differ"].split() == ["setting", *names, "system/control.yaml:/endStrain", "0.4", "0.375"], page.text["Settings that differ"]
+    values = page.text["Last values"].split("\n")
+    at = values.index("deformation/rbc: D12_inertia")
+    end, mine = float(rows[-2][head.index("strain")]), float(rows[-2][column]) - 0.25
+    assert abs(float(values[at + 1]) - end) < 1e-6 and abs(float(values[at + 2]) - mine) < 1e-5 and abs(float(values[at + 3]) - mine - 0.25) < 1e-5, (values[at:at + 4], end, mine)
+    same = values.index("deformation/rbc: length_m")
+    assert values[same + 2] == values[same + 3], values[same:same + 4]
+    assert all(page.text["Curves"].count(name) >= 5 for name in names), "each curve has its name"
+    refused(case, 2, "compared with itself", "-with", case)
+    refused(case, 4, "is -with right?", "-with", folder / "nowhere")
+    (other / "run.json").unlink()
+    refused(case, 2, "run the case first", "-with", other)
 
 
 def manyCells(folder):
