@@ -361,6 +361,8 @@ def draw(plot, path):
         blocks.append(f"$d{k} << E\n" + "\n".join(f"{x:.8g} {y:.8g}" for x, y in zip(xs, ys)) + "\nE")
         number = (k if k < len(plot.theirs) else k - len(plot.theirs)) + 1
         colour = "rgb '#aaaaaa'" if k < len(plot.theirs) != len(plot.ours) else number  # several references to a curve: all in grey
+        if colour != number and title:  # told apart by dashes
+            style += f" dt {1 + sum(bool(before) for before, _, _ in plot.theirs[:k])}"
         parts.append(f"$d{k} with {style} lc {colour} " + (f"title '{title}'" if title else "notitle"))
     script = "\n".join(["set terminal pngcairo size 900,600 font ',11'", f"set output '{path}'", "set grid lc rgb '#dddddd'",
                         "set linetype 5 lc rgb '#8b4513'", f"set xlabel '{plot.xlabel}'", f"set ylabel '{plot.ylabel}'", *plot.extra, *blocks,
