@@ -10,7 +10,7 @@ namespace corpuscle::observers {
 namespace {
 
 // Extents of the cross-section with the plane through `centre`, along and across the direction `axis` of the shear
-// plane.
+// plane; NaN where the plane cuts no triangle, as between two pieces of a cell.
 Eigen::Vector2d sectionExtents(const geometry::TriangleMesh& mesh, const ShearPlane& plane, const Vec3& centre,
                                const Eigen::Vector2d& axis) {
     const Eigen::Vector2d across(-axis[1], axis[0]);
@@ -24,6 +24,7 @@ Eigen::Vector2d sectionExtents(const geometry::TriangleMesh& mesh, const ShearPl
             const Eigen::Array2d at(p.dot(axis), p.dot(across));
             low = low.min(at), high = high.max(at);
         }
+    if (!(low <= high).all()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
     return high - low;
 }
 

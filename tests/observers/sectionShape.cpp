@@ -93,6 +93,22 @@ TEST(SectionShape, LeaningEllipsoidIsCutNotProjected) {
 
 TEST(SectionShape, NothingLeftIsNotANumber) { EXPECT_TRUE(std::isnan(sectionShape({}, {}).D12_extent)); }
 
+// The plane through the centroid of two pieces on either side of it cuts neither of them.
+TEST(SectionShape, SectionBetweenTwoPiecesIsNotANumber) {
+    geometry::TriangleMesh mesh = ellipsoid({1, 1, 1}), other = mesh;
+    mesh.translate({0, -2 * um, 0}), other.translate({0, 2 * um, 0});
+    const int n = static_cast<int>(mesh.nodes.size());
+    mesh.nodes.insert(mesh.nodes.end(), other.nodes.begin(), other.nodes.end());
+    for (Index3 t : other.triangles) {
+        for (auto& node : t) node += n;
+        mesh.triangles.push_back(t);
+    }
+    const SectionShape s = sectionShape(mesh, {});
+    for (const double extent : {s.length, s.height, s.D12_extent}) EXPECT_TRUE(std::isnan(extent)) << extent;
+    EXPECT_NEAR(s.width, 6 * um, 0.02 * um);
+    EXPECT_LT(s.centroid.norm(), 1e-3 * um);
+}
+
 TEST(MaterialRotation, FollowsTheFlowInBothPlanesEvenForASphere) {
     const geometry::TriangleMesh sphere = ellipsoid({1, 1, 1});
     for (const int g : {1, 2}) {
