@@ -40,8 +40,8 @@ struct SectionShape {
     double length, height, width;  // m
     Vec3 centroid;                 // m
 };
-// NaN throughout for a mesh without triangles; length, height and D12_extent are NaN where the plane through the centroid
-// cuts none, as between two pieces of a broken cell.
+// NaN throughout for a mesh without triangles; length, height and D12_extent are NaN where the plane through the
+// centroid cuts none, as between two pieces of a broken cell.
 SectionShape sectionShape(const geometry::TriangleMesh& mesh, const ShearPlane& plane);
 
 // Best-fit rotation of points about the vorticity axis from `rest` to `now`, each about its mean point, in the sense of
