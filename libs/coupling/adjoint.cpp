@@ -23,7 +23,7 @@ std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long nu
         if (broken.empty()) continue;
         const bool counts = scene.budget.kept && cell.isOwnedBy(scene.system->decomposition().rank());
         const double before = counts ? cell.membrane.energy() : 0;
-        cell.membrane.breakBonds(broken);
+        broken = cell.membrane.breakBonds(std::move(broken));
         if (counts) scene.budget.total[sph::Budget::released] += before - cell.membrane.energy();
         events.push_back({cell.membrane.cell, std::move(broken)});
     }

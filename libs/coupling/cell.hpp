@@ -53,6 +53,13 @@ struct Cell {
     std::vector<int> holders{0};  // ranks that hold it, ascending; the first is its owner
     geometry::Bounds reach{};     // bounds of its nodes when its holders were last determined
 
+    // Node positions at the beginning of a step, `seconds` before the present positions x* (Immersed::depart).
+    std::vector<Vec3> departure(double seconds) const {
+        std::vector<Vec3> x = membrane.position;
+        for (std::size_t n = 0; n < x.size(); ++n) x[n] = arc.toChord(x[n]) - seconds * membrane.velocity[n];
+        return x;
+    }
+
     int nodeCount() const { return static_cast<int>(membrane.position.size()); }
     // Whether `rank` is the owner, which counts the cell in sums over all cells.
     bool isOwnedBy(int rank) const { return holders.front() == rank; }

@@ -90,6 +90,10 @@ double Cells::meanBondLength() const {
     return largest;
 }
 
+bool Cells::canRupture() const {
+    return std::any_of(types_.begin(), types_.end(), [](const CellType& type) { return bool(type.settings.rupture); });
+}
+
 std::size_t Cells::indexOf(int number) const {
     const auto at = std::lower_bound(held_.begin(), held_.end(), number,
                                      [](const Cell& cell, int n) { return cell.membrane.cell < n; });

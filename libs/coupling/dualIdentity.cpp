@@ -98,7 +98,7 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
             return static_cast<std::size_t>(n.cell) == c && n.node == 0;
         });
         const double before = budget && owner ? membrane.energy() : 0;
-        membrane.breakBonds(broken);
+        broken = membrane.breakBonds(std::move(broken));
         if (budget && owner) budget->total[sph::Budget::released] += before - membrane.energy();
         events.push_back({membrane.cell, std::move(broken)});
     }

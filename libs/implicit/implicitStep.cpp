@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "core/communicator.hpp"
+#include "implicit/breakSearch.hpp"
 #include "implicit/disturbance.hpp"
 #include "implicit/movement.hpp"
 #include "implicit/preconditioner.hpp"
@@ -17,7 +17,6 @@ namespace corpuscle::implicit {
 
 using coupling::Immersed;
 using coupling::Scene;
-using Events = std::vector<coupling::RuptureEvent>;
 using particles::ParticleStore;
 using particles::vectorAt;
 
@@ -45,15 +44,17 @@ class Step final : public ImplicitStep {
           movement_(system_, options.shifting, noFlux_.get()),
           budget_(system_) {
         allowed_ = firstStep(options_.settings, scene.flow.rate);
+        canRupture_ = scene.cells.canRupture();
+        if (canRupture_) allowed_.breaks = state.breakLimit = startOfRupture / scene.flow.rate;
     }
 
     using ImplicitStep::advance;
-    Events advance(double dt, double planned) override {
+    Made advance(double dt, double planned) override {
         planned_ = std::max(dt, planned);
         movement_.moveVelocities(-ahead());
-        Events events = make(dt, isBackward(), 0);
+        Made made = make(dt, isBackward() || isAfterBreak(), 0);
         movement_.moveVelocities(ahead());
-        return events;
+        return made;
     }
     double largestDensityBalance() const override { return options_.largestBalance(); }
 
@@ -62,32 +63,63 @@ class Step final : public ImplicitStep {
 
     // Every step, not only halves.
     bool isBackward() const { return damped || options_.settings.method == "backwardEuler"; }
-    Events make(double dt, bool backward, int halvings) {
-        if (attempt(dt, halvings == 0 ? planned_ : dt, backward)) {
-            ++statistics.steps;
-            statistics.mostIterations = std::max(statistics.mostIterations, std::exchange(sinceStep_, 0));
-            return coupling::endStep(scene_, options_, ++state.steps, dt);
+    bool isAfterBreak() const { return state.steps > 0 && state.sinceBreak == 0; }
+
+    Made make(double dt, bool backward, int halvings) {
+        BreakSearch search(dt, scene_.flow.rate);
+        Outcome outcome = Outcome::otherLength;
+        for (long tries = 0; outcome == Outcome::otherLength; ++tries) {
+            if (tries > 0) ++statistics.breakTries;
+            outcome = attempt(search, halvings == 0 ? planned_ : dt, backward);
         }
+        if (outcome == Outcome::made) return end(search);
+        dt = search.length();
         if (halvings == mostHalvings)
             throw Failure(ExitCode::numerics,
                           fmt::format("step {}: {}, even in {} parts; take a smaller step in 'implicit' of "
                                       "system/numerics.yaml",
                                       state.steps + 1, fault_, 1 << halvings));
         ++statistics.halvings;
-        Events events = make(0.5 * dt, true, halvings + 1), later = make(0.5 * dt, true, halvings + 1);
-        std::move(later.begin(), later.end(), std::back_inserter(events));
-        return events;
+        const Made made = make(0.5 * dt, true, halvings + 1);
+        if (!made.broken.empty() || made.length < 0.5 * dt) return made;
+        Made later = make(0.5 * dt, true, halvings + 1);
+        later.length += made.length;
+        return later;
     }
 
-    // Tries one step. If it fails, returns false with everything where it was, and the reason in fault_.
-    bool attempt(double dt, double planned, bool backward) {
+    // Ends a step that has been made: balance, rupture, counts.
+    Made end(const BreakSearch& search) {
+        ++statistics.steps;
+        statistics.mostIterations = std::max(statistics.mostIterations, std::exchange(sinceStep_, 0));
+        const double dt = search.length();
+        Made made{dt, coupling::endStep(scene_, options_, ++state.steps, dt)};
+        ++state.sinceBreak, state.breakTime += dt;
+        if (!canRupture_) return made;
+        const bool some = Communicator(scene_.system->comm()).anyTrue(!made.broken.empty());
+        state.breakLimit = some ? 2 * std::max(state.breakTime, search.resolution()) : 2 * state.breakLimit;
+        if (state.breakLimit >= options_.settings.step / scene_.flow.rate) state.breakLimit = 0;
+        allowed_.breaks = state.breakLimit;
+        if (!some) return made;
+        ++statistics.breaks;
+        if (search.isCoarse()) ++statistics.coarseBreaks;
+        movement_.moveVelocities(ahead());
+        movement_.stopAccelerating();
+        state.behind = state.lastSpacing = state.breakTime = 0, state.sinceBreak = 0;
+        return made;
+    }
+
+    enum class Outcome { made, failed, otherLength };
+    // Tries one step. If it is not made, everything is where it was, and the reason is in fault_, or another length in
+    // `search`.
+    Outcome attempt(BreakSearch& search, double planned, bool backward) {
+        const double dt = search.length();
         const TimeDifference time = backward ? TimeDifference::backwardEuler(dt, state)
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
         movement_.depart(time);
         if (immersed_ && immersed_->freeDeparture() < 1) {
             fault_ = "membranes would meet on the way to where forces are taken";
             movement_.takeBack(time);
-            return false;
+            return Outcome::failed;
         }
         system_.prepare(time);
         system_.findGuess(velocity_);
@@ -96,7 +128,13 @@ class Step final : public ImplicitStep {
         preconditioner_->prepare();
         if (!solve()) {
             movement_.takeBack(time);
-            return false;
+            return Outcome::failed;
+        }
+        if (canRupture_ &&
+            !search.accepts(findBreaks(*immersed_, scene_.system->comm(), time.begin(),
+                                       system_.membranes()->velocities(), search.horizon(), search.resolution()))) {
+            movement_.takeBack(time);
+            return Outcome::otherLength;
         }
         const double bondRate =
             immersed_ ? largestOfRanks(largestBondRate(*immersed_, system_.membranes()->velocities())) : 0;
@@ -104,14 +142,15 @@ class Step final : public ImplicitStep {
                                 hasAcceleration() ? unevenness() * difference() : 0, bondRate);
         allowed_.contact = allowedByContact(time);
         finish();
-        return true;
+        return Outcome::made;
     }
 
-    // Whether the acceleration between two midpoints is known. After the first step this is so only if the flow starts
+    // Whether the acceleration between two midpoints is known. After the first step, and after the first since bonds
+    // broke, this is so only if the flow starts
     // fully developed. With cells or bodies, where walls or a body force start the flow, and where the viscosity jumps,
     // the acceleration of the first step is a single jump, because the initial velocity does not include the effect of
     // the forces.
-    bool hasAcceleration() const { return state.steps > (startsDeveloped() ? 0 : 1); }
+    bool hasAcceleration() const { return state.sinceBreak > (startsDeveloped() ? 0 : 1); }
     bool startsDeveloped() const {
         return !immersed_ && !system_.rigid() && !scene_.flow.settles && !scene_.store().optional().viscosity;
     }
@@ -243,6 +282,7 @@ class Step final : public ImplicitStep {
 
     Scene& scene_;
     Options options_;
+    bool canRupture_ = false;
     std::string fault_;
     System<Real> system_;
     std::unique_ptr<Preconditioner<Real>> preconditioner_;

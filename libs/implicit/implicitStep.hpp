@@ -37,6 +37,10 @@
 // norm, and at most `mostRefinements` times. Where the solver does not converge, a bond would change by more than the
 // case allows or membranes would meet, the step is undone and made in two halves by backward Euler.
 //
+// Rupture. Where a bond breaks within the step, the step is undone and made again with such a length that it ends there
+// (breakSearch.hpp). The velocity jumps at that time: the next step starts from the velocity at the end of this one,
+// is made by backward Euler, and knows no acceleration from before.
+//
 // State between steps: positions at t^n, and in the store the acceleration a and the velocity at t^n,
 // u + (t^n - t_middle) a, of second order like the rest of the scheme; the next step converts it back to u. After the
 // first step the store has u itself, unless the flow starts fully developed: without cells, bodies or jumps of
@@ -64,10 +68,15 @@ class ImplicitStep {
     static constexpr double linearisation = 0.01;
     static constexpr int mostRefinements = 3, mostHalvings = 5;
 
-    // Makes one step and returns what broke in it. Collective. Throws Failure(numerics) if repeated halving does not
-    // help. planned: length that the step would have without an event that shortens it (core/time.hpp) [s].
-    virtual std::vector<coupling::RuptureEvent> advance(double dt, double planned) = 0;
-    std::vector<coupling::RuptureEvent> advance(double dt) { return advance(dt, dt); }
+    struct Made {
+        double length = 0;                             // of the step [s]
+        std::vector<coupling::RuptureEvent> broken{};  // at its end
+    };
+    // Makes one step of dt, or a shorter one that ends where bonds break. Collective. Throws Failure(numerics) if
+    // repeated halving does not help. planned: length that the step would have without an event that shortens it
+    // (core/time.hpp) [s].
+    virtual Made advance(double dt, double planned) = 0;
+    Made advance(double dt) { return advance(dt, dt); }
 
     bool damped = false;  // every step by backward Euler, whatever the case says
 
@@ -82,7 +91,9 @@ class ImplicitStep {
     struct Statistics {
         long steps = 0, iterations = 0, mostIterations = 0;
         long refinements = 0, halvings = 0;
-        long innerIterations = 0;  // of the system on the nodes (membraneCorrection.hpp)
+        long breaks = 0, breakTries = 0;  // steps that ended with a break; solves beyond the first that these took
+        long coarseBreaks = 0;            // of them, those that could not be made to end closely enough
+        long innerIterations = 0;         // of the system on the nodes (membraneCorrection.hpp)
     };
     Statistics statistics;
     virtual double largestDensityBalance() const = 0;

@@ -1,5 +1,7 @@
 #include "implicit/movement.hpp"
 
+#include <algorithm>
+
 namespace corpuscle::implicit {
 
 using particles::ParticleStore;
@@ -11,6 +13,13 @@ void Movement<Real>::moveVelocities(double seconds) {
     for (std::size_t i = 0; i < s.size(); ++i)
         s.setVelocity(i, s.velocity(i) + seconds * Vec3(s.fx[i], s.fy[i], s.fz[i]));
     if (system_.rigid()) system_.rigid()->moveVelocities(seconds);
+}
+
+template <class Real>
+void Movement<Real>::stopAccelerating() {
+    ParticleStore& s = system_.scene().store();
+    for (auto* a : {&s.fx, &s.fy, &s.fz}) std::fill(a->begin(), a->end(), 0.0);
+    if (system_.rigid()) system_.rigid()->stopAccelerating();
 }
 
 template <class Real>

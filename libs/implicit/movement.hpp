@@ -26,6 +26,7 @@ class Movement {
 
     // Advances velocities by their accelerations, between the midpoint of a step and its end.
     void moveVelocities(double seconds);
+    void stopAccelerating();  // sets accelerations to zero
     // Moves to the positions where forces are evaluated, and builds the lists there. Collective.
     void depart(const TimeDifference& time);
     void takeBack(const TimeDifference& time);

@@ -40,6 +40,11 @@ void RigidUnknowns<Real>::moveVelocities(double seconds) {
 }
 
 template <class Real>
+void RigidUnknowns<Real>::stopAccelerating() {
+    for (Body& body : bodies()) body.acceleration = {};
+}
+
+template <class Real>
 void RigidUnknowns<Real>::depart(double seconds) {
     saved_.clear();
     for (Body& body : bodies()) {

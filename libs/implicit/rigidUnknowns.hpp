@@ -55,6 +55,7 @@ class RigidUnknowns final : public Term<Real> {
     std::size_t length() const { return perBody * bodies().size(); }  // numbers behind the particles
 
     void moveVelocities(double seconds);  // advances those of bodies by their accelerations
+    void stopAccelerating();              // sets the accelerations of bodies to zero
     // Moves bodies and their particles to `seconds` after the beginning of the step; back to the beginning.
     void depart(double seconds);
     void takeBack();

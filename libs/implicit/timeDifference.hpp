@@ -18,6 +18,9 @@ struct StepState {
     double lastSpacing = 0;  // h of the last step [s]; 0: no step before
     double reference = 0;    // energy of the disturbance of the flow (disturbance.hpp) [W]
     long steps = 0;
+    long sinceBreak = 0;    // steps since the start, or since bonds broke last
+    double breakTime = 0;   // time since then [s]
+    double breakLimit = 0;  // limit of the next step after a break (stepControl.hpp) [s]; 0: none
 };
 
 struct TimeDifference {

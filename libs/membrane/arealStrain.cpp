@@ -15,6 +15,12 @@ std::vector<BrokenBond> ArealStrain::select(const RuptureStep& now) const {
     return mostStretchedBonds(now.network, beyond, now.x);
 }
 
+std::vector<double> ArealStrain::excesses(const RuptureStep& now) const {
+    std::vector<double> all;
+    for (const int t : now.network.wholeTriangles()) all.push_back(arealStrain(now.network, t, now.x) / limit - 1);
+    return all;
+}
+
 const Schema<ArealStrain>& ArealStrain::schema() {
     static const Schema<ArealStrain> s =
         Schema<ArealStrain>("areal strain", "the sheet breaks where a triangle's area grows past a limit")

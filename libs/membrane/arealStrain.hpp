@@ -13,6 +13,7 @@ struct ArealStrain : RuptureLaw {
     double limit = 0;
 
     std::vector<BrokenBond> select(const RuptureStep& now) const override;
+    std::vector<double> excesses(const RuptureStep& now) const override;
     static const Schema<ArealStrain>& schema();
 };
 

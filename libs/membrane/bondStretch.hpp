@@ -15,14 +15,24 @@ struct BondStretch : RuptureLaw {
     std::vector<BrokenBond> select(const RuptureStep& now) const override {
         std::vector<BrokenBond> broken;
         for (const Bond& bond : now.network.bonds()) {
-            const Vec3 &a = now.x[bond.node[0]], &b = now.x[bond.node[1]];
-            if (const double stretch = (b - a).norm() / bond.rest; stretch > limit) {
-                broken.push_back({bond.number, stretch, 0.5 * (a + b)});
+            if (const double l = stretch(bond, now.x); l > limit) {
+                broken.push_back({bond.number, l, 0.5 * (now.x[bond.node[0]] + now.x[bond.node[1]])});
             }
         }
         return broken;
     }
+    std::vector<double> excesses(const RuptureStep& now) const override {
+        std::vector<double> all;
+        all.reserve(now.network.bonds().size());
+        for (const Bond& bond : now.network.bonds()) all.push_back(stretch(bond, now.x) / limit - 1);
+        return all;
+    }
     static const Schema<BondStretch>& schema();
+
+  private:
+    static double stretch(const Bond& bond, std::span<const Vec3> x) {
+        return (x[bond.node[1]] - x[bond.node[0]]).norm() / bond.rest;
+    }
 };
 
 }  // namespace corpuscle::membrane

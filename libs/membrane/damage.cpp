@@ -12,16 +12,25 @@ double Damage::rate(double strain) const {
     return strain > onset ? std::pow((strain - onset) / scale, exponent) / time : 0;
 }
 
+double Damage::after(const RuptureStep& now, int triangle) const {
+    return now.damage[triangle] + now.dt * rate(arealStrain(now.network, triangle, now.x));
+}
+
+void Damage::gather(const RuptureStep& now, std::span<double> damage) const {
+    for (const int t : now.network.wholeTriangles()) damage[t] = std::min(after(now, t), 1.0);
+}
+
 std::vector<BrokenBond> Damage::select(const RuptureStep& now) const {
     std::vector<int> beyond;
-    for (const int t : now.network.wholeTriangles()) {
-        double& damage = now.damage[t];
-        damage = std::min(damage + now.dt * rate(arealStrain(now.network, t, now.x)), 1.0);
-        if (damage >= 1) {
-            beyond.push_back(t);
-        }
-    }
+    for (const int t : now.network.wholeTriangles())
+        if (now.damage[t] >= 1) beyond.push_back(t);
     return mostStretchedBonds(now.network, beyond, now.x);
+}
+
+std::vector<double> Damage::excesses(const RuptureStep& now) const {
+    std::vector<double> all;
+    for (const int t : now.network.wholeTriangles()) all.push_back(after(now, t) - 1);
+    return all;
 }
 
 const Schema<Damage>& Damage::schema() {

@@ -30,8 +30,13 @@ struct Damage : RuptureLaw {
 
     double rate(double strain) const;  // dD/dt, 1/s
     bool keepsDamage() const override { return true; }
+    void gather(const RuptureStep& now, std::span<double> damage) const override;
     std::vector<BrokenBond> select(const RuptureStep& now) const override;
+    std::vector<double> excesses(const RuptureStep& now) const override;
     static const Schema<Damage>& schema();
+
+  private:
+    double after(const RuptureStep& now, int triangle) const;  // D after now.dt, without the bound 1
 };
 
 }  // namespace corpuscle::membrane

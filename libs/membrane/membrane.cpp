@@ -1,6 +1,7 @@
 #include "membrane/membrane.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/error.hpp"
 #include "membrane/diagnostics.hpp"
@@ -112,16 +113,32 @@ double Membrane::maxStiffness() const {
 }
 
 std::vector<BrokenBond> Membrane::findBroken(double dt) {
-    return canRupture() ? laws().rupture->select({network(), laws(), position, dt, damage_})
-                        : std::vector<BrokenBond>{};
+    if (!canRupture()) return {};
+    const RuptureStep now{network(), laws(), position, dt, damage_};
+    if (laws().rupture->keepsDamage()) laws().rupture->gather(now, damage_);
+    return laws().rupture->select(now);
 }
 
-void Membrane::breakBonds(const std::vector<BrokenBond>& broken) {
-    if (broken.empty()) return;
-    std::vector<int> numbers;
-    numbers.reserve(broken.size());
-    for (const BrokenBond& bond : broken) numbers.push_back(bond.bond);
-    ownNetwork().breakBonds(numbers);
+std::vector<BrokenBond> Membrane::breakBonds(std::vector<BrokenBond> broken) {
+    std::vector<BrokenBond> all;
+    while (!broken.empty()) {
+        std::vector<int> numbers;
+        numbers.reserve(broken.size());
+        for (const BrokenBond& bond : broken) numbers.push_back(bond.bond);
+        ownNetwork().breakBonds(numbers);
+        all.insert(all.end(), broken.begin(), broken.end());
+        broken = findBroken(0);
+    }
+    return all;
+}
+
+double Membrane::ruptureExcess(std::span<const Vec3> x, double dt, std::size_t rank) const {
+    if (!canRupture()) return -1;
+    std::vector<double> all = laws().rupture->excesses({network(), laws(), x, dt, damage_});
+    if (rank >= all.size()) return -1;
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(all.begin(), at, all.end(), std::greater<>());
+    return *at;
 }
 
 void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {

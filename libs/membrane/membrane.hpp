@@ -72,7 +72,12 @@ class Membrane {
     // Bonds that break at the present positions by the rupture law, dt [s] after its last evaluation. breakBonds breaks
     // them.
     std::vector<BrokenBond> findBroken(double dt);
-    void breakBonds(const std::vector<BrokenBond>& broken);
+    // Breaks these bonds, then those that by their loss break at the same positions, until nothing more breaks; returns
+    // all of them.
+    std::vector<BrokenBond> breakBonds(std::vector<BrokenBond> broken);
+    // Excess of the rupture law (ruptureLaw.hpp) with nodes at x, dt [s] after its last evaluation: the greatest of any
+    // element after `rank` greater ones; -1 where there is none.
+    double ruptureExcess(std::span<const Vec3> x, double dt, std::size_t rank = 0) const;
     // Damage of each triangle, 0 to 1; a broken triangle keeps the damage it had as it broke. Empty unless the rupture
     // law keeps damage.
     const std::vector<double>& damage() const { return damage_; }

@@ -15,6 +15,13 @@ std::vector<BrokenBond> PrincipalTension::select(const RuptureStep& now) const {
     return mostStretchedBonds(now.network, beyond, now.x);
 }
 
+std::vector<double> PrincipalTension::excesses(const RuptureStep& now) const {
+    std::vector<double> all;
+    for (const int t : now.network.wholeTriangles())
+        all.push_back(principalTensions(now.network, now.laws, t, now.x).first / limit - 1);
+    return all;
+}
+
 const Schema<PrincipalTension>& PrincipalTension::schema() {
     static const Schema<PrincipalTension> s =
         Schema<PrincipalTension>("principal tension",

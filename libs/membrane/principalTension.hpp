@@ -16,6 +16,7 @@ struct PrincipalTension : RuptureLaw {
     double limit = 0;  // N/m
 
     std::vector<BrokenBond> select(const RuptureStep& now) const override;
+    std::vector<double> excesses(const RuptureStep& now) const override;
     static const Schema<PrincipalTension>& schema();
 };
 

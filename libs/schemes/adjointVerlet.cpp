@@ -16,9 +16,10 @@ class AdjointVerletStepper final : public ExplicitStepper {
         : ExplicitStepper(scene, numerics, stepsPerEstimate),
           step_(coupling::AdjointVerlet::make(scene, adjointOptions(numerics, scene))) {}
 
-    void advance(double dt, double /*planned*/) override {
+    double advance(double dt, double /*planned*/) override {
         scene_.broken = step_->advance(dt);
         if (step_->noFlux()) scene_.movedBack = step_->noFlux()->crossings();
+        return dt;
     }
     double largestDensityBalance() const override { return step_->largestDensityBalance(); }
     long mostFallbacks() const override { return step_->immersed() ? step_->immersed()->mostFallbacks() : 0; }

@@ -26,18 +26,24 @@ class ImplicitStepper final : public Stepper {
     void start() override {}
     std::vector<double> state() const override {
         const implicit::ImplicitStep::State& s = step_->state;
-        return {s.behind, s.lastSpacing, s.reference, static_cast<double>(s.steps)};
+        return {
+            s.behind,    s.lastSpacing, s.reference, static_cast<double>(s.steps), static_cast<double>(s.sinceBreak),
+            s.breakTime, s.breakLimit};
     }
-    std::size_t stateSize() const override { return 4; }
+    std::size_t stateSize() const override { return 7; }
     void resume(const std::vector<double>& state) override {
-        step_->resume({state.at(0), state.at(1), state.at(2), std::lround(state.at(3))}, scene_.movedBack);
+        step_->resume({state.at(0), state.at(1), state.at(2), std::lround(state.at(3)), std::lround(state.at(4)),
+                       state.at(5), state.at(6)},
+                      scene_.movedBack);
     }
     // The limit follows from the case, whose shear rate may have been changed for the restart.
     double resumedStep(double kept, double allowed) const override { return std::min(kept, allowed); }
 
-    void advance(double dt, double planned) override {
-        scene_.broken = step_->advance(dt, planned);
+    double advance(double dt, double planned) override {
+        implicit::ImplicitStep::Made made = step_->advance(dt, planned);
+        scene_.broken = std::move(made.broken);
         if (step_->noFlux()) scene_.movedBack = step_->noFlux()->crossings();
+        return made.length;
     }
     void damp(bool damped) override { step_->damped = damped; }
     long tries() const override { return step_->statistics.steps + step_->statistics.halvings; }
@@ -61,6 +67,11 @@ class ImplicitStepper final : public Stepper {
             limits.add("contact", contact,
                        "membranes come near each other or a wall faster than the law of constant/contact.yaml holds "
                        "them off: take a larger reach, or more strength");
+        if (const double breaks = step_->allowed().breaks; breaks > 0)
+            limits.add(
+                "breaks", breaks,
+                "bonds break in quick succession: the limit of 'rupture' in constant/membranes.yaml is far below "
+                "what the flow does to the membrane");
         return limits;
     }
 
@@ -83,6 +94,12 @@ class ImplicitStepper final : public Stepper {
             "implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes; refined {} times, "
             "halved {} times",
             perStep, statistics.mostIterations, inner, statistics.refinements, statistics.halvings);
+        if (statistics.breaks == 0) return;
+        record.set("performance", "stepsThatBreak", statistics.breaks);
+        record.set("performance", "triesForBreaks", statistics.breakTries);
+        record.set("performance", "coarseBreaks", statistics.coarseBreaks);
+        log.info("rupture: {} steps ended where bonds broke, found in {} further tries; {} could not be found closely",
+                 statistics.breaks, statistics.breakTries, statistics.coarseBreaks);
     }
 
   private:

@@ -19,7 +19,10 @@ class Rkl2Stepper final : public ExplicitStepper {
           flow_(facts.flow),
           step_(*scene.system, *scene.forces, scene.shifting.get(), budget()) {}
 
-    void advance(double dt, double /*planned*/) override { step_.advance(dt); }
+    double advance(double dt, double /*planned*/) override {
+        step_.advance(dt);
+        return dt;
+    }
     // Its limits depend on the time.
     bool limitsChange(long step) override {
         ExplicitStepper::limitsChange(step);

@@ -21,10 +21,10 @@ class Stepper {
     // The step with which a restart continues. kept: that of the checkpoint; allowed: by the present limits [s].
     virtual double resumedStep(double kept, double /*allowed*/) const { return kept; }
 
-    // Makes one step of dt; planned: its length without an event that has shortened it [s]. What broke and how many
-    // particles were moved back is then in the scene. Throws Failure(numerics), on all ranks, if the step cannot be
-    // made.
-    virtual void advance(double dt, double planned) = 0;
+    // Makes one step of dt, or a shorter one that ends where a bond breaks, and returns its length; planned: its length
+    // without an event that has shortened it [s]. What broke and how many particles were moved back is then in the
+    // scene. Throws Failure(numerics), on all ranks, if the step cannot be made.
+    virtual double advance(double dt, double planned) = 0;
     // Sets whether the next steps are made by backward Euler, if the scheme has it.
     virtual void damp(bool /*damped*/) {}
     // Steps and parts of steps that this stepper has made or tried so far; 0: it does not count them.

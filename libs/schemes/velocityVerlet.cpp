@@ -30,11 +30,12 @@ class VelocityVerletStepper final : public ExplicitStepper {
             std::make_unique<sph::VelocityVerlet>(*scene.system, *scene.forces, scene.shifting.get(), loads, budget());
     }
 
-    void advance(double dt, double /*planned*/) override {
+    double advance(double dt, double /*planned*/) override {
         step_->advance(dt);
-        if (!scene_.coupling) return;
+        if (!scene_.coupling) return dt;
         scene_.broken = scene_.coupling->endStep(*scene_.system, dt, budget());
         scene_.movedBack = scene_.coupling->guard().moves();
+        return dt;
     }
     double largestDensityBalance() const override {
         return scene_.coupling ? scene_.coupling->densityBalance().largest() : 0;

@@ -55,8 +55,9 @@ void Integrator::shorten(double longest, bool damped) {
 void Integrator::advance(Time& time, const std::vector<Event>& events) {
     const double dt = time.shorten(events);
     tried_ = time.dt, shortened_ = dt < time.dt;
-    stepper_->advance(dt, time.dt);
-    time.advance(dt);
+    const double made = stepper_->advance(dt, time.dt);
+    if (made < dt) time.aim.reset(), shortened_ = true;
+    time.advance(made);
     if (stepper_->limitsChange(time.step)) updateLimits(time);
 }
 

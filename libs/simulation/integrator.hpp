@@ -36,7 +36,8 @@ class Integrator {
     // cannot be made. Collective.
     void advance(Time& time, const std::vector<Event>& events = {});
     double tried() const { return tried_; }  // length of the last attempted step, before shortening for an event [s]
-    bool wasShortened() const { return shortened_; }  // whether an event shortened the last step
+    // Whether an event or a bond that broke shortened the last step.
+    bool wasShortened() const { return shortened_; }
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "cases.hpp"
 #include "core/error.hpp"
@@ -156,6 +158,47 @@ TEST(Rupture, WithoutACriterionNothingBreaks) {
     }
     EXPECT_FALSE(membrane.canRupture());
     EXPECT_TRUE(breakNow(membrane).empty());
+}
+
+// For each registered law, on a sheet that is stretched more and more and torn along the way: the excess is positive
+// exactly where something breaks, and grows with the measure in proportion to its limit.
+TEST(Rupture, ExcessIsPositiveWhereSomethingBreaks) {
+    const std::string sheet = "{triangles: {type: neoHookean, Gs: 1 N/m}, bonds: {type: harmonic, k: 1 N/m}, rupture: ";
+    const std::map<std::string, std::string> laws{{"bondStretch", "{type: bondStretch, limit: 1.05}"},
+                                                  {"arealStrain", "{type: arealStrain, limit: 0.09}"},
+                                                  {"tension", "{type: tension, limit: 0.25 N/m}"},
+                                                  {"damage", "{type: damage, onset: 0.02, scale: 0.05, time: 4 s}"}};
+    for (const auto& entry : Registry<RuptureLaw>::instance().names()) ASSERT_TRUE(laws.contains(entry)) << entry;
+    for (const auto& [name, law] : laws) {
+        Problems problems;
+        const auto settings = read<MembraneSettings>(parseValue(sheet + law + "}", "test", problems), problems);
+        problems.throwIfAny();
+        const Mesh mesh = testing::irregular(2);
+        Membrane membrane = membraneOf(mesh, settings);
+        std::vector<Vec3> x = mesh.nodes;
+        int whole = 0, torn = 0;
+        EXPECT_LE(membrane.ruptureExcess(x, 0), 0) << name;
+        for (int step = 1; step <= 60; ++step) {
+            testing::jitter(x, 0.0005, 20 + step);
+            for (Vec3& p : x) p *= 1.0015;
+            membrane.position = x;
+            const double excess = membrane.ruptureExcess(x, 0.1);
+            const auto broken = membrane.findBroken(0.1);
+            EXPECT_EQ(excess > 0, !broken.empty()) << name << " " << step << " " << excess;
+            ++(broken.empty() ? whole : torn);
+            membrane.breakBonds(broken);
+            EXPECT_LE(membrane.ruptureExcess(x, 0), 0) << name << ": nothing more breaks at once";
+        }
+        EXPECT_GT(whole, 5) << name;
+        EXPECT_GT(torn, 5) << name;
+    }
+    // Bonds of one stretch: its distance from the limit is known.
+    Membrane ball = membraneOf(testing::icosphere(1), allLaws());
+    for (const double factor : {0.9, 1.0, 1.04, 1.2}) {
+        std::vector<Vec3> x = ball.position;
+        for (Vec3& p : x) p *= factor;
+        EXPECT_NEAR(ball.ruptureExcess(x, 0), factor / 1.05 - 1, 1e-12);
+    }
 }
 
 TEST(Holes, RimsAndAreasOnAFlatPatch) {

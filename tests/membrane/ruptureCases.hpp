@@ -32,9 +32,7 @@ inline Membrane membraneOf(const Mesh& mesh, const MembraneSettings& settings) {
 }
 
 inline std::vector<BrokenBond> breakNow(Membrane&& membrane, double dt = 0) {
-    std::vector<BrokenBond> broken = membrane.findBroken(dt);
-    membrane.breakBonds(broken);
-    return broken;
+    return membrane.breakBonds(membrane.findBroken(dt));
 }
 inline std::vector<BrokenBond> breakNow(Membrane& membrane, double dt = 0) { return breakNow(std::move(membrane), dt); }
 

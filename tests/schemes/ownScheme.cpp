@@ -14,9 +14,10 @@ class DriftStepper final : public Stepper {
     std::vector<double> state() const override { return {drifted_}; }
     std::size_t stateSize() const override { return 1; }
     void resume(const std::vector<double>& state) override { drifted_ = state.at(0); }
-    void advance(double dt, double /*planned*/) override {
+    double advance(double dt, double /*planned*/) override {
         drifted_ += dt;
         scene_.spacing += dt;
+        return dt;
     }
     bool limitsChange(long /*step*/) override { return false; }
     sph::StepLimits limits(double /*t*/) override {

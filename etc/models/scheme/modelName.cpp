@@ -15,7 +15,7 @@ class ModelNameStepper final : public ExplicitStepper {
     ModelNameStepper(const NumericsSettings& numerics, coupling::Scene& scene)
         : ExplicitStepper(scene, numerics, stepsPerEstimate) {}
 
-    void advance(double dt, double /*planned*/) override {
+    double advance(double dt, double /*planned*/) override {
         particles::ParticleSystem& system = *scene_.system;
         if (system.mustRebuild()) {
             system.rebuild();
@@ -28,6 +28,7 @@ class ModelNameStepper final : public ExplicitStepper {
             s.density[i] += dt * s.densityRate[i];
             s.setPosition(i, s.position(i) + dt * s.velocity(i));
         }
+        return dt;
     }
 
   private:
