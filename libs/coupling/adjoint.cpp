@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "coupling/rupture.hpp"
+
 namespace corpuscle::coupling {
 
 void findPressures(const Scene& scene, particles::RealArray& pressure) {
@@ -19,13 +21,9 @@ std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long nu
     std::vector<RuptureEvent> events;
     for (Cell& cell : scene.cells) {
         if (!cell.membrane.canRupture()) continue;
-        std::vector<membrane::BrokenBond> broken = cell.membrane.findBroken(dt);
-        if (broken.empty()) continue;
         const bool counts = scene.budget.kept && cell.isOwnedBy(scene.system->decomposition().rank());
-        const double before = counts ? cell.membrane.energy() : 0;
-        broken = cell.membrane.breakBonds(std::move(broken));
-        if (counts) scene.budget.total[sph::Budget::released] += before - cell.membrane.energy();
-        events.push_back({cell.membrane.cell, std::move(broken)});
+        RuptureEvent event = rupture(cell.membrane, dt, counts ? &scene.budget : nullptr);
+        if (!event.bonds.empty()) events.push_back(std::move(event));
     }
     return events;
 }

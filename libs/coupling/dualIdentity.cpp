@@ -91,16 +91,13 @@ std::vector<RuptureEvent> DualIdentity::endStep(ParticleSystem& system, double d
     for (std::size_t c = 0; c < cells_.heldCount(); ++c) {
         membrane::Membrane& membrane = cells_[c].membrane;
         if (!membrane.canRupture()) continue;
-        std::vector<membrane::BrokenBond> broken = membrane.findBroken(dt);
-        if (broken.empty()) continue;
-        if (intervals_.guard > 0) guard_.movedBack(system, cells_[c], c);
-        const bool owner = std::any_of(exchange_.owned().begin(), exchange_.owned().end(), [&](const auto& n) {
-            return static_cast<std::size_t>(n.cell) == c && n.node == 0;
+        const bool counts =
+            budget && std::any_of(exchange_.owned().begin(), exchange_.owned().end(),
+                                  [&](const auto& n) { return static_cast<std::size_t>(n.cell) == c && n.node == 0; });
+        RuptureEvent event = rupture(membrane, dt, counts ? budget : nullptr, [&] {
+            if (intervals_.guard > 0) guard_.movedBack(system, cells_[c], c);
         });
-        const double before = budget && owner ? membrane.energy() : 0;
-        broken = membrane.breakBonds(std::move(broken));
-        if (budget && owner) budget->total[sph::Budget::released] += before - membrane.energy();
-        events.push_back({membrane.cell, std::move(broken)});
+        if (!event.bonds.empty()) events.push_back(std::move(event));
     }
     const auto due = [&](long interval) { return interval > 0 && steps_ % interval == 0; };
     if (due(intervals_.guard)) guard_.movedBack(system, cells_);

@@ -14,15 +14,10 @@
 #include "coupling/densityBalance.hpp"
 #include "coupling/leakageGuard.hpp"
 #include "coupling/nodeExchange.hpp"
+#include "coupling/rupture.hpp"
 #include "sph/velocityVerlet.hpp"
 
 namespace corpuscle::coupling {
-
-// Bonds of one cell that broke in one step.
-struct RuptureEvent {
-    int cell;  // its number, from 1
-    std::vector<membrane::BrokenBond> bonds;
-};
 
 class DualIdentity : public sph::Load {
   public:

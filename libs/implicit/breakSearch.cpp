@@ -49,22 +49,25 @@ BreakTimes findBreaks(const coupling::Immersed& immersed, MPI_Comm comm, double 
         const coupling::Immersed::Vectors start = cell.departure(begun);
         coupling::Immersed::Vectors x(start.size());
         // Time from which more than `number` elements should have broken.
-        const auto timeOf = [&](std::size_t number) {
+        // and by an excess of `least`.
+        const auto timeOf = [&](std::size_t number, double least) {
             const auto excess = [&](double t) {
                 for (std::size_t n = 0; n < x.size(); ++n) x[n] = start[n] + t * velocity[layout.first(c) + n];
-                return cell.membrane.ruptureExcess(x, t, number);
+                return cell.membrane.ruptureExcess(x, t, number) - least;
             };
             const double atEnd = excess(horizon);
             if (!(atEnd > 0)) return never;
             const double atStart = excess(0);
             return atStart > 0 ? 0 : rootFromAbove(0, horizon, atStart, atEnd, precision * horizon, excess);
         };
-        const double first = timeOf(0);
+        const double first = timeOf(0, 0);
         if (first == never) continue;
         found.first = std::min(found.first, first);
         double deadline = first + resolution;
         const auto late = static_cast<std::size_t>(shareOfBroken * cell.membrane.network().brokenBonds());
-        if (late > 0) deadline = std::max(deadline, timeOf(late));
+        if (late > 0) deadline = std::max(deadline, timeOf(late, 0));
+        if (const double tolerance = cell.membrane.ruptureTolerance(); tolerance > 0)
+            deadline = std::max(deadline, timeOf(0, tolerance));
         if (deadline < horizon) found.deadline = std::min(found.deadline, deadline);
     }
     const Communicator ranks(comm);

@@ -6,6 +6,7 @@
 // each cell,
 //     nothing should have broken for longer than w,   w = max(1e-3 times the length asked for, 1e-4/rate)
 //     or no more elements should have broken than the share s of the bonds that the cell has lost before
+//     or no excess should be greater than the law tolerates (a law that weakens the sheet before it breaks)
 // All of them break at its end. The first condition resolves the first breaks of a cell in time; by the second one, a
 // tear of N bonds takes some ln(N)/s steps however long it is, and an element breaks late by the time in which the tear
 // grows by the share s.
@@ -50,6 +51,7 @@ class BreakSearch {
     // length() for another one.
     bool accepts(const BreakTimes& breaks);
     // Whether bonds break that no step could be made to end at closely enough.
+    bool isShortened() const { return shortestAfter_ != never; }
     bool isCoarse() const { return isCoarse_; }
 
   private:

@@ -96,7 +96,10 @@ class Step final : public ImplicitStep {
         ++state.sinceBreak, state.breakTime += dt;
         if (!canRupture_) return made;
         const bool some = Communicator(scene_.system->comm()).anyTrue(!made.broken.empty());
-        state.breakLimit = some ? 2 * std::max(state.breakTime, search.resolution()) : 2 * state.breakLimit;
+        if (some)
+            state.breakLimit = 2 * std::max(state.breakTime, search.resolution());
+        else
+            state.breakLimit = 2 * (search.isShortened() ? dt : state.breakLimit);
         if (state.breakLimit >= options_.settings.step / scene_.flow.rate) state.breakLimit = 0;
         allowed_.breaks = state.breakLimit;
         if (!some) return made;
@@ -146,10 +149,9 @@ class Step final : public ImplicitStep {
     }
 
     // Whether the acceleration between two midpoints is known. After the first step, and after the first since bonds
-    // broke, this is so only if the flow starts
-    // fully developed. With cells or bodies, where walls or a body force start the flow, and where the viscosity jumps,
-    // the acceleration of the first step is a single jump, because the initial velocity does not include the effect of
-    // the forces.
+    // broke, this is so only if the flow starts fully developed. With cells or bodies, where walls or a body force
+    // start the flow, and where the viscosity jumps, the acceleration of the first step is a single jump, because the
+    // initial velocity does not include the effect of the forces.
     bool hasAcceleration() const { return state.sinceBreak > (startsDeveloped() ? 0 : 1); }
     bool startsDeveloped() const {
         return !immersed_ && !system_.rigid() && !scene_.flow.settles && !scene_.store().optional().viscosity;

@@ -60,7 +60,7 @@ class LocalArea final : public Term {
             const Index3& node = network_.triangles()[t];
             const auto area = TriangleArea::at(places(x, node));
             for (int k = 0; k < 3; ++k) {
-                f[node[k]] -= modulus_ * (area.value / rest(t) - 1) * area.gradient[k];
+                f[node[k]] -= slope(t, area.value) * area.gradient[k];
             }
         }
     }
@@ -68,17 +68,24 @@ class LocalArea final : public Term {
     double energy(std::span<const Vec3> x) const override {
         double sum = 0;
         for (const int t : network_.wholeTriangles()) {
-            const double change = TriangleArea::at(places(x, network_.triangles()[t])).value - rest(t);
-            sum += 0.5 * modulus_ * change * change / rest(t);
+            const double area = TriangleArea::at(places(x, network_.triangles()[t])).value, change = area - rest(t);
+            sum += share(t, area) * 0.5 * modulus_ * change * change / rest(t);
         }
         return sum;
+    }
+
+    void addTensileEnergy(std::span<const Vec3> x, std::span<double> ofTriangle) const override {
+        for (const int t : network_.wholeTriangles()) {
+            const double change = TriangleArea::at(places(x, network_.triangles()[t])).value - rest(t);
+            ofTriangle[t] += change > 0 ? 0.5 * modulus_ / rest(t) * change * change : 0;
+        }
     }
 
     void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
         for (const int t : network_.wholeTriangles()) {
             const Index3& node = network_.triangles()[t];
             const double area = TriangleArea::at(places(x, node)).value;
-            addTriangle(x, node, modulus_ * (area / rest(t) - 1), modulus_ / rest(t), definiteness, stiffness);
+            addTriangle(x, node, slope(t, area), share(t, area) * modulus_ / rest(t), definiteness, stiffness);
         }
     }
 
@@ -100,6 +107,9 @@ class LocalArea final : public Term {
 
   private:
     double rest(int t) const { return scale_ * network_.restAreas()[t]; }
+    // Share of its energy that a triangle keeps; one that is weakened (network.hpp) loses energy in tension only.
+    double share(int t, double area) const { return area > rest(t) ? network_.shareOfTriangle(t) : 1; }
+    double slope(int t, double area) const { return share(t, area) * modulus_ * (area / rest(t) - 1); }
 
     const Network& network_;
     double modulus_, scale_;

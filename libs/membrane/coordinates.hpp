@@ -31,8 +31,14 @@ struct Coordinate {
     std::array<Vec3Of<Scalar>, N> gradient;
 };
 
+// Whether an element keeps only a share of its energy where the sheet is weakened (network.hpp). Lips of a tear that
+// touch press on each other with full stiffness, so a bond does so in tension only; bending stays until a triangle
+// breaks.
+enum class Weakening { never, inTension, always };
+
 struct BondLength {
     static constexpr int nodes = 2;
+    static constexpr Weakening weakening = Weakening::inTension;
     template <class Scalar = double>
     static Coordinate<2, Scalar> at(const std::array<Vec3Of<Scalar>, 2>& x) {
         using Vec = Vec3Of<Scalar>;
@@ -56,9 +62,15 @@ struct BondLength {
     }
 };
 
+// The length of a bond at the rim of a hole.
+struct RimLength : BondLength {
+    static constexpr Weakening weakening = Weakening::never;
+};
+
 // dq/du = (u x n)/|u|^2, dq/dv = (n x v)/|v|^2 with n the unit normal along u x v.
 struct CornerAngle {
     static constexpr int nodes = 3;
+    static constexpr Weakening weakening = Weakening::always;
     template <class Matrix>
     static void addTension(const Coordinate<3>&, double, Matrix&) {}
     template <class Scalar = double>
@@ -87,6 +99,7 @@ struct CornerAngle {
 // with s, t the feet of the heights on the edge, 0 at a and 1 at b.
 struct DihedralAngle {
     static constexpr int nodes = 4;
+    static constexpr Weakening weakening = Weakening::never;
     template <class Matrix>
     static void addTension(const Coordinate<4>&, double, Matrix&) {}
     template <class Scalar = double>

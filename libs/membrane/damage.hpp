@@ -29,7 +29,7 @@ struct Damage : RuptureLaw {
     double onset = 0, scale = 0, time = 0, exponent = 1;  // e0, ec, tau [s], n
 
     double rate(double strain) const;  // dD/dt, 1/s
-    bool keepsDamage() const override { return true; }
+    DamageOf damageOf() const override { return DamageOf::triangles; }
     void gather(const RuptureStep& now, std::span<double> damage) const override;
     std::vector<BrokenBond> select(const RuptureStep& now) const override;
     std::vector<double> excesses(const RuptureStep& now) const override;

@@ -39,14 +39,15 @@ void addBonds(const Network& network, const BondLaw& law, int triangle, InPlane&
     for (int k = 0; k < 3; ++k) {
         const Bond& bond = network.allBonds()[network.triangleBonds(triangle)[k]];
         const double l = edges[k].norm();
-        plane.add(0.5 * law.weight(network, bond) * law.tension(l, bond.rest) / l, edges[k], edges[k]);
+        const double tension = law.tension(l, bond.rest), share = tension > 0 ? network.shareOfBond(bond.number) : 1;
+        plane.add(0.5 * share * law.weight(network, bond) * tension / l, edges[k], edges[k]);
     }
 }
 
 void addSheet(const Network& network, const TriangleLaw& law, int triangle, InPlane& plane) {
     const RestTriangle rest(network.stressFree(), network.triangles()[triangle]);
     const Vec3 products(plane.a.squaredNorm(), plane.a.dot(plane.b), plane.b.squaredNorm());
-    const Vec3 t = rest.area * rest.pullBack(law.slope(rest.strain(products)));
+    const Vec3 t = network.shareOfTriangle(triangle) * rest.area * rest.pullBack(law.slope(rest.strain(products)));
     plane.add(2 * t[0], plane.a, plane.a);
     plane.add(2 * t[1], plane.a, plane.b);
     plane.add(2 * t[2], plane.b, plane.b);

@@ -2,13 +2,15 @@
 //
 //     E = sum over elements of w E(q, q0),   F_n = -w E'(q, q0) dq/dx_n
 //
-// with a weight w for each element, which is 1 unless the law provides weights.
+// with a weight w for each element, which is 1 unless the law provides weights. Where the sheet is weakened
+// (network.hpp), an element keeps the share s of its energy: E(q0) + s (E(q) - E(q0)) in place of E(q).
 // Law: double energy(q, q0), derivative(q, q0), secondDerivative(q, q0).   Coordinate: coordinates.hpp.
 // Stiffness of an element: E'' (dq/dx)(dq/dx)^T + E' d2q/dx2. Without the second, geometric part, its only non-zero
 // eigenvalue is E'' |dq/dx|^2. The largest eigenvalue of the whole stiffness is at most the largest sum of these
 // eigenvalues over the elements of a node.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -22,6 +24,10 @@ namespace corpuscle::membrane {
 inline const std::vector<Bond>& elementsOf(const Network& network, BondLength) { return network.bonds(); }
 inline const std::vector<Corner>& elementsOf(const Network& network, CornerAngle) { return network.corners(); }
 inline const std::vector<Hinge>& elementsOf(const Network& network, DihedralAngle) { return network.hinges(); }
+inline const std::vector<Bond>& elementsOf(const Network& network, RimLength) { return network.rimBonds(); }
+
+inline double shareOf(const Network& network, BondLength, int number) { return network.shareOfBond(number); }
+inline double shareOf(const Network& network, CornerAngle, int number) { return network.shareOfTriangle(number); }
 
 // All weights are 1; takes neither memory nor time.
 struct Unweighted {
@@ -42,7 +48,8 @@ class ElementTerm final : public Term {
     void addForces(std::span<const Vec3> x, std::span<Vec3> f) const override {
         for (const auto& element : elementsOf(network_, Coordinate{})) {
             const auto q = at(element, x);
-            const double slope = weighting_.of(element.number) * law_.derivative(q.value, element.rest);
+            const double derivative = law_.derivative(q.value, element.rest),
+                         slope = weighting_.of(element.number) * share(element.number, derivative) * derivative;
             for (int k = 0; k < Coordinate::nodes; ++k) {
                 f[element.node[k]] -= slope * q.gradient[k];
             }
@@ -52,9 +59,31 @@ class ElementTerm final : public Term {
     double energy(std::span<const Vec3> x) const override {
         double sum = 0;
         for (const auto& element : elementsOf(network_, Coordinate{})) {
-            sum += weighting_.of(element.number) * law_.energy(at(element, x).value, element.rest);
+            const double q = at(element, x).value;
+            double energy = law_.energy(q, element.rest);
+            if (network_.isWeakened()) {
+                energy -= (1 - share(element.number, 1)) * tensile(q, element.rest);
+            }
+            sum += weighting_.of(element.number) * energy;
         }
         return sum;
+    }
+
+    void addTensileEnergy(std::span<const Vec3> x, std::span<double> ofTriangle) const override {
+        if constexpr (Coordinate::weakening != Weakening::never) {
+            for (const auto& element : elementsOf(network_, Coordinate{})) {
+                const double q = at(element, x).value;
+                const double energy = weighting_.of(element.number) * tensile(q, element.rest);
+                if constexpr (Coordinate::weakening == Weakening::always) {
+                    ofTriangle[element.number] += energy;
+                } else {
+                    const auto [left, right] = network_.bondTriangles(element.number);
+                    const double part = left < 0 || right < 0 ? energy : 0.5 * energy;
+                    if (left >= 0) ofTriangle[left] += part;
+                    if (right >= 0) ofTriangle[right] += part;
+                }
+            }
+        }
     }
 
     void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
@@ -76,7 +105,7 @@ class ElementTerm final : public Term {
                 matrix = curvature * gradient * gradient.transpose();
                 matrix += slope * hessian<Coordinate>(corners);
             }
-            matrix *= weighting_.of(element.number);
+            matrix *= weighting_.of(element.number) * share(element.number, slope);
             if (definiteness == Definiteness::semiDefinite) {
                 matrix = semiDefinite(matrix);
             }
@@ -101,6 +130,22 @@ class ElementTerm final : public Term {
     }
 
   private:
+    // Share of its energy that an element keeps. slope: E' without weight and share.
+    double share(int number, double slope) const {
+        if constexpr (Coordinate::weakening == Weakening::never) {
+            return 1;
+        } else {
+            const bool weakens = network_.isWeakened() && (Coordinate::weakening == Weakening::always || slope > 0);
+            return weakens ? shareOf(network_, Coordinate{}, number) : 1;
+        }
+    }
+    // Energy of an element that tears it, without its weight.
+    double tensile(double q, double rest) const {
+        const double energy = law_.energy(q, rest);  // infinite where the derivative does not exist (contourBond.hpp)
+        const bool counts =
+            Coordinate::weakening == Weakening::always || !std::isfinite(energy) || law_.derivative(q, rest) > 0;
+        return counts ? energy - law_.energy(rest, rest) : 0;
+    }
     static auto cornersOf(const Element<Coordinate::nodes>& element, std::span<const Vec3> x) {
         std::array<Vec3, Coordinate::nodes> corner;
         for (int k = 0; k < Coordinate::nodes; ++k) {

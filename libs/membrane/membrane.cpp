@@ -33,6 +33,9 @@ MembraneType::MembraneType(std::vector<Vec3> stressFree, std::vector<Index3> tri
     if (laws_.volume) {
         terms_.push_back(laws_.volume->makeTerm(network_, area.restArea(network_)));
     }
+    if (laws_.rim) {
+        terms_.push_back(laws_.rim->makeTerm(network_));
+    }
 }
 
 Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nodes, std::shared_ptr<MembraneType> type)
@@ -43,9 +46,9 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nod
       force(nodes.size(), Vec3::Zero()),
       initialPosition_(std::move(nodes)),
       type_(std::move(type)) {
-    if (canRupture() && laws().rupture->keepsDamage()) {
-        damage_.assign(network().triangles().size(), 0.0);
-    }
+    if (!canRupture()) return;
+    damage_.assign(laws().rupture->damageSize(network()), 0.0);
+    if (laws().rupture->weakens()) whole_ = type_;
 }
 
 Membrane::Membrane(std::string nameOfCell, int cellNumber, const std::vector<Vec3>& nodes,
@@ -60,10 +63,22 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, const std::vector<Vec
 Network& Membrane::ownNetwork() {
     if (type_.use_count() > 1) {
         const std::vector<char> alive = network().aliveBonds();
+        std::vector<double> shares = network().shares();
         type_ = std::make_shared<MembraneType>(network().stressFree(), network().triangles(), laws(), scale().radius);
         type_->network_.restore(alive);
+        type_->network_.weaken(std::move(shares));
     }
     return type_->network_;
+}
+
+RuptureStep Membrane::ruptureStep(std::span<const Vec3> x, double dt) const {
+    return {network(), laws(),  x,
+            dt,        damage_, whole_ ? std::span(whole_->terms()) : std::span<const std::unique_ptr<Term>>{}};
+}
+
+void Membrane::weaken() {
+    std::vector<double> shares = laws().rupture->shares(network(), damage_);
+    if (!shares.empty() || network().isWeakened()) ownNetwork().weaken(std::move(shares));
 }
 
 void Membrane::computeForces() {
@@ -114,9 +129,13 @@ double Membrane::maxStiffness() const {
 
 std::vector<BrokenBond> Membrane::findBroken(double dt) {
     if (!canRupture()) return {};
-    const RuptureStep now{network(), laws(), position, dt, damage_};
-    if (laws().rupture->keepsDamage()) laws().rupture->gather(now, damage_);
-    return laws().rupture->select(now);
+    laws().rupture->gather(ruptureStep(position, dt), damage_);
+    if (canWeaken()) {
+        weaken();
+        if (const std::vector<int> mended = laws().rupture->mended(ruptureStep(position, dt)); !mended.empty())
+            ownNetwork().mendBonds(mended);
+    }
+    return laws().rupture->select(ruptureStep(position, dt));
 }
 
 std::vector<BrokenBond> Membrane::breakBonds(std::vector<BrokenBond> broken) {
@@ -134,17 +153,31 @@ std::vector<BrokenBond> Membrane::breakBonds(std::vector<BrokenBond> broken) {
 
 double Membrane::ruptureExcess(std::span<const Vec3> x, double dt, std::size_t rank) const {
     if (!canRupture()) return -1;
-    std::vector<double> all = laws().rupture->excesses({network(), laws(), x, dt, damage_});
+    std::vector<double> all = laws().rupture->excesses(ruptureStep(x, dt));
     if (rank >= all.size()) return -1;
     const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(all.begin(), at, all.end(), std::greater<>());
     return *at;
 }
 
+double Membrane::maxDamage() const {
+    if (damage_.empty()) return 0;
+    double most = 0;
+    for (const int t : network().wholeTriangles()) {
+        if (laws().rupture->damageOf() == RuptureLaw::DamageOf::triangles)
+            most = std::max(most, damage_[t]);
+        else
+            for (const int n : network().triangles()[t]) most = std::max(most, damage_[n]);
+    }
+    return most;
+}
+
+double Membrane::tearLength() const { return canRupture() ? laws().rupture->tearLength(network(), damage_) : 0; }
+
 void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {
     if (!damage.empty() && !damage_.empty() && damage.size() != damage_.size()) {
         throw Failure(ExitCode::io, "checkpoint holds the damage of " + std::to_string(damage.size()) +
-                                        " triangles of membrane " + name + ", which has " +
+                                        " triangles or nodes of membrane " + name + ", which has " +
                                         std::to_string(damage_.size()) + "; start from firstTime");
     }
     if (aliveBonds != network().aliveBonds()) {
@@ -153,9 +186,10 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
     // Where only one of the checkpoint and the present law has damage, the membrane continues undamaged.
     if (damage.empty() || damage_.empty()) {
         std::fill(damage_.begin(), damage_.end(), 0.0);
-        return;
+    } else {
+        damage_ = std::move(damage);
     }
-    damage_ = std::move(damage);
+    if (canWeaken()) weaken();
 }
 
 double Membrane::area() const {

@@ -69,8 +69,9 @@ class Membrane {
     double maxStiffness() const;  // upper bound of the largest eigenvalue of the present stiffness, N/m
 
     bool canRupture() const { return static_cast<bool>(laws().rupture); }
-    // Bonds that break at the present positions by the rupture law, dt [s] after its last evaluation. breakBonds breaks
-    // them.
+    // Brings the damage, and what it takes from the energy, up to the present positions, dt [s] after the last
+    // evaluation; bonds that hold again are living ones then. Returns the bonds that break now, by the rupture law;
+    // breakBonds breaks them.
     std::vector<BrokenBond> findBroken(double dt);
     // Breaks these bonds, then those that by their loss break at the same positions, until nothing more breaks; returns
     // all of them.
@@ -78,9 +79,14 @@ class Membrane {
     // Excess of the rupture law (ruptureLaw.hpp) with nodes at x, dt [s] after its last evaluation: the greatest of any
     // element after `rank` greater ones; -1 where there is none.
     double ruptureExcess(std::span<const Vec3> x, double dt, std::size_t rank = 0) const;
-    // Damage of each triangle, 0 to 1; a broken triangle keeps the damage it had as it broke. Empty unless the rupture
-    // law keeps damage.
+    double ruptureTolerance() const { return canRupture() ? laws().rupture->tolerance() : 0; }
+    // Whether the energy changes while no bond breaks, because the rupture law weakens the sheet.
+    bool canWeaken() const { return static_cast<bool>(whole_); }
+    // Damage of each triangle or each node, as the rupture law keeps it, 0 to 1; empty if it keeps none. A broken
+    // triangle keeps the damage it had as it broke.
     const std::vector<double>& damage() const { return damage_; }
+    double maxDamage() const;   // of the whole triangles or their nodes; 0 if none is kept
+    double tearLength() const;  // by the rupture law (ruptureLaw.hpp), m
     // State of a checkpoint. Throws Failure(ExitCode::io) when it is of another mesh or law.
     void restore(std::vector<char> aliveBonds, std::vector<double> damage = {});
 
@@ -92,8 +98,11 @@ class Membrane {
 
   private:
     Network& ownNetwork();  // makes a type of its own if the type is shared
+    RuptureStep ruptureStep(std::span<const Vec3> x, double dt) const;
+    void weaken();  // gives the network the shares of the damage
     std::vector<Vec3> initialPosition_;
     std::shared_ptr<MembraneType> type_;
+    std::shared_ptr<const MembraneType> whole_;  // as it was made, if the rupture law weakens the sheet; otherwise none
     std::vector<double> damage_;
 };
 

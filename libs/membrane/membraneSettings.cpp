@@ -28,6 +28,7 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
             .table("volume", &MembraneSettings::volume, "enclosed volume held near a target")
             .table("viscosity", &MembraneSettings::viscosity, "viscosity of the membrane itself")
             .modelOr("none", "rupture", &MembraneSettings::rupture, "when bonds break", {.fallback = "none"})
+            .table("rim", &MembraneSettings::rim, "line tension of the rims of holes")
             .check([](const MembraneSettings& m, const Node& node, Problems& problems) {
                 if (!m.bonds && !m.triangles) {
                     problems.add(node.place(), node.path,
@@ -38,7 +39,7 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
             })
             .atRestart(AtRestart::fixed, {"interior", "stressFree"})
             .atRestart(AtRestart::noted,
-                       {"bonds", "triangles", "angles", "bending", "area", "volume", "viscosity", "rupture"});
+                       {"bonds", "triangles", "angles", "bending", "area", "volume", "viscosity", "rupture", "rim"});
     return s;
 }
 

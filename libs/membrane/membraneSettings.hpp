@@ -6,6 +6,7 @@
 #include "membrane/areaConstraint.hpp"
 #include "membrane/bendingLaw.hpp"
 #include "membrane/bondLaw.hpp"
+#include "membrane/rim.hpp"
 #include "membrane/ruptureLaw.hpp"
 #include "membrane/surfaceViscosity.hpp"
 #include "membrane/triangleLaw.hpp"
@@ -29,6 +30,7 @@ struct MembraneSettings {
     std::optional<VolumeConstraint> volume;
     std::optional<SurfaceViscosity> viscosity;
     Choice<RuptureLaw> rupture;  // empty: bonds never break
+    std::optional<Rim> rim;      // empty: no line tension
     // Moduli of the sheet at small strain, summed over all laws; bonds count as a hexagonal network of this edge length
     // [m], in closed form.
     SurfaceModuli moduli(double edge) const;

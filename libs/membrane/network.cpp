@@ -95,12 +95,18 @@ void Network::useHinges() {
     compact();
 }
 
+void Network::useRims() {
+    useRims_ = true;
+    compact();
+}
+
 // Rebuilds the lists from the stress-free mesh and alive_ alone, so that a restored network is identical to one that
 // broke step by step.
 void Network::compact() {
     bonds_.clear();
     corners_.clear();
     hinges_.clear();
+    rimBonds_.clear();
     wholeTriangles_.clear();
     brokenTriangle_.assign(triangles_.size(), 0);
     for (const Bond& bond : allBonds_) {
@@ -128,6 +134,9 @@ void Network::compact() {
     }
     for (const Bond& bond : allBonds_) {
         const auto [left, right] = bondTriangles_[bond.number];
+        if (useRims_ && left >= 0 && right >= 0 && isBroken(left) != isBroken(right)) {
+            rimBonds_.push_back(bond);
+        }
         if (useHinges_ && left >= 0 && right >= 0 && !isBroken(left) && !isBroken(right)) {
             const auto [a, b] = bond.node;
             hinges_.push_back(elementAtRest<DihedralAngle, 4>(
@@ -150,6 +159,21 @@ void Network::breakBonds(std::span<const int> numbers) {
         alive_.at(number) = 0;
     }
     compact();
+}
+
+void Network::mendBonds(std::span<const int> numbers) {
+    for (const int number : numbers) {
+        alive_.at(number) = 1;
+    }
+    compact();
+}
+
+double Network::shareOfBond(int bond) const {
+    if (!isWeakened()) {
+        return 1;
+    }
+    const auto [left, right] = bondTriangles_[bond];
+    return left < 0 ? shares_[right] : right < 0 ? shares_[left] : 0.5 * (shares_[left] + shares_[right]);
 }
 
 void Network::restore(std::vector<char> alive) {

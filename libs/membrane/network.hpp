@@ -5,12 +5,16 @@
 // Corner   | each corner of each triangle | apex, next, previous                   | triangle | angle [rad]
 // Hinge    | each edge with two triangles | edge a < b, c left and d right of a->b | bond     | dihedral angle [rad]
 // Bonds are ordered by (a, b); corners by triangle; hinges by bond. Rest values are those of the stress-free mesh.
-// Corners and hinges are stored only after useCorners() and useHinges(), which the terms that need them call.
+// Corners, hinges and the bonds of rims are stored only after useCorners(), useHinges() and useRims(), which the terms
+// that need them call.
 //
 // Rupture: an element is removed permanently when a bond that is part of it breaks. A broken bond therefore removes:
 // itself; its two triangles, which become a hole; the corners of which it is a side; and the hinges of both triangles
 // (a broken triangle has no normal, and the rim of a hole bears no moment). The other bonds of a broken triangle stay.
 // The lists below hold the remaining ("living") elements only, in order, so that loops over them need no test.
+//
+// Weakening: a membrane that tears gradually keeps, of its energy in tension, a share for each triangle (cohesive.hpp).
+// A bond has the mean share of its triangles.
 //
 // Each rank that holds a cell holds its whole network, and every function here gives bitwise the same result on all of
 // these ranks.
@@ -41,11 +45,13 @@ class Network {
     Network(std::vector<Vec3> stressFree, std::vector<Index3> triangles);
     void useCorners();
     void useHinges();
+    void useRims();
 
     // Living elements, for the loops of the laws.
     const std::vector<Bond>& bonds() const { return bonds_; }
     const std::vector<Corner>& corners() const { return corners_; }
     const std::vector<Hinge>& hinges() const { return hinges_; }
+    const std::vector<Bond>& rimBonds() const { return rimBonds_; }  // those between a whole and a broken triangle
     const std::vector<int>& wholeTriangles() const { return wholeTriangles_; }  // numbers, ascending
 
     // The original network, including broken elements.
@@ -61,6 +67,13 @@ class Network {
     double meanBondLength() const;  // at rest, m
 
     void breakBonds(std::span<const int> numbers);  // bonds already broken are ignored
+    void mendBonds(std::span<const int> numbers);   // makes them living bonds again
+    // Sets the share of every triangle, broken or not; empty: all are 1.
+    void weaken(std::vector<double> shares) { shares_ = std::move(shares); }
+    bool isWeakened() const { return !shares_.empty(); }
+    const std::vector<double>& shares() const { return shares_; }
+    double shareOfTriangle(int triangle) const { return isWeakened() ? shares_[triangle] : 1; }
+    double shareOfBond(int bond) const;
     bool isBroken(int triangle) const { return brokenTriangle_[triangle] != 0; }
     int brokenBonds() const { return static_cast<int>(allBonds_.size() - bonds_.size()); }
     int brokenTriangles() const { return static_cast<int>(triangles_.size() - wholeTriangles_.size()); }
@@ -90,13 +103,15 @@ class Network {
     std::vector<Index3> triangleBonds_;
     std::vector<std::array<int, 2>> bondTriangles_;
     bool hasBorder_ = false;
-    bool useCorners_ = false, useHinges_ = false;
+    bool useCorners_ = false, useHinges_ = false, useRims_ = false;
 
     std::vector<char> alive_, brokenTriangle_;
     std::vector<Bond> bonds_;
     std::vector<Corner> corners_;
     std::vector<Hinge> hinges_;
+    std::vector<Bond> rimBonds_;
     std::vector<int> wholeTriangles_;
+    std::vector<double> shares_;
 };
 
 }  // namespace corpuscle::membrane

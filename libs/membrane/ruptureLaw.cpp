@@ -1,8 +1,21 @@
 #include "membrane/ruptureLaw.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace corpuscle::membrane {
+
+std::size_t RuptureLaw::damageSize(const Network& network) const {
+    switch (damageOf()) {
+        case DamageOf::nothing:
+            return 0;
+        case DamageOf::triangles:
+            return network.triangles().size();
+        case DamageOf::nodes:
+            return network.nodeCount();
+    }
+    throw std::logic_error("RuptureLaw::damageSize: unknown place of the damage");
+}
 
 std::vector<BrokenBond> mostStretchedBonds(const Network& network, std::span<const int> triangles,
                                            std::span<const Vec3> x) {

@@ -16,6 +16,9 @@ class Term {
     virtual ~Term() = default;
     virtual void addForces(std::span<const Vec3> x, std::span<Vec3> f) const = 0;  // N
     virtual double energy(std::span<const Vec3> x) const = 0;                      // J
+    // Adds to each triangle the part of its energy by this term, without a share (network.hpp), that tears it [J]; it
+    // may be infinite.
+    virtual void addTensileEnergy(std::span<const Vec3> /*x*/, std::span<double> /*ofTriangle*/) const {}
     // The second derivative of the energy, element by element.
     virtual void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const = 0;
     // Upper bound of the largest eigenvalue of the stiffness matrix without its geometric part [N/m], for limits of the

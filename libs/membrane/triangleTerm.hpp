@@ -1,7 +1,10 @@
 // The loop over triangles of constant strain, written once for every law of the strain e (restTriangle.hpp):
 //
-//     E = sum over whole triangles of A0 W(e),    t = dW/dg = L^T dW/de
+//     E = sum over whole triangles of s A0 W(e),    t = dW/dg = L^T dW/de
 //     F_1 = -A0 (2 t11 a + t12 b),   F_2 = -A0 (t12 a + 2 t22 b),   F_0 = -F_1 - F_2
+//
+// with the share s of its energy that a weakened triangle keeps (network.hpp), otherwise 1; t, F and the stiffness
+// below are without s.
 //
 // Law: double energy(e) [J/m^2], Vec3 slope(e) = dW/de [N/m], Mat3 curvature(e) = d2W/de2 [N/m].
 // Stiffness, in a and b: A0 (J^T L^T W'' L J + t11 2 aa + t12 ab + t22 2 bb), J = dg/d(a, b); the last three terms, the
@@ -32,7 +35,8 @@ class TriangleTerm final : public Term {
         for (const int number : network_.wholeTriangles()) {
             const RestTriangle& rest = rest_[number];
             const Vec3 a = x[rest.node[1]] - x[rest.node[0]], b = x[rest.node[2]] - x[rest.node[0]];
-            const Vec3 t = rest.area * rest.pullBack(law_.slope(rest.strain(edgeProducts(a, b))));
+            const Vec3 t = network_.shareOfTriangle(number) * rest.area *
+                           rest.pullBack(law_.slope(rest.strain(edgeProducts(a, b))));
             const Vec3 f1 = 2 * t[0] * a + t[1] * b, f2 = t[1] * a + 2 * t[2] * b;
             f[rest.node[0]] += f1 + f2;
             f[rest.node[1]] -= f1;
@@ -44,9 +48,21 @@ class TriangleTerm final : public Term {
         double sum = 0;
         for (const int number : network_.wholeTriangles()) {
             const RestTriangle& rest = rest_[number];
-            sum += rest.area * law_.energy(strainOf(rest, x));
+            sum += network_.shareOfTriangle(number) * rest.area * law_.energy(strainOf(rest, x));
         }
         return sum;
+    }
+
+    // That of the triangles of which a principal tension is positive. All of a triangle's energy is weakened, whatever
+    // its tension is, so that forces stay continuous.
+    void addTensileEnergy(std::span<const Vec3> x, std::span<double> ofTriangle) const override {
+        for (const int number : network_.wholeTriangles()) {
+            const RestTriangle& rest = rest_[number];
+            const Vec3 e = strainOf(rest, x);
+            if (isInTension(law_.slope(e))) {
+                ofTriangle[number] += rest.area * law_.energy(e);
+            }
+        }
     }
 
     void addStiffness(std::span<const Vec3> x, Definiteness definiteness, Stiffness& stiffness) const override {
@@ -69,6 +85,7 @@ class TriangleTerm final : public Term {
                     matrix.template block<3, 3>(3 * m, 3 * n) += 2 * rest.area * weights(m, n) * Mat3::Identity();
                 }
             }
+            matrix *= network_.shareOfTriangle(number);
             if (definiteness == Definiteness::semiDefinite) {
                 matrix = semiDefinite(matrix);
             }
@@ -96,6 +113,11 @@ class TriangleTerm final : public Term {
         return rest.strain(edgeProducts(x[rest.node[1]] - x[rest.node[0]], x[rest.node[2]] - x[rest.node[0]]));
     }
 
+    // Whether the stress dW/de, whose second component counts both off-diagonal entries, has a positive eigenvalue.
+    static bool isInTension(const Vec3& slope) {
+        const double trace = slope[0] + slope[2], determinant = slope[0] * slope[2] - 0.25 * slope[1] * slope[1];
+        return trace > 0 || determinant < 0;
+    }
     // Positive part (without the negative eigenvalues) of the tensor t, whose t12 counts both off-diagonal entries, and
     // of W''.
     static Vec3 positivePart(const Vec3& t) {

@@ -59,13 +59,15 @@ std::vector<io::Column> cellColumns() {
                                     {"holeArea", "m2", "area of fans over the rims of the holes, now"},
                                     {"holeRestArea", "m2", "stress-free area of the lost triangles"}};
     append(columns, releaseColumns("this cell's"));
-    append(columns, {{"maxBondStrain", "", "largest l/l0 - 1 of the living bonds"},
-                     {"maxArealStrain", "", "largest A/A0 - 1 of the whole triangles"},
-                     {"maxTension", "N_m", "greatest principal tension of the whole triangles"},
-                     {"maxDamage", "", "largest damage of the whole triangles; 0 where no law keeps it"},
-                     {"firstBreak", "s", "time of the first break, nan before, as all of it"},
-                     {"firstBreak_strain", "", "strain of the flow at the first break"},
-                     {"firstBreak_bond", "", "number of the bond that broke first; events.csv has its nodes"}});
+    append(columns,
+           {{"maxBondStrain", "", "largest l/l0 - 1 of the living bonds"},
+            {"maxArealStrain", "", "largest A/A0 - 1 of the whole triangles"},
+            {"maxTension", "N_m", "greatest principal tension of the whole triangles"},
+            {"maxDamage", "", "largest damage of the whole triangles; 0 where no law keeps it"},
+            {"tearLength", "m", "surface energy of the tears over the fracture energy; 0 without a cohesive law"},
+            {"firstBreak", "s", "time of the first break, nan before, as all of it"},
+            {"firstBreak_strain", "", "strain of the flow at the first break"},
+            {"firstBreak_bond", "", "number of the bond that broke first; events.csv has its nodes"}});
     addPoint(columns, "firstBreak_", "", "the middle of the bond that broke first, as it broke");
     addPoint(columns, "firstBreak_", "0", "the middle of the bond that broke first, on the stress-free cell");
     return columns;
@@ -124,7 +126,7 @@ class RuptureObservation : public Observation {
             const Losses& d = lost[c];
             ofCells.push_back({d.bonds, d.triangles, d.holes, d.holeArea, d.holeRestArea, in.released, in.leaked,
                                in.releasedVolume, in.haemolysisIndex(), d.bondStrain, d.arealStrain, d.tension,
-                               d.damage});
+                               d.damage, d.tearLength});
             append(ofCells.back(), first_[c].numbers());
         }
         std::vector<Row> rows = rowsByType(scene, 0, ofCells);

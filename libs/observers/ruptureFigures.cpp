@@ -14,18 +14,15 @@ namespace corpuscle::observers {
 namespace {
 
 // In the order in which the numbers travel between ranks.
-constexpr std::array members{&Losses::bonds,       &Losses::triangles,    &Losses::holes,
-                             &Losses::holeArea,    &Losses::holeRestArea, &Losses::bondStrain,
-                             &Losses::arealStrain, &Losses::tension,      &Losses::damage};
+constexpr std::array members{&Losses::bonds,        &Losses::triangles,  &Losses::holes,       &Losses::holeArea,
+                             &Losses::holeRestArea, &Losses::bondStrain, &Losses::arealStrain, &Losses::tension,
+                             &Losses::damage,       &Losses::tearLength};
 static_assert(sizeof(Losses) == members.size() * sizeof(double), "a member is not named above");
 
 Losses lossesOf(const coupling::Cell& cell) {
     const membrane::Membrane& m = cell.membrane;
     const membrane::Network& network = m.network();
     const bool broken = network.brokenTriangles() > 0;
-    double damage = 0;
-    if (!m.damage().empty())
-        for (const int t : network.wholeTriangles()) damage = std::max(damage, m.damage()[static_cast<std::size_t>(t)]);
     return {.bonds = static_cast<double>(network.brokenBonds()),
             .triangles = static_cast<double>(network.brokenTriangles()),
             .holes = broken ? static_cast<double>(network.rims().size()) : 0,
@@ -34,7 +31,8 @@ Losses lossesOf(const coupling::Cell& cell) {
             .bondStrain = membrane::maxBondStrain(network, m.position),
             .arealStrain = membrane::maxArealStrain(network, m.position),
             .tension = membrane::maxTension(network, m.laws(), m.position),
-            .damage = damage};
+            .damage = m.maxDamage(),
+            .tearLength = m.tearLength()};
 }
 
 std::vector<double> list(const Vec3& v) { return {v.data(), v.data() + 3}; }

@@ -25,6 +25,7 @@ struct FirstBreak {
 struct Losses {
     double bonds, triangles, holes, holeArea, holeRestArea;  // areas in m^2
     double bondStrain, arealStrain, tension, damage;         // tension in N/m
+    double tearLength;                                       // m
 };
 
 // For each cell, on every rank. Collective.

@@ -111,6 +111,21 @@ void checkImmersed(const Case& c, const CellTypeSettings& cell, const std::strin
                 formatQuantity(largestEdgeInSpacings, unit::none) + " dx, " + formatQuantity(longest, unit::metre));
 }
 
+// What a rupture law that weakens the sheet requires: edges that resolve its length.
+void checkTearLength(const Case& c, const CellTypeSettings& cell, const std::string& key, Problems& problems) {
+    const auto type = c.membranes.types.find(cell.type());
+    if (type == c.membranes.types.end() || !type->second.rupture || !wrongScale(c, cell).empty()) return;
+    const std::optional<double> length = type->second.rupture->resolvedLength();
+    const double edge = cell.largestScale() * cell.edge;
+    if (length && edge > membrane::RuptureLaw::edgeOfResolvedLength * *length)
+        problems.add({"system/mesh.yaml", 0, 0}, key + ".edge",
+                     "found " + formatQuantity(edge, unit::metre) + ", too coarse for the tears of '" + cell.type() +
+                         "' in constant/membranes.yaml, whose length is " + formatQuantity(*length, unit::metre) +
+                         ": at most half of it, " +
+                         formatQuantity(membrane::RuptureLaw::edgeOfResolvedLength * *length, unit::metre) +
+                         "; take a finer mesh, or a greater 'length' of the rupture law");
+}
+
 // What immersed coupling requires of one cell: a unique nearest image everywhere.
 void checkImmersedPlace(const Case& c, const CellTypeSettings& cell, const geometry::Place& place,
                         const std::string& key, Problems& problems) {
@@ -237,6 +252,7 @@ void checkSurfaces(const Case& c, Problems& problems) {
         const bool isRight = cell.shape && wrongScale(c, cell).empty();
         const std::string key = fmt::format("cells[{}]", i);
         if (isRight && c.numerics.isImmersed()) checkImmersed(c, cell, key, problems);
+        checkTearLength(c, cell, key, problems);
         for (const geometry::Place& place : cell.standing()) {
             ++number;
             const std::string ofPlace = c.keyOfPlace(number);

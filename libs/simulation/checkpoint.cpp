@@ -58,6 +58,16 @@ void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sam
 // reach by which its holders were found, positions and velocities of its nodes, unbroken bonds, damage.
 std::string groupOf(const coupling::CellType& type) { return "cells/" + type.name + "/"; }
 
+// Number of the values of damage that each cell of the type has.
+std::size_t damageSize(const coupling::CellType& of) {
+    return of.settings.rupture ? of.settings.rupture->damageSize(of.membrane->network()) : 0;
+}
+
+// A law that finds only the damage of another place begins without damage.
+const char* damageName(const coupling::CellType& of) {
+    return of.settings.rupture->damageOf() == membrane::RuptureLaw::DamageOf::nodes ? "nodeDamage" : "damage";
+}
+
 template <class File>
 void saveType(File& file, const Scene& scene, std::size_t type) {
     const coupling::CellType& of = scene.cells.types()[type];
@@ -79,8 +89,8 @@ void saveType(File& file, const Scene& scene, std::size_t type) {
     file.writeDistributed(group + "position", position, count(3 * of.nodes.size()));
     file.writeDistributed(group + "velocity", velocity, count(3 * of.nodes.size()));
     file.writeDistributed(group + "aliveBonds", alive, count(of.membrane->network().allBonds().size()));
-    if (of.settings.rupture && of.settings.rupture->keepsDamage())
-        file.writeDistributed(group + "damage", damage, count(of.triangles.size()));
+    if (const std::size_t size = damageSize(of); size > 0)
+        file.writeDistributed(group + damageName(of), damage, count(size));
 }
 
 // Adds this rank's cells of the type.
@@ -101,7 +111,9 @@ void loadType(File& file, const std::string& where, const Scene& scene, std::siz
     const std::vector<Vec3> reach = vectors(numbers("reach", 6)),
                             position = vectors(numbers("position", 3 * of.nodes.size())),
                             velocity = vectors(numbers("velocity", 3 * of.nodes.size()));
-    const auto damage = file.has(group + "damage") ? numbers("damage", of.triangles.size()) : std::vector<double>{};
+    const std::size_t sizeOfDamage = damageSize(of);
+    const auto damage = sizeOfDamage > 0 && file.has(group + damageName(of)) ? numbers(damageName(of), sizeOfDamage)
+                                                                             : std::vector<double>{};
     const auto part = [](const auto& all, std::size_t k, std::size_t each) {
         const auto from = all.begin() + static_cast<std::ptrdiff_t>(k * each);
         return std::pair(from, from + static_cast<std::ptrdiff_t>(each));
@@ -113,12 +125,12 @@ void loadType(File& file, const std::string& where, const Scene& scene, std::siz
         const auto [u, uEnd] = part(velocity, k, of.nodes.size());
         const auto [bond, bondEnd] = part(alive, k, bonds);
         cell.membrane.position.assign(x, xEnd), cell.membrane.velocity.assign(u, uEnd);
-        std::vector<double> ofTriangles;
+        std::vector<double> ofCell;
         if (!damage.empty()) {
-            const auto [d, dEnd] = part(damage, k, of.triangles.size());
-            ofTriangles.assign(d, dEnd);
+            const auto [d, dEnd] = part(damage, k, sizeOfDamage);
+            ofCell.assign(d, dEnd);
         }
-        cell.membrane.restore({bond, bondEnd}, std::move(ofTriangles));
+        cell.membrane.restore({bond, bondEnd}, std::move(ofCell));
     }
 }
 

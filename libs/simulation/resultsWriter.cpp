@@ -99,13 +99,18 @@ void addNumbers(io::PolyData& data) {  // numbers of the nodes, as in the mesh i
     id.resize(data.points.size());
     std::iota(id.begin(), id.end(), 0);
 }
+
+// The arrays to which the damage of the law belongs.
+auto& damageOf(const membrane::RuptureLaw& law, io::PolyData& data) {
+    return law.damageOf() == membrane::RuptureLaw::DamageOf::nodes ? data.point.scalars : data.cell.scalars;
+}
 }  // namespace
 
 io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     const membrane::Network& network = m.network();
     io::PolyData data;
     if (m.canRupture()) data.point.integers["hole"] = membrane::holeOfNodes(network);
-    if (!m.damage().empty()) data.cell.scalars["damage"] = m.damage();
+    if (!m.damage().empty()) damageOf(*m.laws().rupture, data)["damage"] = m.damage();
     data.points = m.position;
     data.triangles = network.triangles();
     addNumbers(data);
@@ -133,7 +138,7 @@ io::PolyData typePiece(const Scene& scene, std::size_t type) {
     for (const char* name : {"broken", "cell"}) all.cell.integers[name];
     if (const auto& rupture = scene.cells.types()[type].settings.rupture) {
         all.point.integers["hole"];
-        if (rupture->keepsDamage()) all.cell.scalars["damage"];
+        if (rupture->damageOf() != membrane::RuptureLaw::DamageOf::nothing) damageOf(*rupture, all)["damage"];
     }
     const int rank = scene.system->decomposition().rank();
     for (const Cell& cell : scene.cells) {

@@ -1112,6 +1112,47 @@ def test_damage(folder):
     assert all(row["maxDamage"] == 0 for row in rows if row["strain"] <= 0.55) and 0 < rows[-1]["maxDamage"] < 1, rows
 
 
+def test_cohesive(folder):
+    """A cell that weakens before it tears: the same on 1, 2 and 4 ranks, in parts and for steps of 0.05 and 0.0125; velocity Verlet agrees; what
+    is released from the membrane is in the budget; another law of rupture at a restart begins without damage."""
+    cell = "rbc:\n  bonds: {type: harmonic, k: 5e-4 N/m}\n  bending: {type: dihedral, Eb: 0.01}\n  rim: {tension: 1 pN}\n"
+    start = prepared(folder / "start", {
+        **IMPLICIT_CASE,
+        "system/mesh.yaml": "domain: {size: [20 um, 16 um, 16 um], periodic: [true, true, false]}\n" + CELL_CASE["system/mesh.yaml"].splitlines()[1]
+        .replace("[5 um, 0 um, 0 um], axis: [0.3, 0, 1]", "[0 um, 0 um, 0 um]") + "\n",
+        "system/observers.yaml": "tear: {type: rupture, every: 0.1 strain}\nbalance: {type: conservation, every: 0.1 strain}\n",
+        "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.8"),
+        "constant/membranes.yaml": cell + "  rupture: {type: cohesive, fractureEnergy: 4 pN, length: 2 um}\n",
+        "constant/flow.yaml": "type: shear\nCa: 2\ninertia: {Re: 0.1}\n"})
+    ends, seen = {}, {}
+    for name, ranks, change in (("np1", 1, "/implicit={step: 0.05}"), ("np2", 2, "/implicit={step: 0.05}"), ("np4", 4, "/implicit={step: 0.05}"),
+                                ("short", 1, "/implicit={step: 0.0125}"), ("verlet", 1, "/integrator=velocityVerlet")):
+        case = copied(start, folder / name)
+        run(case, "dmpFlow", "-set", "system/numerics.yaml:" + change, ranks=ranks)
+        seen[name] = tables(case)["rbc"]
+        ends[name] = seen[name][-1]
+        print(name, *(f"{ends[name][key]:.6g}" for key in ("maxDamage", "tearLength_m", "bondsBroken", "holeRestArea_m2", "firstBreak_strain")))
+        assert table(case, "balance", "budget.csv")[-1]["residualShare"] < 1e-3
+        assert ends[name]["bondsBroken"] > 10 and ends[name]["holes"] >= 1 and 0.8 < ends[name]["maxDamage"] < 1
+        tears = [row["tearLength_m"] for row in seen[name]]
+        assert tears == sorted(tears) and tears[0] == 0
+        assert "nodeDamage" in subprocess.run(["h5ls", f"{last_checkpoint(case)}/data/cells/rbc"], capture_output=True, text=True, check=True).stdout
+        assert any(b'Name="damage"' in p.read_bytes() for p in case.glob("results/rbc/*/*.vtp"))
+    for name in ("np2", "np4"):
+        for one, other in zip(seen["np1"], seen[name]):
+            for key in ("maxDamage", "tearLength_m", "bondsBroken", "holeArea_m2", "releasedVolume_m3"):
+                assert math.isclose(one[key], other[key], rel_tol=1e-5, abs_tol=1e-18), (name, key, one["strain"], one[key], other[key])
+    for name, bar in (("short", 0.02), ("verlet", 0.02)):
+        for one, other in zip(seen[name], seen["np1"]):
+            assert abs(one["tearLength_m"] - other["tearLength_m"]) < bar * ends[name]["tearLength_m"], (name, one["strain"])
+        assert abs(ends["np1"]["firstBreak_strain"] - ends[name]["firstBreak_strain"]) <= 0.051
+    same_in_parts(folder / "np1", start, "dmpFlow", 14, "-set", "system/numerics.yaml:/implicit={step: 0.05}")
+    other = copied(folder / "np1", folder / "other")
+    law = "constant/membranes.yaml:/rbc/rupture={type: damage, onset: 0.5, scale: 0.02, time: 1 s}"
+    run(other, "dmpFlow", "-set", law, "-set", "system/control.yaml:/endStrain=0.9")
+    assert tables(other)["rbc"][-1]["bondsBroken"] == ends["np1"]["bondsBroken"] and tables(other)["rbc"][-1]["maxDamage"] < 1e-3
+
+
 def test_firstBreak(folder):
     """stop.firstBreak ends a run at the step of the first break with exit code 5; without a break the run goes to its end."""
     case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)

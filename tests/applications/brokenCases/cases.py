@@ -300,6 +300,8 @@ CASES = [
          "means nothing", "'integrator: implicit'", "shifted at every step"),
     case("shiftingStepsWithCorrected", [IMMERSED, append(NUMERICS, "operators: corrected\nshifting: {coefficient: 1, steps: 10}\n")], NUMERICS,
          "shifting.steps", "10}", "means nothing", "'operators: corrected'", "shifted at every step"),
+    case("edgeTooCoarseForTears", replace(MEMBRANES, "rupture: none", "rupture: {type: cohesive, fractureEnergy: 4 pN, length: 1.5 um}"), MESH,
+         "cells[0].edge", "0.8 um", "too coarse for the tears of 'rbc'", "1.5 um", "at most half of it, 750 nm", "finer mesh"),
     case("edgeTooCoarseForImmersed", [IMMERSED, replace(NUMERICS, "spacing: 1 um", "spacing: 0.5 um"), replace(MESH, "0.8 um", "1.2 um")],
          MESH, "cells[0].edge", "1.2 um", "too coarse", "coupling: immersed", "2 dx", "1 um"),
     case("cellTooLongForImmersed", [IMMERSED, replace(MESH, "[20 um, 16 um, 16 um]", "[9 um, 16 um, 16 um]")], MESH, "cells[0].shape", "{type:",

@@ -70,6 +70,22 @@ geometry::MeshQuality checkSurface(const simulation::SurfaceSettings& surface, c
     return quality;
 }
 
+// Whether the mesh resolves the length over which the sheet weakens before it tears, if its rupture law has one.
+void checkTearLength(Application& app, const membrane::MembraneSettings& laws, double edge, ordered_json& json,
+                     const std::function<void(const std::string&)>& fault) {
+    const std::optional<double> length = laws.rupture ? laws.rupture->resolvedLength() : std::nullopt;
+    if (!length) return;
+    const double edges = *length / edge, least = 1 / membrane::RuptureLaw::edgeOfResolvedLength;
+    app.log().info("  the length of its tears, {}, is {:.2f} mean edges ({} or more resolve it)",
+                   formatQuantity(*length, unit::metre), edges, least);
+    json["tearLengthInEdges"] = edges;
+    if (edges < (1 - edgeTolerance) * least)
+        fault(
+            fmt::format("the length of its tears in constant/membranes.yaml, {}, is {:.2f} mean edges, and {} or more "
+                        "are needed to resolve it: take a finer mesh or a greater length",
+                        formatQuantity(*length, unit::metre), edges, least));
+}
+
 // Returns whether all meshes are closed surfaces; likewise checkBodies.
 bool checkCells(Application& app, const Case& input, const std::vector<TriangleMesh>& meshes, ordered_json& json,
                 Faults& faults) {
@@ -79,7 +95,8 @@ bool checkCells(Application& app, const Case& input, const std::vector<TriangleM
         const auto fault = [&](const std::string& text) { faults.push_back("cell '" + cell.name + "': " + text); };
         const geometry::MeshQuality quality = checkSurface(cell, meshes[c], areSound, fault);
         app.log().info("cell {}\n{}", cell.name, utilities::indented(quality.text()));
-        json["cells"][cell.name] = {{"quality", utilities::toJson(quality)}};
+        checkTearLength(app, input.membraneOf(cell), quality.edgeMean, json["cells"][cell.name], fault);
+        json["cells"][cell.name]["quality"] = utilities::toJson(quality);
         try {
             const membrane::NetworkModuli moduli = utilities::moduliOf(meshes[c], input.membraneOf(cell));
             app.log().info("{}", utilities::indented(membrane::describe(moduli)));
