@@ -32,9 +32,9 @@ CellContacts::Surfaces CellContacts::surfacesOf(const Cells& cells,
         auto [at, isNew] = now.try_emplace(&network);
         if (isNew) {
             const auto before = known.find(&network);
-            const bool holds = before != known.end() && before->second.broken == network.brokenTriangles() &&
+            const bool holds = before != known.end() && before->second.changes == network.changes() &&
                                before->second.surface->nodes() == network.nodeCount();
-            at->second = holds ? before->second : Known{network.brokenTriangles(), surfaceOf(network)};
+            at->second = holds ? before->second : Known{network.changes(), surfaceOf(network)};
         }
         surfaces.push_back(at->second.surface);
     }

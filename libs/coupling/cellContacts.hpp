@@ -68,9 +68,9 @@ class CellContacts {
     struct AtWall : contact::AtWall {
         std::size_t cell;  // index of the cell
     };
-    // The surface made of the whole triangles of a network, and how many triangles were broken then.
+    // The surface made of the whole triangles of a network, and Network::changes() then.
     struct Known {
-        int broken;
+        long changes;
         std::shared_ptr<const contact::Surface> surface;
     };
     using Surfaces = std::vector<std::shared_ptr<const contact::Surface>>;

@@ -243,7 +243,7 @@ Cell Cells::unpacked(const std::vector<double>& message, std::size_t& at) const 
     for (Vec3& x : m.position) x = vector();
     for (Vec3& u : m.velocity) u = vector();
     std::vector<char> alive(m.network().allBonds().size());
-    for (char& bond : alive) bond = number() != 0;
+    for (char& bond : alive) bond = static_cast<char>(number());
     std::vector<double> damage(m.damage().size());
     for (double& d : damage) d = number();
     m.restore(std::move(alive), std::move(damage));

@@ -12,25 +12,26 @@ namespace {
 constexpr double shareOfStep = 1e-3, strainOfBreaks = 1e-4, shareOfBroken = 0.05;
 
 // The root of an increasing function between `before`, where it is negative, and `after`, where it is not, from above
-// and to within `enough`: the Illinois variant of the regula falsi.
+// and to within `enough`: the Illinois variant of the regula falsi, and bisection where it moves one side only.
 template <class Function>
 double rootFromAbove(double before, double after, double valueBefore, double valueAfter, double enough,
                      Function&& function) {
     constexpr int most = 60;
-    int side = 0;
+    int repeats = 0;  // times in a row that `after` (positive) or `before` (negative) has been replaced
     for (int k = 0; k < most && after - before > enough; ++k) {
-        double middle = before - valueBefore * (after - before) / (valueAfter - valueBefore);
+        double middle = std::abs(repeats) > 2 ? 0.5 * (before + after)
+                                              : before - valueBefore * (after - before) / (valueAfter - valueBefore);
         // At least a part of `enough` from the ends, so that both ends close in on the root.
         middle = std::clamp(middle, before + 0.4 * enough, after - 0.4 * enough);
         const double value = function(middle);
         if (value > 0) {
             after = middle, valueAfter = value;
-            if (side == 1) valueBefore *= 0.5;
-            side = 1;
+            if (repeats > 0) valueBefore *= 0.5;
+            repeats = std::max(repeats, 0) + 1;
         } else {
             before = middle, valueBefore = value;
-            if (side == -1) valueAfter *= 0.5;
-            side = -1;
+            if (repeats < 0) valueAfter *= 0.5;
+            repeats = std::min(repeats, 0) - 1;
         }
     }
     return after;
@@ -48,8 +49,7 @@ BreakTimes findBreaks(const coupling::Immersed& immersed, MPI_Comm comm, double 
         if (!cell.membrane.canRupture()) continue;
         const coupling::Immersed::Vectors start = cell.departure(begun);
         coupling::Immersed::Vectors x(start.size());
-        // Time from which more than `number` elements should have broken.
-        // and by an excess of `least`.
+        // Time from which more than `number` elements should have broken, by an excess of `least`.
         const auto timeOf = [&](std::size_t number, double least) {
             const auto excess = [&](double t) {
                 for (std::size_t n = 0; n < x.size(); ++n) x[n] = start[n] + t * velocity[layout.first(c) + n];
@@ -88,7 +88,7 @@ bool BreakSearch::accepts(const BreakTimes& breaks) {
     const bool isClosed = shortestAfter_ - longestBefore_ <= 0.5 * resolution_;
     if (++tries_ >= mostTries || isClosed) {
         // A step that ends after the break is the only one that breaks anything.
-        if (!isBefore) return isCoarse_ = true;
+        if (!isBefore || d >= shortestAfter_) return isCoarse_ = true;
         length_ = shortestAfter_;
         return false;
     }

@@ -50,8 +50,8 @@ class BreakSearch {
     // Takes the breaks in a step of length(). Returns true if this step is the one to be made, and otherwise sets
     // length() for another one.
     bool accepts(const BreakTimes& breaks);
+    bool isShortened() const { return shortestAfter_ != never; }  // below the length asked for
     // Whether bonds break that no step could be made to end at closely enough.
-    bool isShortened() const { return shortestAfter_ != never; }
     bool isCoarse() const { return isCoarse_; }
 
   private:

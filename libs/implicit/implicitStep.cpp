@@ -80,8 +80,8 @@ class Step final : public ImplicitStep {
                                       "system/numerics.yaml",
                                       state.steps + 1, fault_, 1 << halvings));
         ++statistics.halvings;
-        const Made made = make(0.5 * dt, true, halvings + 1);
-        if (!made.broken.empty() || made.length < 0.5 * dt) return made;
+        Made made = make(0.5 * dt, true, halvings + 1);
+        if (isAfterBreak() || made.length < 0.5 * dt) return made;  // the same on all ranks
         Made later = make(0.5 * dt, true, halvings + 1);
         later.length += made.length;
         return later;

@@ -34,9 +34,9 @@
 //
 // Breaks. After a break the next one is often near, and the velocity changes as fast as the membrane around the hole
 // relaxes. The step after a break is at most twice as long as the time between the last two breaks; each step in which
-// nothing breaks doubles this limit. Where cells can break, the first step is at most a strain of 0.0125, because a
-// break early in a run comes too early by up to 2 % of its strain if the start of the flow is passed over in one step
-// of 0.1.
+// nothing breaks doubles this limit, and one that was shortened because damage grew sets it to twice its length. Where
+// cells can break, the first step is at most a strain of 0.0125, because a break early in a run comes too early by up
+// to 2 % of its strain if the start of the flow is passed over in one step of 0.1.
 //
 // Bonds. No bond may change its length by more than bondStrain in one step: dt <= bondStrain/max |d/dt ln l|.
 #pragma once

@@ -18,7 +18,11 @@
 // stress-free area, at which damage begins. G and tau of the membrane of a red cell are assumptions of the case: we
 // know of no measurement. The rim of a hole can have a line tension besides (rim.hpp).
 //
-// Damage that grows is an event of an implicit step: no node gains more than 0.4 in one.
+// Damage that grows is an event of an implicit step, which ends where a node has gained between 0.2 and 0.4. Once the
+// cell has lost bonds, as many nodes as 5 % of these may gain more (implicit/breakSearch.hpp).
+//
+// A hole that has closed stays one of a cell that was open: its volume, area and the sides of the fluid are not held
+// again (network.hpp).
 #pragma once
 #include <optional>
 

@@ -61,7 +61,7 @@ class ElementTerm final : public Term {
         for (const auto& element : elementsOf(network_, Coordinate{})) {
             const double q = at(element, x).value;
             double energy = law_.energy(q, element.rest);
-            if (network_.isWeakened()) {
+            if (network_.isWeakened() && std::isfinite(energy)) {
                 energy -= (1 - share(element.number, 1)) * tensile(q, element.rest);
             }
             sum += weighting_.of(element.number) * energy;

@@ -109,6 +109,8 @@ void Network::compact() {
     rimBonds_.clear();
     wholeTriangles_.clear();
     brokenTriangle_.assign(triangles_.size(), 0);
+    wasOpen_ = std::any_of(alive_.begin(), alive_.end(), [](char alive) { return alive != 1; });
+    ++changes_;
     for (const Bond& bond : allBonds_) {
         if (alive_[bond.number]) {
             bonds_.push_back(bond);
@@ -163,7 +165,7 @@ void Network::breakBonds(std::span<const int> numbers) {
 
 void Network::mendBonds(std::span<const int> numbers) {
     for (const int number : numbers) {
-        alive_.at(number) = 1;
+        alive_.at(number) = 2;
     }
     compact();
 }

@@ -8,10 +8,11 @@
 // Corners, hinges and the bonds of rims are stored only after useCorners(), useHinges() and useRims(), which the terms
 // that need them call.
 //
-// Rupture: an element is removed permanently when a bond that is part of it breaks. A broken bond therefore removes:
-// itself; its two triangles, which become a hole; the corners of which it is a side; and the hinges of both triangles
-// (a broken triangle has no normal, and the rim of a hole bears no moment). The other bonds of a broken triangle stay.
-// The lists below hold the remaining ("living") elements only, in order, so that loops over them need no test.
+// Rupture: an element is removed, until a rupture law mends it, when a bond that is part of it breaks. A broken bond
+// therefore removes: itself; its two triangles, which become a hole; the corners of which it is a side; and the hinges
+// of both triangles (a broken triangle has no normal, and the rim of a hole bears no moment). The other bonds of a
+// broken triangle stay. The lists below hold the remaining ("living") elements only, in order, so that loops over them
+// need no test.
 //
 // Weakening: a membrane that tears gradually keeps, of its energy in tension, a share for each triangle (cohesive.hpp).
 // A bond has the mean share of its triangles.
@@ -67,7 +68,7 @@ class Network {
     double meanBondLength() const;  // at rest, m
 
     void breakBonds(std::span<const int> numbers);  // bonds already broken are ignored
-    void mendBonds(std::span<const int> numbers);   // makes them living bonds again
+    void mendBonds(std::span<const int> numbers);   // makes them living bonds again; the cell stays open
     // Sets the share of every triangle, broken or not; empty: all are 1.
     void weaken(std::vector<double> shares) { shares_ = std::move(shares); }
     bool isWeakened() const { return !shares_.empty(); }
@@ -77,7 +78,11 @@ class Network {
     bool isBroken(int triangle) const { return brokenTriangle_[triangle] != 0; }
     int brokenBonds() const { return static_cast<int>(allBonds_.size() - bonds_.size()); }
     int brokenTriangles() const { return static_cast<int>(triangles_.size() - wholeTriangles_.size()); }
-    bool isOpen() const { return hasBorder_ || brokenTriangles() > 0; }
+    // Whether a triangle is broken, or was: what has left through a hole does not come back when it closes, so that
+    // nothing may hold volume, area or sides of a cell that was open.
+    bool wasOpen() const { return wasOpen_; }
+    bool isOpen() const { return hasBorder_ || wasOpen_; }
+    long changes() const { return changes_; }  // of the lists, so far
 
     // Rims of the holes: closed loops of nodes along edges of whole triangles, in the orientation of these triangles.
     // Each loop begins at its bond of lowest number, so that the order is fixed. Borders of the original mesh are not
@@ -86,8 +91,8 @@ class Network {
     double holeRestArea() const;                     // stress-free area of the broken triangles, m^2
     double holeArea(std::span<const Vec3> x) const;  // present area of fans about the rims' mean points, m^2
 
-    // State for a checkpoint, one value per bond. restore() gives the same lists as in the run that wrote it, and so
-    // bitwise the same results.
+    // State for a checkpoint, one value per bond: 1 living, 0 broken, 2 mended. restore() gives the same lists as in
+    // the run that wrote it, and so bitwise the same results.
     const std::vector<char>& aliveBonds() const { return alive_; }
     void restore(std::vector<char> alive);
 
@@ -102,7 +107,8 @@ class Network {
     std::vector<Bond> allBonds_;
     std::vector<Index3> triangleBonds_;
     std::vector<std::array<int, 2>> bondTriangles_;
-    bool hasBorder_ = false;
+    bool hasBorder_ = false, wasOpen_ = false;
+    long changes_ = 0;
     bool useCorners_ = false, useHinges_ = false, useRims_ = false;
 
     std::vector<char> alive_, brokenTriangle_;

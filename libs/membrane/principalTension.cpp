@@ -1,5 +1,6 @@
 #include "membrane/principalTension.hpp"
 
+#include "core/error.hpp"
 #include "core/registry.hpp"
 #include "membrane/diagnostics.hpp"
 
@@ -16,9 +17,16 @@ std::vector<BrokenBond> PrincipalTension::select(const RuptureStep& now) const {
 }
 
 std::vector<double> PrincipalTension::excesses(const RuptureStep& now) const {
+    constexpr double farBeyond = 1e3;
     std::vector<double> all;
-    for (const int t : now.network.wholeTriangles())
-        all.push_back(principalTensions(now.network, now.laws, t, now.x).first / limit - 1);
+    for (const int t : now.network.wholeTriangles()) {
+        try {
+            all.push_back(principalTensions(now.network, now.laws, t, now.x).first / limit - 1);
+        } catch (
+            const Failure&) {  // a bond beyond its contour length, in a step that is longer than the one to be made
+            all.push_back(farBeyond);
+        }
+    }
     return all;
 }
 

@@ -2,7 +2,8 @@
 // defined in network.hpp.
 //
 // A criterion also tells how far each living element, a bond or a triangle, is from breaking: its excess e is what the
-// criterion limits, divided by the limit, less 1, so that it breaks where e > 0. Implicit steps end where the first e
+// criterion limits, divided by the limit, less 1, so that it breaks where e > 0 (of a law that weakens the sheet first:
+// the growth of damage at each node, divided by what a step may add, less 1). Implicit steps end where the first e
 // becomes 0 (implicit/breakSearch.hpp).
 //
 // A criterion of the sheet (strain, tension, damage) selects triangles; in each of them the bond with the greatest

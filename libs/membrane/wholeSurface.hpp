@@ -26,7 +26,7 @@ class WholeSurfaceTerm : public Term {
     const Network& network_;
 
   private:
-    bool letGo() const { return network_.brokenTriangles() > 0; }
+    bool letGo() const { return network_.wasOpen(); }
     double slope(std::span<const Vec3> x) const { return modulus_ * (value(x) / rest_ - 1); }
     double modulus_, rest_;
 };

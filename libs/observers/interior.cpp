@@ -25,7 +25,7 @@ Interior total(const std::vector<Interior>& cells) {
 std::vector<Interior> interiors(const coupling::Scene& scene) {
     const particles::ParticleStore& s = scene.store();
     const auto broken = ofEachCell(
-        scene, 1, [](const coupling::Cell& cell, double* out) { *out = cell.membrane.network().brokenTriangles(); });
+        scene, 1, [](const coupling::Cell& cell, double* out) { *out = cell.membrane.network().wasOpen() ? 1 : 0; });
     const TrueSides sides(scene);
     std::vector<double> sums(numbers * scene.cells.count(), 0.0);
     for (std::size_t i = 0; i < s.size(); ++i) {

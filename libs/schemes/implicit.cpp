@@ -70,8 +70,10 @@ class ImplicitStepper final : public Stepper {
         if (const double breaks = step_->allowed().breaks; breaks > 0)
             limits.add(
                 "breaks", breaks,
-                "bonds break in quick succession: the limit of 'rupture' in constant/membranes.yaml is far below "
-                "what the flow does to the membrane");
+                "cells can break: the first steps are short, and so are those while bonds break in quick succession. "
+                "If it "
+                "goes on, the membrane bears far less than what the flow does to it: in constant/membranes.yaml take a "
+                "greater limit or fractureEnergy, or in constant/flow.yaml a smaller shear rate");
         return limits;
     }
 
@@ -94,7 +96,7 @@ class ImplicitStepper final : public Stepper {
             "implicit step: {:.1f} iterations per step, {} at most; {:.1f} inner ones on the nodes; refined {} times, "
             "halved {} times",
             perStep, statistics.mostIterations, inner, statistics.refinements, statistics.halvings);
-        if (statistics.breaks == 0) return;
+        if (statistics.breaks == 0 && statistics.breakTries == 0) return;
         record.set("performance", "stepsThatBreak", statistics.breaks);
         record.set("performance", "triesForBreaks", statistics.breakTries);
         record.set("performance", "coarseBreaks", statistics.coarseBreaks);

@@ -117,7 +117,8 @@ void checkTearLength(const Case& c, const CellTypeSettings& cell, const std::str
     if (type == c.membranes.types.end() || !type->second.rupture || !wrongScale(c, cell).empty()) return;
     const std::optional<double> length = type->second.rupture->resolvedLength();
     const double edge = cell.largestScale() * cell.edge;
-    if (length && edge > membrane::RuptureLaw::edgeOfResolvedLength * *length)
+    constexpr double rounding = 1 + 1e-9;
+    if (length && edge > rounding * membrane::RuptureLaw::edgeOfResolvedLength * *length)
         problems.add({"system/mesh.yaml", 0, 0}, key + ".edge",
                      "found " + formatQuantity(edge, unit::metre) + ", too coarse for the tears of '" + cell.type() +
                          "' in constant/membranes.yaml, whose length is " + formatQuantity(*length, unit::metre) +
