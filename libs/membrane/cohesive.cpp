@@ -9,7 +9,7 @@
 namespace corpuscle::membrane {
 
 namespace {
-constexpr double leastShare = 0.01, mendedShare = 0.25, growth = 0.2;
+constexpr double leastShare = 0.01, resealedShare = 0.25, growth = 0.2;
 }
 
 void Cohesive::gather(const RuptureStep& now, std::span<double> damage) const {
@@ -36,11 +36,11 @@ std::vector<BrokenBond> Cohesive::select(const RuptureStep& now) const {
     return broken;
 }
 
-std::vector<int> Cohesive::mended(const RuptureStep& now) const {
+std::vector<int> Cohesive::resealed(const RuptureStep& now) const {
     std::vector<int> bonds;
     if (!resealing) return bonds;
     for (const Bond& bond : now.network.allBonds())
-        if (!now.network.aliveBonds()[bond.number] && now.network.shareOfBond(bond.number) > mendedShare)
+        if (!now.network.aliveBonds()[bond.number] && now.network.shareOfBond(bond.number) > resealedShare)
             bonds.push_back(bond.number);
     return bonds;
 }

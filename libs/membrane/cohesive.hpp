@@ -40,7 +40,7 @@ struct Cohesive : RuptureLaw {
     void gather(const RuptureStep& now, std::span<double> damage) const override;
     std::vector<double> shares(const Network& network, std::span<const double> damage) const override;
     std::vector<BrokenBond> select(const RuptureStep& now) const override;
-    std::vector<int> mended(const RuptureStep& now) const override;
+    std::vector<int> resealed(const RuptureStep& now) const override;
     std::vector<double> excesses(const RuptureStep& now) const override;
     double tolerance() const override { return 1; }
     double tearLength(const Network& network, std::span<const double> damage) const override;

@@ -12,7 +12,7 @@
 // psi    | energy in tension without the share, for each stress-free area                                    | J/m^2
 // Gg     | G (1 - 3 h/(8 l))^2                                                                               | J/m
 // h      | sqrt(sqrt(3) A0), height of an equilateral triangle of the same stress-free area                  | m
-// A tear costs G for each length. On a mesh, d = 1 in a row of triangles, of height h, which by itself costs
+// A tear costs G for each length. On a mesh, d = 1 in a row of triangles, of height h, which alone costs
 // 3/8 G h/l; both sides together cost sqrt(G Gg), the rest. The sheet is elastic up to
 //     psi_c = 3 G/(16 l)
 // which is the strength sqrt(2 E psi_c) of a sheet of Young's modulus E [N/m] under uniaxial tension. Around a slit of

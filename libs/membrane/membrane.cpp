@@ -132,8 +132,8 @@ std::vector<BrokenBond> Membrane::findBroken(double dt) {
     laws().rupture->gather(ruptureStep(position, dt), damage_);
     if (canWeaken()) {
         weaken();
-        if (const std::vector<int> mended = laws().rupture->mended(ruptureStep(position, dt)); !mended.empty())
-            ownNetwork().mendBonds(mended);
+        if (const std::vector<int> resealed = laws().rupture->resealed(ruptureStep(position, dt)); !resealed.empty())
+            ownNetwork().resealBonds(resealed);
     }
     return laws().rupture->select(ruptureStep(position, dt));
 }

@@ -163,7 +163,7 @@ void Network::breakBonds(std::span<const int> numbers) {
     compact();
 }
 
-void Network::mendBonds(std::span<const int> numbers) {
+void Network::resealBonds(std::span<const int> numbers) {
     for (const int number : numbers) {
         alive_.at(number) = 2;
     }

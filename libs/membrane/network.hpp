@@ -8,7 +8,7 @@
 // Corners, hinges and the bonds of rims are stored only after useCorners(), useHinges() and useRims(), which the terms
 // that need them call.
 //
-// Rupture: an element is removed, until a rupture law mends it, when a bond that is part of it breaks. A broken bond
+// Rupture: an element is removed, until a rupture law reseals it, when a bond that is part of it breaks. A broken bond
 // therefore removes: itself; its two triangles, which become a hole; the corners of which it is a side; and the hinges
 // of both triangles (a broken triangle has no normal, and the rim of a hole bears no moment). The other bonds of a
 // broken triangle stay. The lists below hold the remaining ("living") elements only, in order, so that loops over them
@@ -67,8 +67,8 @@ class Network {
     const std::array<int, 2>& bondTriangles(int bond) const { return bondTriangles_[bond]; }
     double meanBondLength() const;  // at rest, m
 
-    void breakBonds(std::span<const int> numbers);  // bonds already broken are ignored
-    void mendBonds(std::span<const int> numbers);   // makes them living bonds again; the cell stays open
+    void breakBonds(std::span<const int> numbers);   // bonds already broken are ignored
+    void resealBonds(std::span<const int> numbers);  // makes them living bonds again; the cell stays open
     // Sets the share of every triangle, broken or not; empty: all are 1.
     void weaken(std::vector<double> shares) { shares_ = std::move(shares); }
     bool isWeakened() const { return !shares_.empty(); }
@@ -91,7 +91,7 @@ class Network {
     double holeRestArea() const;                     // stress-free area of the broken triangles, m^2
     double holeArea(std::span<const Vec3> x) const;  // present area of fans about the rims' mean points, m^2
 
-    // State for a checkpoint, one value per bond: 1 living, 0 broken, 2 mended. restore() gives the same lists as in
+    // State for a checkpoint, one value per bond: 1 living, 0 broken, 2 resealed. restore() gives the same lists as in
     // the run that wrote it, and so bitwise the same results.
     const std::vector<char>& aliveBonds() const { return alive_; }
     void restore(std::vector<char> alive);

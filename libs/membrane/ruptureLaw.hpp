@@ -57,7 +57,7 @@ class RuptureLaw {
     // Living bonds that break now, in the order of their numbers; the damage is up to date.
     virtual std::vector<BrokenBond> select(const RuptureStep& now) const = 0;
     // Broken bonds that hold again.
-    virtual std::vector<int> mended(const RuptureStep& /*now*/) const { return {}; }
+    virtual std::vector<int> resealed(const RuptureStep& /*now*/) const { return {}; }
     // The excess e of each living element. The damage is that before now.dt.
     virtual std::vector<double> excesses(const RuptureStep& now) const = 0;
     // The greatest e with which a step may end, if that of the first break need not be met closely.

@@ -210,7 +210,7 @@ TEST(Cohesive, HealsWhereTheLipsMeetAgain) {
 
 // What has left through a hole does not come back when it closes: a closed cell that was open stays so, and its volume
 // is not held again, also after a restart.
-TEST(Cohesive, AMendedCellStaysOneThatWasOpen) {
+TEST(Cohesive, AResealedCellStaysOneThatWasOpen) {
     const std::string laws =
         "{bonds: {type: harmonic, k: 1 N/m}, volume: {modulus: 5 Pa}, rupture: {type: cohesive, "
         "fractureEnergy: 1 N, length: 1 m, resealing: 1 s}}";
