@@ -18,6 +18,7 @@ void findPressures(const Scene& scene, particles::RealArray& pressure) {
 std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long number, double dt) {
     if (options.densityBalance && number % options.balanceInterval == 0)
         options.densityBalance->apply(*scene.system, scene.cells);
+    if (scene.solute) scene.solute->arrive(scene.cells);
     std::vector<RuptureEvent> events;
     for (Cell& cell : scene.cells) {
         if (!cell.membrane.canRupture()) continue;

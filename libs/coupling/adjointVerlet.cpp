@@ -48,6 +48,7 @@ class Verlet final : public AdjointVerlet {
         if (scene_.system->mustRebuild()) scene_.system->rebuild();
         evaluate(half);
         accelerate(dt, half);
+        scene_.moveSolute(dt, half);
         findMoves(dt);
         drift(half);
         move();

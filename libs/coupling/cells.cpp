@@ -94,6 +94,10 @@ bool Cells::canRupture() const {
     return std::any_of(types_.begin(), types_.end(), [](const CellType& type) { return bool(type.settings.rupture); });
 }
 
+bool Cells::havePores() const {
+    return std::any_of(types_.begin(), types_.end(), [](const CellType& type) { return !!type.settings.pores; });
+}
+
 std::size_t Cells::indexOf(int number) const {
     const auto at = std::lower_bound(held_.begin(), held_.end(), number,
                                      [](const Cell& cell, int n) { return cell.membrane.cell < n; });
@@ -213,7 +217,7 @@ void Cells::resettle(const ParticleSystem& system) {
               [](const Cell& a, const Cell& b) { return a.membrane.cell < b.membrane.cell; });
 }
 
-// Number, reach, arc, positions and velocities of the nodes, which bonds are unbroken, damage.
+// Number, reach, arc, positions and velocities of the nodes, which bonds are unbroken, damage, pores.
 std::vector<double> Cells::packed(const Cell& cell) const {
     const membrane::Membrane& m = cell.membrane;
     std::vector<double> message{static_cast<double>(m.cell)};
@@ -225,6 +229,7 @@ std::vector<double> Cells::packed(const Cell& cell) const {
     const std::vector<char>& alive = m.network().aliveBonds();
     message.insert(message.end(), alive.begin(), alive.end());
     message.insert(message.end(), m.damage().begin(), m.damage().end());
+    message.insert(message.end(), m.pores().begin(), m.pores().end());
     return message;
 }
 
@@ -246,7 +251,9 @@ Cell Cells::unpacked(const std::vector<double>& message, std::size_t& at) const 
     for (char& bond : alive) bond = static_cast<char>(number());
     std::vector<double> damage(m.damage().size());
     for (double& d : damage) d = number();
-    m.restore(std::move(alive), std::move(damage));
+    std::vector<double> pores(m.pores().size());
+    for (double& share : pores) share = number();
+    m.restore(std::move(alive), std::move(damage), std::move(pores));
     return cell;
 }
 

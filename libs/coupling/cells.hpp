@@ -34,6 +34,7 @@ class Cells {
     std::pair<int, int> cellOfNode(std::int64_t node) const;  // number of the cell, and number of the node in it
     double meanBondLength() const;                            // the largest of all types [m]
     bool canRupture() const;                                  // whether any type has a rupture law
+    bool havePores() const;                                   // whether any type has a pore law
 
     // The cells that this rank holds, in the order of their numbers.
     auto begin() { return held_.begin(); }

@@ -11,6 +11,7 @@
 
 #include "core/communicator.hpp"
 #include "core/together.hpp"
+#include "coupling/nodeImages.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::coupling {
@@ -26,23 +27,6 @@ constexpr std::size_t moments = NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;
 using Quad = Eigen::Array4d;  // the four numbers of a particle; of a vector, its three components and 0
 Quad quadOf(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
 Vec3 vectorOf(const Quad& quad) { return quad.head<3>(); }
-
-// All images of x within `reach` of the rank's brick.
-template <class F>
-void forImages(const ParticleSystem& system, const Vec3& x, double reach, F&& f) {
-    const Periodicity& periodicity = system.periodicity();
-    const particles::Brick& brick = system.decomposition().own();
-    const Vec3 inside = periodicity.wrap(x);
-    int images[3];
-    const auto most = [&](int k) { return periodicity.slides() && k != periodicity.slidingAxis() ? 2 : 1; };
-    for (int k = 0; k < 3; ++k) images[k] = periodicity.isAlong(k) ? most(k) : 0;
-    for (int a = -images[0]; a <= images[0]; ++a)
-        for (int b = -images[1]; b <= images[1]; ++b)
-            for (int c = -images[2]; c <= images[2]; ++c) {
-                const Vec3 image = inside + periodicity.image({a, b, c}).shift;
-                if (particles::distanceSquared(image, brick.low, brick.high) < reach * reach) f(image);
-            }
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "bodies/bodies.hpp"
 #include "coupling/cellContacts.hpp"
 #include "coupling/dualIdentity.hpp"
+#include "coupling/soluteTransport.hpp"
 #include "particles/particleSystem.hpp"
 #include "sph/flow.hpp"
 #include "sph/fluidForces.hpp"
@@ -24,12 +25,18 @@ struct Scene {
     Cells cells;                               // empty for a fluid alone
     std::unique_ptr<CellContacts> contacts;    // null unless the case has contact
     std::unique_ptr<DualIdentity> coupling;    // null without cells
+    std::unique_ptr<SoluteTransport> solute;   // null unless the fluid carries a solute
     std::vector<RuptureEvent> broken;          // bonds broken in the last step, of the cells that this rank holds
     sph::Budget budget;                        // of energy and momentum; kept only if an observer asks for it
     // Fluid particles of this rank that had crossed a membrane and were moved back, since the start.
     long movedBack = 0;
     double spacing = 0;  // dx [m]
 
+    // Moves the solute, if there is one, for dt [s] at the present positions, `rest` before the end of the step; lists
+    // must be up to date. Collective.
+    void moveSolute(double dt, double rest = 0) {
+        if (solute) solute->advance(cells, *system, dt, rest);
+    }
     const sph::FluidModel& model() const { return forces->model(); }
     particles::ParticleStore& store() { return system->store(); }
     const particles::ParticleStore& store() const { return system->store(); }

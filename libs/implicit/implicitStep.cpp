@@ -278,6 +278,7 @@ class Step final : public ImplicitStep {
             s.densityRate[i] = -s.density[i] * rate_[i];
             s.density[i] = time.density(s.density[i], rate_[i]);
         }
+        scene_.moveSolute(time.dt, time.dt - time.begin());
         movement_.arrive(velocity_);
         state.behind = time.dt - time.begin(), state.lastSpacing = time.h;
     }

@@ -95,6 +95,24 @@ PrincipalTensions principalTensions(const Network& network, const MembraneSettin
     return result;
 }
 
+std::vector<double> isotropicTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x) {
+    std::vector<double> tension(network.triangles().size(), 0.0);
+    const AreaConstraint area = laws.area.value_or(AreaConstraint{});
+    double stressFree = 0, present = 0;
+    for (const double A0 : network.restAreas()) stressFree += A0;
+    const double target = area.restArea(network), scale = target / stressFree;
+    for (const int t : network.wholeTriangles()) {
+        const auto [tension1, tension2] = principalTensions(network, laws, t, x);
+        const double A = areaVector(x, network.triangles()[t]).norm(), A0 = scale * network.restAreas()[t];
+        const double share = A > A0 ? network.shareOfTriangle(t) : 1;
+        tension[t] = 0.5 * (tension1 + tension2) + share * area.local.value_or(0) * (A / A0 - 1);
+        present += A;
+    }
+    if (!area.global || network.wasOpen()) return tension;
+    for (const int t : network.wholeTriangles()) tension[t] += *area.global * (present / target - 1);
+    return tension;
+}
+
 std::vector<double> nodeStretch(const Network& network, std::span<const Vec3> x) {
     std::vector<double> stretch(network.nodeCount(), 0.0);
     std::vector<int> count(network.nodeCount(), 0);
@@ -132,6 +150,27 @@ std::vector<std::int64_t> holeOfNodes(const Network& network) {
         }
     }
     return hole;
+}
+
+std::vector<double> heldPressures(const Network& network, std::span<const Vec3> x, std::span<const Vec3> force) {
+    std::vector<Vec3> areas(network.nodeCount(), Vec3::Zero());
+    for (const int t : network.wholeTriangles()) {
+        const Index3& corner = network.triangles()[t];
+        for (const int n : corner) areas[n] += areaVector(x, corner) / 3;
+    }
+    std::vector<double> normal(areas.size()), area(areas.size());
+    for (std::size_t n = 0; n < areas.size(); ++n) {
+        area[n] = areas[n].norm();
+        normal[n] = area[n] > 0 ? -force[n].dot(areas[n]) / area[n] : 0;
+    }
+    std::vector<double> pressure = normal, around = area;
+    for (const Bond& bond : network.bonds()) {
+        const auto [a, b] = bond.node;
+        pressure[a] += normal[b], pressure[b] += normal[a];
+        around[a] += area[b], around[b] += area[a];
+    }
+    for (std::size_t n = 0; n < areas.size(); ++n) pressure[n] = around[n] > 0 ? pressure[n] / around[n] : 0;
+    return pressure;
 }
 
 double maxBondStrain(const Network& network, std::span<const Vec3> x) {

@@ -7,6 +7,11 @@
 //                    | over edge pairs (triangleTerm.hpp); angle, area and bending laws are not included
 // stretch            | mean l/l0 of the unbroken bonds of each node
 // hole               | number of the rim on which each node lies, from 1 in the order of Network::rims(); 0: none
+// isotropicTensions  | mean of tension1 and tension2 plus the tension of the area laws: k (A - A0)/A0 of the triangle
+//                    | and, in a membrane that was never torn, of the whole (areaConstraint.hpp), N/m
+// heldPressures      | pressure inside less that outside that these forces f of the membrane on the fluid hold, at each
+//                    | node with its neighbours: - sum f.n/sum A, A n: a third of the area vectors of a node's whole
+//                    | triangles, Pa
 // Arrays have one value per triangle or node of the original mesh; broken triangles and nodes without bonds have 0.
 #pragma once
 #include <cstdint>
@@ -30,10 +35,12 @@ std::pair<double, double> principalTensions(const Network& network, const Membra
 
 std::vector<double> areaStrain(const Network& network, std::span<const Vec3> x);
 PrincipalTensions principalTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);
+std::vector<double> isotropicTensions(const Network& network, const MembraneSettings& laws, std::span<const Vec3> x);
 std::vector<double> nodeStretch(const Network& network, std::span<const Vec3> x);
 std::vector<double> vertexAreas(const Network& network,
                                 std::span<const Vec3> x);  // a third of each whole triangle at the node, m^2
 std::vector<std::int64_t> holeOfNodes(const Network& network);
+std::vector<double> heldPressures(const Network& network, std::span<const Vec3> x, std::span<const Vec3> force);
 double maxBondStrain(const Network& network, std::span<const Vec3> x);   // largest l/l0 - 1; 0 without bonds
 double maxArealStrain(const Network& network, std::span<const Vec3> x);  // of the whole triangles; 0 if there are none
 // Largest tension1 of the whole triangles, N/m; 0 if there are none.

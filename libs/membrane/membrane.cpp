@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "membrane/diagnostics.hpp"
@@ -46,6 +47,7 @@ Membrane::Membrane(std::string nameOfCell, int cellNumber, std::vector<Vec3> nod
       force(nodes.size(), Vec3::Zero()),
       initialPosition_(std::move(nodes)),
       type_(std::move(type)) {
+    if (laws().pores) pores_.assign(network().nodeCount(), 0.0);
     if (!canRupture()) return;
     damage_.assign(laws().rupture->damageSize(network()), 0.0);
     if (laws().rupture->weakens()) whole_ = type_;
@@ -174,7 +176,19 @@ double Membrane::maxDamage() const {
 
 double Membrane::tearLength() const { return canRupture() ? laws().rupture->tearLength(network(), damage_) : 0; }
 
-void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage) {
+void Membrane::openPores(double dt) {
+    if (!laws().pores) return;
+    const std::vector<double> atRest = laws().pores->atRest(network(), laws(), position);
+    for (std::size_t n = 0; n < pores_.size(); ++n) pores_[n] = laws().pores->after(pores_[n], atRest[n], dt);
+}
+
+double Membrane::poreArea() const {
+    if (pores_.empty()) return 0;
+    const std::vector<double> areas = vertexAreas();
+    return std::inner_product(areas.begin(), areas.end(), pores_.begin(), 0.0);
+}
+
+void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage, std::vector<double> pores) {
     if (!damage.empty() && !damage_.empty() && damage.size() != damage_.size()) {
         throw Failure(ExitCode::io, "checkpoint holds the damage of " + std::to_string(damage.size()) +
                                         " triangles or nodes of membrane " + name + ", which has " +
@@ -190,6 +204,10 @@ void Membrane::restore(std::vector<char> aliveBonds, std::vector<double> damage)
         damage_ = std::move(damage);
     }
     if (canWeaken()) weaken();
+    if (pores.size() == pores_.size())
+        pores_ = std::move(pores);
+    else
+        std::fill(pores_.begin(), pores_.end(), 0.0);
 }
 
 double Membrane::area() const {

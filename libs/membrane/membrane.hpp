@@ -87,8 +87,13 @@ class Membrane {
     const std::vector<double>& damage() const { return damage_; }
     double maxDamage() const;   // of the whole triangles or their nodes; 0 if none is kept
     double tearLength() const;  // by the rupture law (ruptureLaw.hpp), m
-    // State of a checkpoint. Throws Failure(ExitCode::io) when it is of another mesh or law.
-    void restore(std::vector<char> aliveBonds, std::vector<double> damage = {});
+    // Share of the present area at each node that is pores (poreLaw.hpp); empty without a pore law.
+    const std::vector<double>& pores() const { return pores_; }
+    void openPores(double dt);  // brings them up to the present positions, dt [s] after the last call
+    double poreArea() const;    // m^2
+    // State of a checkpoint. Throws Failure(ExitCode::io) when it is of another mesh or law. No pores: they begin
+    // closed.
+    void restore(std::vector<char> aliveBonds, std::vector<double> damage = {}, std::vector<double> pores = {});
 
     double area() const;  // of the whole triangles, m^2
     // Enclosed volume, m^3, where a fan of triangles over its rim closes each hole. Meaningless for a mesh that was
@@ -103,7 +108,7 @@ class Membrane {
     std::vector<Vec3> initialPosition_;
     std::shared_ptr<MembraneType> type_;
     std::shared_ptr<const MembraneType> whole_;  // as it was made, if the rupture law weakens the sheet; otherwise none
-    std::vector<double> damage_;
+    std::vector<double> damage_, pores_;
 };
 
 }  // namespace corpuscle::membrane

@@ -6,7 +6,12 @@ const Schema<InteriorSettings>& InteriorSettings::schema() {
     static const Schema<InteriorSettings> s =
         Schema<InteriorSettings>("interior", "the fluid inside the cell")
             .quantity("viscosityRatio", &InteriorSettings::viscosityRatio, unit::none,
-                      "viscosity inside over viscosity outside", {.fallback = "1", .range = positive});
+                      "viscosity inside over viscosity outside", {.fallback = "1", .range = positive})
+            .quantity(
+                "concentration", &InteriorSettings::concentration, unit::kilogramPerMetre3,
+                "concentration of the solute (solute in constant/fluid.yaml) at t = 0, 0 if not given; 330 kg/m^3 "
+                "of haemoglobin in red cells",
+                {.range = nonNegative});
     return s;
 }
 
@@ -29,6 +34,7 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
             .table("viscosity", &MembraneSettings::viscosity, "viscosity of the membrane itself")
             .modelOr("none", "rupture", &MembraneSettings::rupture, "when bonds break", {.fallback = "none"})
             .table("rim", &MembraneSettings::rim, "line tension of the rims of holes")
+            .modelOr("none", "pores", &MembraneSettings::pores, "pores that let a solute through", {.fallback = "none"})
             .check([](const MembraneSettings& m, const Node& node, Problems& problems) {
                 if (!m.bonds && !m.triangles) {
                     problems.add(node.place(), node.path,
@@ -38,8 +44,8 @@ const Schema<MembraneSettings>& MembraneSettings::schema() {
                 }
             })
             .atRestart(AtRestart::fixed, {"interior", "stressFree"})
-            .atRestart(AtRestart::noted,
-                       {"bonds", "triangles", "angles", "bending", "area", "volume", "viscosity", "rupture", "rim"});
+            .atRestart(AtRestart::noted, {"bonds", "triangles", "angles", "bending", "area", "volume", "viscosity",
+                                          "rupture", "rim", "pores"});
     return s;
 }
 

@@ -6,6 +6,7 @@
 #include "membrane/areaConstraint.hpp"
 #include "membrane/bendingLaw.hpp"
 #include "membrane/bondLaw.hpp"
+#include "membrane/poreLaw.hpp"
 #include "membrane/rim.hpp"
 #include "membrane/ruptureLaw.hpp"
 #include "membrane/surfaceViscosity.hpp"
@@ -15,7 +16,8 @@
 namespace corpuscle::membrane {
 
 struct InteriorSettings {
-    double viscosityRatio = 1;  // lambda = mu_in/mu_out
+    double viscosityRatio = 1;            // lambda = mu_in/mu_out
+    std::optional<double> concentration;  // of the solute at t = 0 [kg/m^3]; empty: 0
     static const Schema<InteriorSettings>& schema();
 };
 
@@ -31,6 +33,7 @@ struct MembraneSettings {
     std::optional<SurfaceViscosity> viscosity;
     Choice<RuptureLaw> rupture;  // empty: bonds never break
     std::optional<Rim> rim;      // empty: no line tension
+    Choice<PoreLaw> pores;       // empty: the membrane has none
     // Moduli of the sheet at small strain, summed over all laws; bonds count as a hexagonal network of this edge length
     // [m], in closed form.
     SurfaceModuli moduli(double edge) const;

@@ -93,6 +93,7 @@ struct Subject {
     bool cells = false, planeWalls = false;
     double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
     bool bodies = false;   // rigid bodies
+    bool solute = false;   // carried by the fluid
 };
 
 struct ObserverSettings {

@@ -1,8 +1,9 @@
 // The particles that a rank owns: double state in structure of arrays, no padding, sorted in columns (columns.hpp).
 //
 // What is uniform in a scene is not stored: mass and viscosity arrays exist only where they vary, side only where there
-// are cells, node only where there are membranes, member only where there are rigid bodies. Code that reorders, sends
-// or saves particles uses forEachField, so that a new field only has to be listed in `visit`.
+// are cells, node only where there are membranes, member only where there are rigid bodies, solute only where the fluid
+// carries one. Code that reorders, sends or saves particles uses forEachField, so that a new field only has to be
+// listed in `visit`.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -53,7 +54,7 @@ constexpr bool isBoundary(Kind kind) { return kind == Kind::wall || kind == Kind
 class ParticleStore {
   public:
     struct Optional {
-        bool mass = false, viscosity = false, side = false, node = false, member = false;
+        bool mass = false, viscosity = false, side = false, node = false, member = false, solute = false;
         bool operator==(const Optional&) const = default;
     };
 
@@ -65,6 +66,7 @@ class ParticleStore {
     RealArray xBuilt, yBuilt, zBuilt;  // position at the last list build [m]
     RealArray mass;                    // [kg], where it varies
     RealArray viscosity;               // dynamic viscosity [Pa s], where it varies
+    RealArray solute;                  // mass of a solute that the particle carries [kg], where there is one
     IntegerArray id;                   // unique, stable
     IntegerArray kind;                 // Kind
     IntegerArray side;                 // 0 outside, n inside cell n
@@ -110,6 +112,7 @@ class ParticleStore {
         f("xBuilt", s.xBuilt), f("yBuilt", s.yBuilt), f("zBuilt", s.zBuilt);
         if (s.optional_.mass) f("mass", s.mass);
         if (s.optional_.viscosity) f("viscosity", s.viscosity);
+        if (s.optional_.solute) f("solute", s.solute);
         f("id", s.id), f("kind", s.kind);
         if (s.optional_.side) f("side", s.side);
         if (s.optional_.node) f("node", s.node);

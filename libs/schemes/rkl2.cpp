@@ -21,6 +21,12 @@ class Rkl2Stepper final : public ExplicitStepper {
 
     double advance(double dt, double /*planned*/) override {
         step_.advance(dt);
+        if (!scene_.solute) return dt;
+        if (scene_.system->mustRebuild()) {  // the step ends with a drift
+            scene_.system->rebuild();
+            step_.resume();
+        }
+        scene_.moveSolute(dt);
         return dt;
     }
     // Its limits depend on the time.

@@ -32,6 +32,7 @@ class VelocityVerletStepper final : public ExplicitStepper {
 
     double advance(double dt, double /*planned*/) override {
         step_->advance(dt);
+        scene_.moveSolute(dt);
         if (!scene_.coupling) return dt;
         scene_.broken = scene_.coupling->endStep(*scene_.system, dt, budget());
         scene_.movedBack = scene_.coupling->guard().moves();

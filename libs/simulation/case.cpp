@@ -271,7 +271,8 @@ Case Case::read(const Application& app, const std::set<std::string>& unplaced) {
     resolveFlow(c, problems);
     settle(c);
     c.observers.check(c.files["system/observers.yaml"],
-                      {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty()},
+                      {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty(),
+                       c.fluid.solute.has_value()},
                       problems);
     c.throwIfAny(problems);
     return c;
@@ -340,7 +341,8 @@ sph::FluidModel Case::fluidModel() const {
             particleMass(),
             flow.bodyForce,
             flow.walls,
-            fluid.layers.empty() ? 0 : viscosities().least};
+            fluid.layers.empty() ? 0 : viscosities().least,
+            fluid.solute};
 }
 
 particles::Precision Case::precision() const {

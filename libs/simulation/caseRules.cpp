@@ -276,6 +276,32 @@ void checkFirstBreak(const Case& c, Problems& problems) {
                 joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
 }
 
+// What a solute and pores for it need of each other.
+void checkSolute(const Case& c, Problems& problems) {
+    const std::vector<std::string>& fields = c.control.write.fields;
+    if (!c.fluid.solute && std::find(fields.begin(), fields.end(), "concentration") != fields.end())
+        problems.add({"system/control.yaml", 0, 0}, "write.fields",
+                     "found concentration, but the fluid carries no solute; add 'solute' to constant/fluid.yaml, or "
+                     "leave concentration out");
+    for (const auto& [name, laws] : c.membranes.types) {
+        const Mark membranes{"constant/membranes.yaml", 0, 0};
+        if (!c.fluid.solute) {
+            const char* const cure = ", but the fluid carries no solute; add 'solute' to constant/fluid.yaml, or ";
+            if (laws.interior.concentration)
+                problems.add(membranes, name + ".interior.concentration",
+                             "found a concentration" + (cure + std::string("leave it out")));
+            if (laws.pores)
+                problems.add(membranes, name + ".pores", "found pores" + (cure + std::string("write pores: none")));
+        } else if (laws.pores && laws.pores->radius <= c.fluid.solute->radius)
+            problems.add(membranes, name + ".pores.radius",
+                         "found " + formatQuantity(laws.pores->radius, unit::metre) +
+                             ", through which the solute of constant/fluid.yaml does not pass: its molecules have the "
+                             "radius " +
+                             formatQuantity(c.fluid.solute->radius, unit::metre) +
+                             "; take larger pores, or another solute.radius");
+    }
+}
+
 void checkContact(const Case& c, Problems& problems) {
     if (c.contact && c.mesh.cells.empty())
         problems.add(
@@ -302,6 +328,7 @@ void checkTogether(const Case& c, Problems& problems) {
     schemes::check(c.numerics, c.written, c.facts(), problems);
     checkFirstBreak(c, problems);
     checkContact(c, problems);
+    checkSolute(c, problems);
     checkSupport(c, problems);
 }
 

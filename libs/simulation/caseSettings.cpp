@@ -16,7 +16,8 @@ const Schema<WriteSettings>& WriteSettings::schema() {
             .quantity("time", &WriteSettings::time, unit::second, "time between two writes", {.range = positive})
             .integer("steps", &WriteSettings::steps, "time steps between two writes", {.range = atLeast(1)})
             .atMostOneOf({"strain", "time", "steps"})
-            .words("fields", &WriteSettings::fields, {"velocity", "density", "pressure", "meanPressure", "side"},
+            .words("fields", &WriteSettings::fields,
+                   {"velocity", "density", "pressure", "meanPressure", "side", "concentration"},
                    "arrays of the fluid; meanPressure: over the kernel's support on the particle's own side, without "
                    "the noise of single particles",
                    {.fallback = "[velocity, density, pressure]"})
@@ -254,6 +255,7 @@ const Schema<FluidSettings>& FluidSettings::schema() {
                   "layers of other viscosities between two walls, from the lowest up, at t = 0; for a fluid alone",
                   {.fallback = "[]"})
             .model("equationOfState", &FluidSettings::equationOfState, "pressure from density", {.fallback = "tait"})
+            .table("solute", &FluidSettings::solute, "a solute that the fluid carries, such as haemoglobin")
             .atRestart(AtRestart::resolved, {"density", "viscosity"})
             .atRestart(AtRestart::fixed, {"layers"})
             .atRestart(AtRestart::noted, {"equationOfState"});

@@ -123,6 +123,7 @@ struct FluidSettings {
     double density = 0, viscosity = 0;
     std::vector<LayerSettings> layers;  // from the lowest up
     Choice<sph::EquationOfState> equationOfState;
+    std::optional<sph::Solute> solute;
     static const Schema<FluidSettings>& schema();
 };
 

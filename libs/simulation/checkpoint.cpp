@@ -55,7 +55,7 @@ void restoreBudget(sph::Budget& budget, const std::vector<double>& all, bool sam
 }
 
 // Each type of cell has a group of datasets with one row for each cell, written by the cell's owner: its number, the
-// reach by which its holders were found, positions and velocities of its nodes, unbroken bonds, damage.
+// reach by which its holders were found, positions and velocities of its nodes, unbroken bonds, damage, pores.
 std::string groupOf(const coupling::CellType& type) { return "cells/" + type.name + "/"; }
 
 // Number of the values of damage that each cell of the type has.
@@ -72,7 +72,7 @@ template <class File>
 void saveType(File& file, const Scene& scene, std::size_t type) {
     const coupling::CellType& of = scene.cells.types()[type];
     const std::string group = groupOf(of);
-    std::vector<double> reach, position, velocity, damage;
+    std::vector<double> reach, position, velocity, damage, pores;
     std::vector<std::int64_t> number, alive;
     const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (const Cell& cell : scene.cells) {
@@ -82,6 +82,7 @@ void saveType(File& file, const Scene& scene, std::size_t type) {
         add(reach, flat({cell.reach.min(), cell.reach.max()}));
         add(position, flat(m.position)), add(velocity, flat(m.velocity));
         add(alive, m.network().aliveBonds()), add(damage, m.damage());
+        add(pores, m.pores());
     }
     const auto count = [](std::size_t each) { return static_cast<int>(each); };
     file.writeDistributed(group + "number", number, 1);
@@ -91,6 +92,7 @@ void saveType(File& file, const Scene& scene, std::size_t type) {
     file.writeDistributed(group + "aliveBonds", alive, count(of.membrane->network().allBonds().size()));
     if (const std::size_t size = damageSize(of); size > 0)
         file.writeDistributed(group + damageName(of), damage, count(size));
+    if (of.settings.pores) file.writeDistributed(group + "pores", pores, count(of.nodes.size()));
 }
 
 // Adds this rank's cells of the type.
@@ -114,6 +116,8 @@ void loadType(File& file, const std::string& where, const Scene& scene, std::siz
     const std::size_t sizeOfDamage = damageSize(of);
     const auto damage = sizeOfDamage > 0 && file.has(group + damageName(of)) ? numbers(damageName(of), sizeOfDamage)
                                                                              : std::vector<double>{};
+    const auto pores =
+        of.settings.pores && file.has(group + "pores") ? numbers("pores", of.nodes.size()) : std::vector<double>{};
     const auto part = [](const auto& all, std::size_t k, std::size_t each) {
         const auto from = all.begin() + static_cast<std::ptrdiff_t>(k * each);
         return std::pair(from, from + static_cast<std::ptrdiff_t>(each));
@@ -125,12 +129,12 @@ void loadType(File& file, const std::string& where, const Scene& scene, std::siz
         const auto [u, uEnd] = part(velocity, k, of.nodes.size());
         const auto [bond, bondEnd] = part(alive, k, bonds);
         cell.membrane.position.assign(x, xEnd), cell.membrane.velocity.assign(u, uEnd);
-        std::vector<double> ofCell;
-        if (!damage.empty()) {
-            const auto [d, dEnd] = part(damage, k, sizeOfDamage);
-            ofCell.assign(d, dEnd);
-        }
-        cell.membrane.restore({bond, bondEnd}, std::move(ofCell));
+        const auto ofCell = [&](const std::vector<double>& all, std::size_t each) {
+            if (all.empty()) return std::vector<double>{};
+            const auto [from, to] = part(all, k, each);
+            return std::vector<double>(from, to);
+        };
+        cell.membrane.restore({bond, bondEnd}, ofCell(damage, sizeOfDamage), ofCell(pores, of.nodes.size()));
     }
 }
 

@@ -69,6 +69,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
     auto* density = wants("density") ? &data.point.scalars["density"] : nullptr;
     auto* pressure = wants("pressure") ? &data.point.scalars["pressure"] : nullptr;
     auto* meanPressure = wants("meanPressure") ? &data.point.scalars["meanPressure"] : nullptr;
+    auto* concentration = wants("concentration") ? &data.point.scalars["concentration"] : nullptr;
     std::vector<double> pressures, means;
     if (pressure || meanPressure)
         for (std::size_t i = 0; i < s.size(); ++i)
@@ -89,6 +90,7 @@ io::PolyData ResultsWriter::fluidPiece(const Scene& scene) const {
         if (density) density->push_back(s.density[i]);
         if (pressure) pressure->push_back(pressures[i]);
         if (meanPressure) meanPressure->push_back(means[i]);
+        if (concentration) concentration->push_back(scene.solute ? scene.solute->concentration(s, i) : 0);
     }
     return data;
 }
@@ -111,6 +113,7 @@ io::PolyData membranePiece(const membrane::Membrane& m, double spacing) {
     io::PolyData data;
     if (m.canRupture()) data.point.integers["hole"] = membrane::holeOfNodes(network);
     if (!m.damage().empty()) damageOf(*m.laws().rupture, data)["damage"] = m.damage();
+    if (!m.pores().empty()) data.point.scalars["pores"] = m.pores();
     data.points = m.position;
     data.triangles = network.triangles();
     addNumbers(data);
@@ -140,6 +143,7 @@ io::PolyData typePiece(const Scene& scene, std::size_t type) {
         all.point.integers["hole"];
         if (rupture->damageOf() != membrane::RuptureLaw::DamageOf::nothing) damageOf(*rupture, all)["damage"];
     }
+    if (scene.cells.types()[type].settings.pores) all.point.scalars["pores"];
     const int rank = scene.system->decomposition().rank();
     for (const Cell& cell : scene.cells) {
         if (cell.type != type || !cell.isOwnedBy(rank)) continue;

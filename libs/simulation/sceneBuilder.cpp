@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "contact/surface.hpp"
 #include "core/units.hpp"
 #include "coupling/immersed.hpp"
@@ -139,6 +141,14 @@ void forShare(std::size_t total, MPI_Comm comm, F&& f) {
 
 }  // namespace
 
+double cellMargin(const Case& c, double skin) {
+    double margin = c.numerics.isImmersed() ? coupling::Immersed::margin(c.spacing(), c.support(), skin)
+                                            : coupling::DualIdentity::margin(c.spacing(), skin);
+    for (const CellTypeSettings& cell : c.mesh.cells)
+        if (c.membraneOf(cell).pores) margin = std::max(margin, coupling::SoluteTransport::margin(c.spacing(), skin));
+    return margin;
+}
+
 Scene emptyScene(const Case& input, MPI_Comm comm) {
     const bool hasCells = !input.mesh.cells.empty(), hasBodies = !input.mesh.bodies.empty();
     Scene scene;
@@ -153,16 +163,13 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
                                          .viscosity = input.varyingViscosity(),
                                          .side = hasCells,
                                          .node = nodesAreParticles,
-                                         .member = hasBodies};
+                                         .member = hasBodies,
+                                         .solute = input.fluid.solute.has_value()};
     scene.system = std::make_unique<particles::ParticleSystem>(
         comm, input.particleBox(), fields, input.support(), input.scheme().traits().listsEveryStep ? 0 : input.skin(),
         input.spacing(), input.precision());
     if (input.flow.slides()) scene.system->slideImages(input.flow.gradient, input.flow.slide);
-    if (hasCells)
-        scene.cells = Cells(readTypes(input),
-                            input.numerics.isImmersed()
-                                ? coupling::Immersed::margin(scene.spacing, input.support(), scene.system->skin())
-                                : coupling::DualIdentity::margin(scene.spacing, scene.system->skin()));
+    if (hasCells) scene.cells = Cells(readTypes(input), cellMargin(input, scene.system->skin()));
     if (hasBodies) {
         addBodies(input, scene);
         if (input.scheme().traits().solvesForBodies) scene.system->pairWithinBodies();
@@ -171,6 +178,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
     if (input.contact && hasCells)
         scene.contacts = std::make_unique<coupling::CellContacts>(*input.contact, scene.model().walls);
+    if (input.fluid.solute) scene.solute = std::make_unique<coupling::SoluteTransport>(scene.model(), *scene.system);
     if (input.numerics.shifting && !input.scheme().traits().isAdjoint)  // adjoint schemes shift within every step
         scene.shifting = std::make_unique<sph::Shifting>(*input.numerics.shifting, *input.numerics.kernel,
                                                          input.support(), input.flow.rate, input.particleMass());
@@ -197,6 +205,11 @@ class StartingParticles {
             if (s_.optional().side) s_.side[i] = side[k];
             if (s_.optional().viscosity && side[k] > 0)
                 s_.viscosity[i] *= typeOf(static_cast<int>(side[k])).viscosityRatio;
+            if (scene_.solute)
+                s_.solute[i] =
+                    scene_.solute->volume(s_, i) *
+                    (side[k] > 0 ? typeOf(static_cast<int>(side[k])).settings.interior.concentration.value_or(0)
+                                 : scene_.solute->solute().concentration);
         });
         firstId_ += fluid.points.size();
     }
@@ -260,6 +273,7 @@ class StartingParticles {
         if (s_.optional().viscosity) s_.viscosity[i] = input_.viscosityAt(x);
         if (s_.optional().node) s_.node[i] = -1;
         if (s_.optional().member) s_.member[i] = -1;
+        if (s_.optional().solute) s_.solute[i] = 0;
         return i;
     }
 
@@ -284,7 +298,8 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
     scene.system->start();
     scene.cells.placeAtStart(*scene.system);
     requireClear(input, scene);
-    for (Cell& cell : scene.cells)  // membranes move with the flow
+    for (Cell& cell : scene.cells) cell.membrane.openPores(0);  // those that open at once
+    for (Cell& cell : scene.cells)                              // membranes move with the flow
         for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
             cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
     return scene;

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "coupling/dualIdentity.hpp"
-#include "coupling/immersed.hpp"
 #include "particles/isa.hpp"
 #include "schemes/cost.hpp"
+#include "simulation/sceneBuilder.hpp"
 
 namespace corpuscle::simulation {
 
@@ -21,6 +20,7 @@ struct MemoryCosts {
     static constexpr double program = 46e6, parallel = 6e6;  // of a rank; additional with several ranks
     static constexpr double plain = 600, plainLoaded = 730;
     static constexpr double corrected = 1150, correctedLoaded = 1500;
+    static constexpr double solute = 150;    // of a particle or a ghost that carries one
     static constexpr double network = 1500;  // of a node of a mesh, with its bonds and triangles, on each rank
 };
 
@@ -53,8 +53,7 @@ double ghostShare(const Case& c, int ranks, double reach) {
 // Mean number of ranks that hold a cell of this radius.
 double holdersOf(const Case& c, int ranks, double radius) {
     const Vec3 box = c.particleBox().size(), brick = evenBrick(c, ranks);
-    const double margin = c.numerics.isImmersed() ? coupling::Immersed::margin(c.spacing(), c.support(), c.skin())
-                                                  : coupling::DualIdentity::margin(c.spacing(), c.skin());
+    const double margin = cellMargin(c, c.skin());
     double holders = 1;
     for (int k = 0; k < 3; ++k)
         holders *= std::min(std::round(box[k] / brick[k]), 1 + 2 * (radius + margin) / brick[k]);
@@ -64,8 +63,9 @@ double holdersOf(const Case& c, int ranks, double radius) {
 double memoryOf(const Case& c, int ranks) {
     const double n = estimateParticles(c).all(), reach = c.support() + c.skin();
     const bool corrected = c.scheme().traits().isAdjoint, loaded = !c.mesh.cells.empty() || !c.mesh.bodies.empty();
-    const double each = corrected ? (loaded ? MemoryCosts::correctedLoaded : MemoryCosts::corrected)
-                                  : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain);
+    const double each = (corrected ? (loaded ? MemoryCosts::correctedLoaded : MemoryCosts::corrected)
+                                   : (loaded ? MemoryCosts::plainLoaded : MemoryCosts::plain)) +
+                        (c.fluid.solute ? MemoryCosts::solute : 0);
     const double across = reach / c.spacing() + 1, around = 4.2 * across * across * across;
     const double list = 0.65 * 1.5 * sizeof(int) * around / particles::blockLanes(c.precision());
     const double nodeMemory = c.scheme().traits().nodeMemory;
@@ -127,7 +127,7 @@ ParticleEstimate estimateParticles(const Case& c) {
 
 SizeEstimate estimateSize(const Case& c, int ranks) {
     constexpr double place = 38, component = 7.5, perNode = 170;  // compressed; perNode: a node with its two triangles
-    constexpr double state = 137, nodeState = 100;                // of a checkpoint
+    double state = 137, nodeState = 100;                          // of a checkpoint
     const ParticleEstimate particles = estimateParticles(c);
     const double n = particles.all(), written = n - particles.walls;
     double components = 0;
@@ -138,6 +138,7 @@ SizeEstimate estimateSize(const Case& c, int ranks) {
     SizeEstimate size;
     size.memory = memoryOf(c, ranks);
     size.perWrite = written * (place + component * components) + nodes * perNode;
+    if (c.fluid.solute) state += sizeof(double), nodeState += sizeof(double);
     size.checkpoint = n * state + nodes * nodeState;
     size.writes = writesOf(c);
     return size;

@@ -7,6 +7,7 @@
 // explains why).
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "boundary/walls.hpp"
 #include "particles/particleSystem.hpp"
@@ -14,6 +15,7 @@
 #include "sph/equationOfState.hpp"
 #include "sph/kernel.hpp"
 #include "sph/rigidGroups.hpp"
+#include "sph/solute.hpp"
 
 namespace corpuscle::sph {
 
@@ -27,6 +29,7 @@ struct FluidModel {
     Vec3 bodyForce = Vec3::Zero();  // per unit mass [m/s^2]
     boundary::Walls walls;
     double lowestLayer = 0;  // lowest viscosity of the fluid's layers [Pa s]; 0: no layers
+    std::optional<Solute> solute{};
 };
 
 class FluidForces {

@@ -2,6 +2,7 @@
 // chosen here, once.
 #pragma once
 #include "particles/pairLoop.hpp"
+#include "sph/diffusionPair.hpp"
 #include "sph/disorderPair.hpp"
 #include "sph/fluidPair.hpp"
 #include "sph/kernels.hpp"
@@ -31,6 +32,8 @@ struct PairKernels {
     Disorder (*disorder)(KernelKind, particles::Precision list);
     using Mean = particles::PairKernel<MeanConstants>;  // results: the mean, then three without meaning
     Mean (*mean)(KernelKind, particles::Precision list);
+    using Diffusion = particles::PairKernel<DiffusionConstants>;  // results: the sums of diffusionPair.hpp
+    Diffusion (*diffusion)(KernelKind, particles::Precision list);
     // The laws of operators.hpp.
     template <class Real>
     struct Operators {

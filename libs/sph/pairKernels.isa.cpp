@@ -24,8 +24,12 @@ particles::PairKernel<Constants> choose(KernelKind kernel, Precision precision) 
 }  // namespace
 
 extern const PairKernels kernels;
-const PairKernels kernels{
-    &fluidDouble,     &fluidFloat,    &choose<DisorderPair, DisorderConstants>, &choose<MeanPair, MeanConstants>,
-    &operatorsDouble, &operatorsFloat};
+const PairKernels kernels{&fluidDouble,
+                          &fluidFloat,
+                          &choose<DisorderPair, DisorderConstants>,
+                          &choose<MeanPair, MeanConstants>,
+                          &choose<DiffusionPair, DiffusionConstants>,
+                          &operatorsDouble,
+                          &operatorsFloat};
 
 }  // namespace corpuscle::sph::CORPUSCLE_ISA_NAMESPACE

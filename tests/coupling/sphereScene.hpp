@@ -28,13 +28,15 @@ struct SphereScene {
     std::vector<std::vector<Vec3>> start;  // nodes at the start, by cell
     int fluidCount = 0;
 
-    // margin: a rank holds the cells within this distance of its brick. change: adds laws of the membranes.
+    // margin: a rank holds the cells within this distance of its brick. change: adds laws of the membranes. solute:
+    // particles have room for one.
     SphereScene(const Index3& size, const std::vector<Vec3>& centres, bool immersed = false,
-                double margin = Cells::everywhere,
-                const std::function<void(membrane::MembraneSettings&)>& change = {}) {
+                double margin = Cells::everywhere, const std::function<void(membrane::MembraneSettings&)>& change = {},
+                bool solute = false) {
         const Box box = sph::testing::cube(size);
         system = std::make_unique<ParticleSystem>(
-            MPI_COMM_WORLD, box, ParticleStore::Optional{!immersed, false, true, !immersed}, 2.3, skin, 1.0);
+            MPI_COMM_WORLD, box, ParticleStore::Optional{!immersed, false, true, !immersed, false, solute}, 2.3, skin,
+            1.0);
         membrane::MembraneSettings laws;
         laws.bonds = choice<membrane::BondLaw>("{type: harmonic, k: 2 N/m}");
         laws.bending = choice<membrane::BendingLaw>("{type: dihedral, kappa: 0.3 J}");

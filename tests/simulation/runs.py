@@ -1153,6 +1153,80 @@ def test_cohesive(folder):
     assert tables(other)["rbc"][-1]["bondsBroken"] == ends["np1"]["bondsBroken"] and tables(other)["rbc"][-1]["maxDamage"] < 1e-3
 
 
+def test_haemolysis(folder):
+    """A capsule that loses a solute through pores: kept to rounding, the same on 1, 2 and 4 ranks and in parts; velocity Verlet agrees;
+    with the dual identity on 1 and 2 ranks; pores appear in results; nothing leaves a cell without pores."""
+    pores = "  pores: {type: excessArea, onset: 0.01, radius: 10 nm, resealing: 1 ms}\n"
+    cell = IMPLICIT_CASE["constant/membranes.yaml"] + "  interior: {concentration: 330 kg/m^3}\n"
+    start = prepared(folder / "start", {
+        **IMPLICIT_CASE,
+        "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("{strain: 0.3}", "{strain: 0.3, fields: [concentration]}"),
+        "system/observers.yaml": "release: {type: haemolysis, every: 0.1 strain}\n",
+        "constant/fluid.yaml": IMPLICIT_CASE["constant/fluid.yaml"] + "solute: {concentration: 2 kg/m^3}\n",
+        "constant/membranes.yaml": cell + pores})
+    seen = {}
+    verlet = ("system/numerics.yaml:/integrator=velocityVerlet",)
+    for name, ranks, changes in (("np1", 1, ()), ("np2", 2, ()), ("np4", 4, ()), ("verlet", 1, verlet), ("short", 1, ("system/numerics.yaml:/implicit={step: 0.0125, tolerance: 1e-5, error: 1}",)), ("mixed", 1, ("system/numerics.yaml:/precision=mixed",)),
+                                 ("closed", 1, ("constant/membranes.yaml:/rbc/pores=none",))):
+        case = copied(start, folder / name)
+        run(case, "dmpFlow", *(part for change in changes for part in ("-set", change)), ranks=ranks)
+        seen[name] = (table(case, "release", "rbc.csv"), table(case, "release", "case.csv"))
+        of, whole = seen[name]
+        print(name, *(f"{of[-1][key]:.6g}" for key in ("haemolysisIndex_percent", "poreShare", "poreShare_max")))
+        first = whole[0]["solute_kg"]
+        assert whole[0]["freeSolute_kg"] / first > 0.05 and math.isclose(of[0]["concentration_kg_m3"], 330)
+        assert max(abs(row["solute_kg"] / first - 1) for row in whole) < 1e-12, name
+        index = [row["haemolysisIndex_percent"] for row in of]
+        if name == "closed":
+            assert all(abs(value) < 1e-10 for value in index) and of[-1]["poreArea_m2"] == 0
+            continue
+        assert index == sorted(index) and index[0] == 0 < index[-1] < 50 and of[-1]["byHoles_percent"] == 0
+        lost = first - whole[0]["freeSolute_kg"] - of[-1]["solute_kg"]
+        assert abs(lost / (whole[-1]["freeSolute_kg"] - whole[0]["freeSolute_kg"]) - 1) < 1e-9
+        assert json.loads((case / "run.json").read_text())["observers"]["release"]["haemolysisIndex_percent"] == index[-1]
+        assert any(b'Name="concentration"' in p.read_bytes() for p in case.glob("results/fluid/*/*.vtp"))
+        assert any(b'Name="pores"' in p.read_bytes() for p in case.glob("results/rbc/*/*.vtp"))
+    for name, other, bar in (("np2", "np1", 1e-5), ("np4", "np1", 1e-5), ("mixed", "np1", 1e-4), ("verlet", "short", 0.01), ("short", "np1", 0.05)):
+        for one, two in zip(seen[name][0], seen[other][0]):
+            for key in ("haemolysisIndex_percent", "poreShare"):
+                assert abs(one[key] - two[key]) < bar * seen["np1"][0][-1][key], (name, key, one["strain"], one[key], two[key])
+    same_in_parts(folder / "np1", start, "dmpFlow", 6)
+    case = prepared(folder / "dual", {**{name: text for name, text in CELL_CASE.items() if name != "system/observers.yaml"},
+                                      "system/observers.yaml": "release: {type: haemolysis, every: 0.02 strain}\n",
+                                      "constant/fluid.yaml": CELL_CASE["constant/fluid.yaml"] + "solute: {diffusivity: 1e-9 m^2/s}\n",
+                                      "constant/membranes.yaml": CELL_CASE["constant/membranes.yaml"] + "  interior: {concentration: 330 kg/m^3}\n"
+                                      + pores.replace("0.01", "0")})
+    for ranks in (1, 2):
+        run(case, "dmpFlow", "-set", "system/control.yaml:/startFrom=firstTime", ranks=ranks)
+        rows = table(case, "release", "case.csv")
+        assert abs(rows[-1]["solute_kg"] / rows[0]["solute_kg"] - 1) < 1e-12 and rows[-1]["haemolysisIndex_percent"] > 0
+        seen[ranks] = rows[-1]["haemolysisIndex_percent"]
+    assert math.isclose(seen[1], seen[2], rel_tol=1e-6), seen
+    # Two types of which one has pores, in a box without walls; one cell is larger; parts on two ranks.
+    two = prepared(folder / "two", {
+        **IMPLICIT_CASE,
+        "system/mesh.yaml": """domain: {size: [14 um, 12 um, 12 um], periodic: [true, true, true]}
+cells:
+  - {name: tight, membrane: tight, shape: {type: sphere, radius: 2.2 um}, edge: 0.8 um, places: [{centre: [3.5 um, 0 um, 3 um]}]}
+  - {name: leaky, membrane: leaky, shape: {type: sphere, radius: 2.2 um}, edge: 0.8 um,
+     places: [{centre: [-3 um, 0 um, -3 um], scale: 1.2}, {centre: [6 um, 0 um, -2.8 um]}]}
+""",
+        "system/observers.yaml": "release: {type: haemolysis, every: 0.1 strain}\n",
+        "constant/fluid.yaml": IMPLICIT_CASE["constant/fluid.yaml"] + "solute: {}\n",
+        "constant/membranes.yaml": "".join(
+            f"{name}:\n  interior: {{concentration: 330 kg/m^3}}\n  triangles: {{type: skalak, Gs: 5e-6 N/m, C: 1}}\n  pores: {law}\n"
+            for name, law in (("tight", "none"), ("leaky", "{type: tension, onset: 1 uN/m, modulus: 0.1 mN/m, radius: 10 nm}"))),
+        "constant/flow.yaml": "type: leesEdwards\nCa: 0.3\ninertia: {Re: 0.1}\n"})
+    for ranks in (1, 2):
+        case = copied(two, folder / f"two{ranks}")
+        run(case, "dmpFlow", ranks=ranks)
+        seen[ranks] = [row["haemolysisIndex_percent"] for row in table(case, "release", "leaky.csv")[-2:]]
+        assert abs(table(case, "release", "tight.csv")[-1]["haemolysisIndex_percent"]) < 1e-10 and min(seen[ranks]) > 0.01, seen
+    print("two types", seen[1])
+    assert all(math.isclose(one, other, rel_tol=1e-5) for one, other in zip(seen[1], seen[2])), seen
+    same_in_parts(folder / "two2", two, "dmpFlow", 6, ranks=2)
+
+
 def test_firstBreak(folder):
     """stop.firstBreak ends a run at the step of the first break with exit code 5; without a break the run goes to its end."""
     case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)

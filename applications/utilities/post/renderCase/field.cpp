@@ -62,6 +62,8 @@ FieldStyle styleOf(const std::string& field) {
     if (field == "stretch") return {Colours::sequential, "stretch", unit::none};
     if (field == "force") return {Colours::sequential, "force", unit::newton};
     if (field == "damage") return {Colours::sequential, "damage", unit::none};
+    if (field == "pores") return {Colours::sequential, "share of pores", unit::none, true};
+    if (field == "concentration") return {Colours::sequential, "concentration", unit::kilogramPerMetre3};
     if (field == "spacing") return {Colours::sequential, "spacing", unit::metre};
     if (field == "velocity" || field == "speed") return {Colours::sequential, "speed", unit::metrePerSecond};
     if (field == "u" || field == "v" || field == "w")
