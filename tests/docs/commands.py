@@ -26,6 +26,7 @@ ELSEWHERE = {
     "newModel law mySpring -plugin": "etc.install",
     "cmake -S . -B build -G Ninja -DCORPUSCLE_BENCHMARKS=ON": "benchmarks are run by hand",
     "./Allrun                                                    # haematocrits": "tutorials.bloodViscosity",
+    "./Allrun                                    # eight stresses": "tutorials.haemolysisMap",
 }
 # Preparation before the blocks of a page are run: functions and cases. `here` is a folder that looks like the repository.
 CLONE = """
