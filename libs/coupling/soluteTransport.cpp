@@ -31,17 +31,16 @@ long partsOf(double passed) {
     if (!(parts <= mostParts))
         throw Failure(
             ExitCode::numerics,
-            fmt::format("the solute would take {:.3g} parts of a step, at most {} are allowed: take a smaller "
-                        "'solute.diffusivity' in constant/fluid.yaml, a larger spacing or a smaller step; or "
-                        "the membrane has become unstable",
-                        parts, mostParts));
+            fmt::format(
+                "a step would take {:.3g} parts for the solute, at most {} are allowed: 'solute.diffusivity' in "
+                "constant/fluid.yaml is too large for the spacing and the step, or membranes are unstable",
+                parts, mostParts));
     return std::max(1L, std::lround(parts));
 }
 
 bool hasOpenPores(const Cell& cell) {
     const std::vector<double>& pores = cell.membrane.pores();
-    return !cell.membrane.network().wasOpen() &&
-           std::any_of(pores.begin(), pores.end(), [](double share) { return share > 0; });
+    return std::any_of(pores.begin(), pores.end(), [](double share) { return share > 0; });
 }
 
 }  // namespace

@@ -29,9 +29,13 @@ System<Real>::System(coupling::Scene& scene, sph::OperatorForm form, const Impli
 template <class Real>
 void System<Real>::prepare(const TimeDifference& time) {
     time_ = time;
-    for (auto term = terms_.rbegin(); term != terms_.rend(); ++term) (*term)->prepare(time.reach);  // the fluid's first
+    // The fluid's first; that of the bodies, which applies the viscosity, once the stress within membranes is known.
+    const Term<Real>* const bodies = rigid_.get();
+    for (auto term = terms_.rbegin(); term != terms_.rend(); ++term)
+        if (*term != bodies) (*term)->prepare(time.reach);
     if (noFlux_) noFlux_->find(*scene_.system, *immersed_);
     operators().setInside(*scene_.system, coupling::insideShares(scene_, noFlux_));
+    if (rigid_) rigid_->prepare(time.reach);
     findDiagonal();
 }
 

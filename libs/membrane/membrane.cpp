@@ -178,6 +178,7 @@ double Membrane::tearLength() const { return canRupture() ? laws().rupture->tear
 
 void Membrane::openPores(double dt) {
     if (!laws().pores) return;
+    if (network().wasOpen()) return std::fill(pores_.begin(), pores_.end(), 0.0);
     const std::vector<double> atRest = laws().pores->atRest(network(), laws(), position);
     for (std::size_t n = 0; n < pores_.size(); ++n) pores_[n] = laws().pores->after(pores_[n], atRest[n], dt);
 }

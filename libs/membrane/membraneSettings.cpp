@@ -11,7 +11,7 @@ const Schema<InteriorSettings>& InteriorSettings::schema() {
                 "concentration", &InteriorSettings::concentration, unit::kilogramPerMetre3,
                 "concentration of the solute (solute in constant/fluid.yaml) at t = 0, 0 if not given; 330 kg/m^3 "
                 "of haemoglobin in red cells",
-                {.range = nonNegative});
+                {.range = between(0, 1e4)});
     return s;
 }
 

@@ -42,12 +42,13 @@ PoreFlux PoreLaw::flux(double share, double pressure, const PoreSolute& solute) 
 }
 
 const Schema<PoreLaw>& PoreLaw::schema() {
+    static constexpr Range ofPores{0, 1e-6, true, false};  // far below triangles
     static const Schema<PoreLaw> s =
         Schema<PoreLaw>("pores", "keys of every pore law")
             .quantity("radius", &PoreLaw::radius, unit::metre,
-                      "radius of a pore; greater than that of the solute's molecules", {.range = positive})
+                      "radius of a pore; greater than that of the solute's molecules", {.range = ofPores})
             .quantity("length", &PoreLaw::length, unit::metre, "length of a pore: the thickness of the membrane",
-                      {.fallback = "8 nm", .range = positive})
+                      {.fallback = "8 nm", .range = ofPores})
             .quantity("opening", &PoreLaw::opening, unit::second, "time in which pores open; 0: at once",
                       {.fallback = "0 s", .range = nonNegative})
             .quantity("resealing", &PoreLaw::resealing, unit::second, "time in which pores reseal; 0: at once",

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "core/communicator.hpp"
@@ -32,6 +33,7 @@ struct Content {
     }
     double inside() const { return solute - released; }
     double byPores() const { return start > 0 ? 100 * (1 - solute / start) : 0; }
+    double concentration() const { return volume > 0 ? solute / volume : std::numeric_limits<double>::quiet_NaN(); }
     double byHoles() const { return start > 0 ? 100 * released / start : 0; }
     double index() const { return byPores() + byHoles(); }
 };
@@ -77,7 +79,7 @@ class HaemolysisObservation : public Observation {
   public:
     using Observation::Observation;
 
-    bool leavesGaps() const override { return true; }  // rows of a cell without whole triangles
+    bool leavesGaps() const override { return true; }  // of a cell without triangles or fluid
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         const std::size_t types = scene.cells.types().size();
@@ -92,14 +94,14 @@ class HaemolysisObservation : public Observation {
         for (std::size_t c = 0; c < pores.size(); ++c) {
             const Content& in = all[c + 1];
             cells += in;
-            ofCells.push_back({in.index(), in.byPores(), in.byHoles(), in.inside(), in.solute / in.volume, pores[c][0],
+            ofCells.push_back({in.index(), in.byPores(), in.byHoles(), in.inside(), in.concentration(), pores[c][0],
                                pores[c][1], pores[c][2]});
         }
         std::vector<Row> rows = rowsByType(scene, 0, ofCells);
         const Content& out = all[0];
         rows.push_back({types,
                         {cells.index(), cells.byPores(), cells.byHoles(), out.solute + cells.released,
-                         out.solute / out.volume, cells.solute + out.solute}});
+                         out.concentration(), cells.solute + out.solute}});
         return rows;
     }
 
@@ -141,7 +143,7 @@ struct HaemolysisObserver : Observer {
         each.insert(each.end(),
                     {{"solute", "kg", "solute inside"},
                      {"concentration", "kg_m3", "mean concentration of the fluid that was inside at the start"},
-                     {"poreArea", "m2", "area of all pores"},
+                     {"poreArea", "m2", "area of all pores; 0 in a torn cell"},
                      {"poreShare", "", "the same over the area of the membrane"},
                      {"poreShare_max", "", "largest share of any node"}});
         std::vector<io::Column> whole = lossColumns("all cells");

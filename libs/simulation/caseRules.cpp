@@ -283,6 +283,13 @@ void checkSolute(const Case& c, Problems& problems) {
         problems.add({"system/control.yaml", 0, 0}, "write.fields",
                      "found concentration, but the fluid carries no solute; add 'solute' to constant/fluid.yaml, or "
                      "leave concentration out");
+    bool isSome = c.fluid.solute && c.fluid.solute->concentration > 0;
+    for (const auto& entry : c.membranes.types) isSome = isSome || entry.second.interior.concentration.value_or(0) > 0;
+    if (c.fluid.solute && !isSome)
+        problems.add({"constant/fluid.yaml", 0, 0}, "solute",
+                     "found a solute that is nowhere: its concentration is 0 outside and inside of all cells; give "
+                     "'interior: {concentration: 330 kg/m^3}' to a cell in constant/membranes.yaml, or 'concentration' "
+                     "here, or remove solute");
     for (const auto& [name, laws] : c.membranes.types) {
         const Mark membranes{"constant/membranes.yaml", 0, 0};
         if (!c.fluid.solute) {

@@ -8,7 +8,7 @@ const Schema<Solute>& Solute::schema() {
             .quantity("concentration", &Solute::concentration, unit::kilogramPerMetre3,
                       "concentration outside the cells at t = 0; inside: interior.concentration of "
                       "constant/membranes.yaml",
-                      {.fallback = "0 kg/m^3", .range = nonNegative})
+                      {.fallback = "0 kg/m^3", .range = between(0, 1e4)})
             .quantity("diffusivity", &Solute::diffusivity, unit::metre2PerSecond,
                       "diffusivity in the fluid, inside cells and outside; 0: none, and only the flow through pores "
                       "passes them",

@@ -27,8 +27,9 @@ constexpr double poreRadius = 1e-3, poreLength = 1e-9;  // of pores that are har
 
 // A law by which a sheet stretched by `stretch` has this share of pores.
 Choice<membrane::PoreLaw> pores(double share, double stretch) {
-    auto law = choice<membrane::PoreLaw>("{type: excessArea, onset: 0, radius: 1 mm, length: 1 nm}");
+    auto law = choice<membrane::PoreLaw>("{type: excessArea, onset: 0, radius: 1 um, length: 1 nm}");
     auto own = std::make_shared<membrane::ExcessArea>(dynamic_cast<const membrane::ExcessArea&>(*law.model));
+    own->radius = poreRadius;
     own->onset = stretch > 1 ? 0 : 0.01;
     own->share = stretch > 1 ? share / (1 - 1 / (stretch * stretch)) : 1;
     law.model = own;

@@ -156,6 +156,19 @@ TEST(Pores, OpenAndResealInTheirTimes) {
     EXPECT_NEAR(soon.pores()[0], 0, 1e-12);
 }
 
+TEST(Pores, AreNoneInATornMembrane) {
+    Membrane sheet = strainedSheet(
+        "{triangles: {type: neoHookean, Gs: 1 N/m}, pores: {type: excessArea, onset: 0, radius: 10 nm}, rupture: {type: "
+        "bondStretch, limit: 1.05}}",
+        1.04, 1);
+    sheet.openPores(0);
+    EXPECT_GT(sheet.poreArea(), 0);
+    for (Vec3& x : sheet.position) x.x() *= 1.05;
+    ASSERT_FALSE(breakNow(sheet).empty());
+    sheet.openPores(0);
+    EXPECT_EQ(sheet.pores(), std::vector<double>(sheet.network().nodeCount(), 0.0));
+}
+
 TEST(Pores, RestoreTheirState) {
     const std::string law =
         "{triangles: {type: neoHookean, Gs: 1 N/m}, pores: {type: excessArea, onset: 0, radius: 10 nm}}";

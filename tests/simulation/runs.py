@@ -779,6 +779,17 @@ def test_implicitBodies(folder):
     assert last["changedSide"] == 0 and last["guardMoves"] == 0 and abs(last["volumeChange"]) < 1e-8, last
     rate = 0.1 * 4e-6 / (1e-3 * 3e-6)
     assert 0.3 < table(case, "motion")[-1]["angularVelocity_y_1_s"] / rate < 0.6, rate
+    # With another viscosity around the bead: that of the outside in the limit, on 1 and 2 ranks; a thick interior turns it more slowly.
+    turned = {}
+    for ratio, ranks in ((1, 1), (1.001, 1), (1.001, 2), (5, 1)):
+        other = copied(case, folder / f"ratio{ratio}on{ranks}")
+        run(other, "dmpFlow", "-set", f"constant/membranes.yaml:/capsule/interior={{viscosityRatio: {ratio}}}", "-set", "system/control.yaml:/startFrom=firstTime",
+            ranks=ranks)
+        turned[ratio, ranks] = table(other, "motion")[-1]["angularVelocity_y_1_s"] / rate
+        assert abs(table(other, "balance", "budget.csv")[-1]["residualShare"]) < 0.01
+    print("angular velocity of a bead inside, over the shear rate:", turned)
+    assert abs(turned[1.001, 1] - turned[1, 1]) < 0.01 and abs(turned[1.001, 2] - turned[1.001, 1]) < 1e-5
+    assert turned[5, 1] < turned[1, 1] - 0.005
 
 
 def test_inclusion(folder):

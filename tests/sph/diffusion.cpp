@@ -49,7 +49,8 @@ TEST(Diffusion, followsItsEquationOnEachSide) {
                 for (const Particle& o : all)
                     for (int image = 0; image < 27; ++image) {
                         if (own.wall || o.wall || side(o) != side(own)) continue;
-                        const Vec3 at(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
+                        const int plane = image / 9, line = image / 3 % 3;
+                        const Vec3 at(image % 3 - 1, line - 1, plane - 1);
                         const double r = (own.x - o.x - at.cwiseProduct(system.box().size())).norm();
                         if (r >= support || r == 0) continue;
                         const double F =

@@ -77,6 +77,8 @@ class Results {
                                static_cast<double>(report.iterations), report.residual});
         table_.row(row);
         io::PolyData surface = simulation::membranePiece(membrane, edge_);
+        if (const auto& pores = membrane.laws().pores)  // at equilibrium, at rest
+            surface.point.scalars["pores"] = pores->atRest(membrane.network(), membrane.laws(), membrane.position);
         surface.field["stage"] = stage;
         surfaces_.write(stage, std::nullopt, surface);
         std::string values;

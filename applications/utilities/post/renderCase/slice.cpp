@@ -21,7 +21,10 @@ struct Source {
     const std::vector<Vec3>* velocities = nullptr;  // if the particles have velocities
     int component = -1;                             // component of the velocity; -1: its magnitude
     bool nearest = false;
+    // Cell of each particle, if values jump at membranes: only those on the side of the nearest particle then count.
+    const std::vector<std::int64_t>* sides = nullptr;
 
+    bool isBeside(std::size_t i, std::size_t closest) const { return !sides || (*sides)[i] == (*sides)[closest]; }
     Vec3 velocity(std::size_t i, const Vec3& slide) const { return (*velocities)[i] + slide; }
     double value(std::size_t i, const Vec3& slide) const {
         if (!values.empty()) return values[i];
@@ -42,6 +45,7 @@ Source sourceOf(const io::PolyData& fluid, const std::string& field) {
         source.component = -1;
     } else if (const auto scalars = arrays.scalars.find(field); scalars != arrays.scalars.end()) {
         source.values = scalars->second;
+        if (const auto side = arrays.integers.find("side"); side != arrays.integers.end()) source.sides = &side->second;
     } else if (const auto vectors = arrays.vectors.find(field); vectors != arrays.vectors.end()) {
         for (const Vec3& v : vectors->second) source.values.push_back(v.norm());
     } else if (const auto integers = arrays.integers.find(field); integers != arrays.integers.end()) {
@@ -122,21 +126,26 @@ Fit fitAt(const Vec3& x, const NearPlane& particles, double dx, const Source& so
     double closest = std::numeric_limits<double>::max();
     Fit fit;
     double closestValue = fit.value;
+    std::size_t closestSource = 0;
+    particles.around(x, [&](const NearPlane::Particle& p) {
+        const double q = ((p.x - x) / h).norm();
+        if (q >= closest) return;
+        closest = q;
+        closestValue = source.value(p.source, p.slide);
+        closestSource = p.source;
+    });
+    if (closest * reach > near) return fit;
     particles.around(x, [&](const NearPlane::Particle& p) {
         const Vec3 d = (p.x - x) / h;
         const double q = d.norm();
-        if (q < closest) {
-            closest = q;
-            closestValue = source.value(p.source, p.slide);
-        }
-        if (q >= 1) return;
+        if (q >= 1 || !source.isBeside(p.source, closestSource)) return;
         const double w = std::pow(1 - q, 4) * (4 * q + 1);
         const Eigen::Vector4d basis(1, d[0], d[1], d[2]);
         moments += w * basis * basis.transpose();
         sums.col(0) += w * basis * source.value(p.source, p.slide);
         if (withVelocity) sums.rightCols<3>() += w * basis * source.velocity(p.source, p.slide).transpose();
     });
-    if (closest * reach > near || moments(0, 0) <= 0) return fit;
+    if (moments(0, 0) <= 0) return fit;
     const Eigen::LDLT<Eigen::Matrix4d> solver(moments);
     const bool determined = solver.info() == Eigen::Success && solver.vectorD().minCoeff() > 1e-3 * moments(0, 0);
     const Eigen::Vector4d first = determined ? Eigen::Vector4d(solver.solve(sums).row(0).transpose())
