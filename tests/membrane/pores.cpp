@@ -158,7 +158,8 @@ TEST(Pores, OpenAndResealInTheirTimes) {
 
 TEST(Pores, AreNoneInATornMembrane) {
     Membrane sheet = strainedSheet(
-        "{triangles: {type: neoHookean, Gs: 1 N/m}, pores: {type: excessArea, onset: 0, radius: 10 nm}, rupture: {type: "
+        "{triangles: {type: neoHookean, Gs: 1 N/m}, pores: {type: excessArea, onset: 0, radius: 10 nm}, rupture: "
+        "{type: "
         "bondStretch, limit: 1.05}}",
         1.04, 1);
     sheet.openPores(0);
