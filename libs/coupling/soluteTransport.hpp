@@ -15,9 +15,8 @@
 //        | k dx = int w z dz + int S (1 - S) dz = 0.586 dx, with the part S of w that is nearer than z      | -
 // What leaves is taken from the particles inside in proportion to w q, and given to those outside in proportion to w V,
 // and the other way round for what enters; so no particle can have less than nothing, and nothing is lost. A node
-// without fluid on both sides within R passes nothing. The pressure difference is that which the forces f of the
-// elasticity of the membrane hold (membrane/diagnostics.hpp). A torn cell has no open pores: it loses its solute
-// through its holes.
+// without fluid on both sides within R passes nothing. The pressure difference is that which the elastic forces of the
+// membrane hold (membrane/diagnostics.hpp). A torn cell has no open pores: it loses its solute through its holes.
 //
 // A step is divided into equal parts so that no particle passes on more than half of what it has. The volume of the
 // fluid that flows through pores is not taken from the cell.
