@@ -12,15 +12,14 @@ set xlabel "shear stress [Pa]"
 set ylabel "index of haemolysis after 1 s [%]"
 set xrange [25:1500]
 set yrange [1e-4:100]
-# A column of powerLaws.csv is A, alpha, beta of a law.
-laws = "Giersiepen_1990 Song_2003 Zhang_2011 Ding_2015_(human) Ding_2015_(porcine) Ding_2015_(bovine)"
-A = "3.62e-5 1.8e-6 1.228e-5 3.458e-6 6.701e-4 9.772e-5"
-alpha = "2.416 1.991 1.9918 2.0639 1.0981 1.4445"
-name(i) = system(sprintf("echo '%s' | tr _ ' '", word(laws, i)))
+law(i, column) = system(sprintf("grep -v '^[#n]' powerLaws.csv | awk -F, 'NR == %d {print %s}'", i, column))
+name(i) = law(i, "$1 \" (\" $5 \")\"")
+A(i) = law(i, "$2") + 0
+alpha(i) = law(i, "$3") + 0
 one = "< awk -F, 'NR == 2 || ($2 == 1 && $4 == 1)' runs/map.csv"
 many = "< awk -F, 'NR == 2 || ($2 > 1 && $4 == 1)' runs/map.csv"
-plot for [i=1:5] [25:1500] word(A, i) * x ** word(alpha, i) with lines lw 1 dt i lc rgb "gray50" title name(i), \
-     [25:1500] word(A, 6) * x ** word(alpha, 6) with lines lw 3 dt 1 lc rgb "gray80" title name(6), \
+plot for [i=1:5] [25:1500] A(i) * x ** alpha(i) with lines lw 1 dt i lc rgb "gray50" title name(i), \
+     [25:1500] A(6) * x ** alpha(6) with lines lw 3 dt 1 lc rgb "gray80" title name(6), \
      one using "stress_Pa":"index":"standardError" with errorbars pt 7 lc rgb "#b2182b" title "one cell", \
      many using "stress_Pa":"index":"standardError" with errorbars pt 9 ps 1.5 lc rgb "#2166ac" title "several cells"
 set xlabel "exposure [s]"
