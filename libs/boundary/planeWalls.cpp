@@ -1,6 +1,8 @@
 #include "boundary/planeWalls.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace corpuscle::boundary {
 
@@ -32,6 +34,14 @@ Walls PlaneWalls::place(const particles::Box& fluid) const {
 
 double PlaneWalls::volumeBehind(const particles::Box& fluid, const Vec3& depth) const {
     return 2 * depth[normal()] * fluid.volume() / fluid.size()[normal()];
+}
+
+// u = f/(2 nu) y (h - y), which settles by exp(-pi^2 nu t/h^2).
+Hydraulics PlaneWalls::hydraulics(const particles::Box& fluid) const {
+    const double h = fluid.size()[normal()];
+    Hydraulics found{h, h * h / 8, std::pow(h / std::numbers::pi, 2), {}};
+    if (normal() != 0) found.conductance = std::pow(h, 3) / 12 * fluid.size()[3 - normal()];
+    return found;
 }
 
 CORPUSCLE_REGISTER(WallShape, PlaneWalls, "planes", "two parallel walls at the ends of the box");

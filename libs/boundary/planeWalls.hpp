@@ -31,6 +31,7 @@ struct PlaneWalls : WallShape {
     Walls place(const particles::Box& fluid) const override;
     double volume(const particles::Box& fluid) const override { return fluid.volume(); }
     double volumeBehind(const particles::Box& fluid, const Vec3& depth) const override;
+    Hydraulics hydraulics(const particles::Box& fluid) const override;
 };
 
 }  // namespace corpuscle::boundary

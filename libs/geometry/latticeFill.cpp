@@ -68,8 +68,12 @@ Lattice fillLattice(const LatticeBox& box) {
                 };
                 const PointKind kind = box.kindOf ? box.kindOf(place()) : PointKind::fluid;
                 if (kind == PointKind::nothing) continue;
-                if (box.jitter > 0 && kind == PointKind::fluid)
+                if (box.jitter > 0 && kind == PointKind::fluid) {
+                    const Vec3 onLattice = cell;
                     for (int axis = 0; axis < 3; ++axis) cell[axis] += shift();
+                    // A point that would be displaced behind a curved wall stays where it is.
+                    if (box.kindOf && box.kindOf(place()) != PointKind::fluid) cell = onLattice;
+                }
                 lattice.points.push_back(place());
                 lattice.kinds.push_back(kind);
             }

@@ -19,7 +19,9 @@ class FluidTerm final : public Term<Real> {
     using typename Term<Real>::Forces;
 
     FluidTerm(const coupling::Scene& scene, sph::OperatorForm form)
-        : scene_(scene), operators_(scene.model(), *scene.system, form) {}
+        : scene_(scene),
+          operators_(scene.model(), *scene.system, form,
+                     sph::NoSlip::ofImplicit(scene.system->spacing(), scene.system->support())) {}
 
     void prepare(const Reach& reach) override {
         operators_.build(*scene_.system);

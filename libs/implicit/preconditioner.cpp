@@ -1,5 +1,8 @@
 #include "implicit/preconditioner.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "implicit/coarseGrid.hpp"
@@ -45,7 +48,8 @@ class TwoLevel : public Preconditioner<Real> {
     void prepare() override {
         const sph::FluidModel& model = system_.scene().model();
         const double bulk = model.equationOfState->bulkModulus(model.density, model.density, model.soundSpeed);
-        grid_.setCoefficients(system_.time().c1 * model.density, model.viscosity, system_.time().reach.total() * bulk,
+        grid_.setCoefficients(system_.time().c1 * model.density + model.viscosity * missingConfinement(),
+                              model.viscosity, system_.time().reach.total() * bulk,
                               system_.scene().system->periodicity());
         const std::size_t own = system_.owned(), all = system_.entries();
         grid_.begin(own, all - own);
@@ -60,6 +64,17 @@ class TwoLevel : public Preconditioner<Real> {
   protected:
     System<Real>& system_;
     CoarseGrid grid_;
+
+  private:
+    // The grid has walls across one axis at most. Where others confine the fluid as well, as in a tube, a friction
+    // makes its slowest velocity decay as fast as that of the fluid: the rate over the viscosity [1/m^2].
+    double missingConfinement() const {
+        const particles::Box& box = system_.scene().fluidBox;
+        double ofGrid = 0;
+        for (int k = 0; k < 3; ++k)  // as CoarseGrid: walls across the last of these axes
+            if (!box.periodic[static_cast<std::size_t>(k)]) ofGrid = std::pow(std::numbers::pi / box.size()[k], 2);
+        return std::max(0.0, system_.scene().flow.confinement - ofGrid);
+    }
 };
 
 template <class Real>

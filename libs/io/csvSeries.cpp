@@ -194,6 +194,7 @@ void clearFolder(const fs::path& folder, const std::string& kind, std::optional<
 
 std::string Column::unitText() const {
     if (unit == "percent") return "%";
+    if (unit == "Pas") return "Pa s";
     for (const char* product : {"Nm", "Ns", "Js"})
         if (unit == product) return fmt::format("{} {}", product[0], product[1]);
     std::string text;

@@ -46,10 +46,13 @@ SceneParts SceneParts::of(const Scene& scene) {
     parts.bodyForce = !scene.model().bodyForce.isZero();
     parts.budget = scene.budget.kept;
     parts.slidingImages = scene.system->periodicity().slides();
+    parts.conductance = scene.flow.conductance.has_value();
     return parts;
 }
 
-SceneParts SceneParts::all() { return {{"<cell>"}, {"<body>"}, {"<wall>"}, true, true, true, true, true, true, true}; }
+SceneParts SceneParts::all() {
+    return {{"<cell>"}, {"<body>"}, {"<wall>"}, true, true, true, true, true, true, true, true};
+}
 
 std::optional<Summary> Observation::summary(const Scene&, const Time&) { return {}; }
 

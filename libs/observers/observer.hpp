@@ -43,7 +43,7 @@ void addVector(std::vector<io::Column>& columns, const std::string& name, const 
 struct SceneParts {
     std::vector<std::string> cells, bodies, walls;  // names of types of cells, of bodies and of walls
     bool shear = false, bodyForce = false, givenBodies = false, viscousMembranes = false, rupture = false,
-         budget = false, slidingImages = false;
+         budget = false, slidingImages = false, conductance = false;
     static SceneParts of(const Scene& scene);
     // Everything, with types of cells, bodies and walls "<cell>", "<body>" and "<wall>": for the documentation.
     static SceneParts all();
@@ -94,6 +94,7 @@ struct Subject {
     double shearRate = 0;  // gammadot [1/s]; 0: the flow has none
     bool bodies = false;   // rigid bodies
     bool solute = false;   // carried by the fluid
+    bool channel = false;  // a flow along x between walls at rest
 };
 
 struct ObserverSettings {

@@ -9,10 +9,13 @@ namespace corpuscle::schemes {
 
 namespace {
 
-// The step that resolves the time scale on which the flow itself changes [s]; 0: no limit.
-double longestStep(const sph::FlowState& flow) {
-    constexpr double stepsPerTransient = 40;
-    return flow.transient / stepsPerTransient;
+// The step that resolves the time scale on which the flow itself changes [s]; 0: no limit. The start of a flow that
+// settles is not resolved if the run goes on for far longer: as for a cell in a tube, where the flow settles in
+// microseconds and the cell travels for tenths of a second.
+double longestStep(const CaseFacts& facts) {
+    constexpr double stepsPerTransient = 40, transientsOfAStart = 30;
+    if (facts.flow.settles && facts.duration > transientsOfAStart * facts.flow.transient) return 0;
+    return facts.flow.transient / stepsPerTransient;
 }
 
 class ImplicitStepper final : public Stepper {
@@ -135,8 +138,8 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
     std::string usualCoupling(const CaseFacts&) const override { return "immersed"; }
     std::string usualOperators(const CaseFacts&, const NumericsSettings&) const override { return "corrected"; }
     std::shared_ptr<const Scheme> settled(const CaseFacts& facts) const override {
-        const double longest = longestStep(facts.flow) * facts.flow.rate;
-        if (facts.flow.transient <= 0 || facts.isWritten("implicit.step") || step <= longest) return nullptr;
+        const double longest = longestStep(facts) * facts.flow.rate;
+        if (longest <= 0 || facts.isWritten("implicit.step") || step <= longest) return nullptr;
         auto shorter = std::make_shared<Implicit>(*this);
         shorter->step = longest;
         return shorter;
@@ -150,7 +153,7 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
         checkJumps(facts, numerics, problems);
     }
     std::string unfit(const CaseFacts& facts, const NumericsSettings& numerics) const override {
-        const double longest = longestStep(facts.flow);
+        const double longest = longestStep(facts);
         if (longest > 0 && fullStep(facts, 0) > (1 + 1e-9) * longest)
             return fmt::format(
                 "its steps do not follow the flow, which changes within {}; implicit.step at most {:.2g} would",

@@ -214,6 +214,13 @@ void prepareSurfaces(Case& c, const std::set<std::string>& unplaced, Problems& p
             problems.add({"system/mesh.yaml", 0, 0}, surface.key + ".shape", fault.what());
         }
     }
+    if (const boundary::WallShape* const walls = c.flowModel->walls()) {
+        try {
+            walls->prepare(c.directory);
+        } catch (const Failure& fault) {
+            problems.add({"constant/flow.yaml", 0, 0}, "walls.file", fault.what());
+        }
+    }
     c.throwIfAny(problems);
 }
 
@@ -272,7 +279,7 @@ Case Case::read(const Application& app, const std::set<std::string>& unplaced) {
     settle(c);
     c.observers.check(c.files["system/observers.yaml"],
                       {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty(),
-                       c.fluid.solute.has_value()},
+                       c.fluid.solute.has_value(), c.flow.section > 0},
                       problems);
     c.throwIfAny(problems);
     return c;

@@ -42,6 +42,11 @@ struct FlowState {
     std::function<Vec3(const Vec3&)> velocity;    // at t = 0
     std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
 
+    double section = 0;  // mean cross-section of the fluid between walls along x [m^2]; 0: no such flow
+    double confinement =
+        0;  // rate at which the slowest velocity between these walls decays, over nu [1/m^2]; 0: not known
+    std::optional<double> conductance;  // flow rate x nu/body force along x [m^4], of a uniform fluid; empty: not known
+
     bool slides() const { return !slide.isZero(0); }
 };
 

@@ -22,8 +22,11 @@ struct NoSlip {
     // in supports; betaMax bounds beta itself.
     double smallestDistance = 1, betaMax = 10;
 
-    // spacing, support: dx, H_s [m].
+    // spacing, support: dx, H_s [m]. In explicit steps beta shortens the viscous limit. What its bound leaves out of
+    // the friction of a particle near the wall lets the fluid slip: where a curved wall cuts through the lattice of
+    // particles, a tube 24 dx wide then carries 0.6 % too much, with the bounds of the implicit step 0.25 %.
     static NoSlip of(double spacing, double support) { return {0.25 * spacing / support, 10}; }
+    static NoSlip ofImplicit(double spacing, double support) { return {0.02 * spacing / support, 200}; }
 
     template <class V, class J>
     CORPUSCLE_INLINE V beta(const V& gapI, const J& gapJ) const {

@@ -44,7 +44,8 @@ PairKernels::Operators<Real> kernelsOf(KernelKind kernel, ViscosityKind viscosit
 }  // namespace
 
 template <class Real>
-Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system, OperatorForm form)
+Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system, OperatorForm form,
+                           std::optional<NoSlip> noSlip)
     : model_(model),
       form_(form),
       viscosity_(kindOf(model, system)),
@@ -58,7 +59,7 @@ Operators<Real>::Operators(const FluidModel& model, const ParticleSystem& system
     viscousUnit_ = model.viscosity * gradient * unitVolume_ * unitVolume_;
     rateUnit_ = gradient * H * unitVolume_ * unitVolume_;
     wallScale_ = form == OperatorForm::plain ? 1 : 1 / model.kernel->secondMoment(H / system.spacing());
-    noSlip_ = NoSlip::of(system.spacing(), H);
+    noSlip_ = noSlip.value_or(NoSlip::of(system.spacing(), H));
 }
 
 template <class Real>

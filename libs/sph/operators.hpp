@@ -54,7 +54,9 @@ class Operators {
     using Field = particles::AlignedVector<Real>;
     static constexpr std::size_t width = 4;
 
-    Operators(const FluidModel& model, const particles::ParticleSystem& system, OperatorForm form);
+    // noSlip: the bounds of the factor at walls; without it those of explicit steps.
+    Operators(const FluidModel& model, const particles::ParticleSystem& system, OperatorForm form,
+              std::optional<NoSlip> noSlip = {});
 
     // Builds the operators for the present positions of the particles, at which lists have just been built. Collective.
     // Throws Failure(numerics) if a particle has too few neighbours for a gradient.

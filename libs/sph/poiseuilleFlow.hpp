@@ -1,15 +1,17 @@
-// Flow between two walls at rest, driven by a body force F per unit mass along x:
+// Flow between walls at rest, driven along x by a body force F per unit mass, or by a pressure drop over the length of
+// the box, F = drop/(rho L_x). Between two planes:
 //     u(s) = F/(2 nu) (s - low)(high - s) when developed; from rest
 //     u nu/(F L^2) = y(1 - y)/2 - sum_n 4/((2n+1)^3 pi^3) sin((2n+1) pi y) exp(-(2n+1)^2 pi^2 nu t/L^2),  y = (s -
 //         low)/L
-// Between walls other than two parallel planes the flow always starts from rest.
+// Between walls other than two parallel planes the flow always starts from rest; boundary/wallShape has estimates.
 #pragma once
 #include "sph/flow.hpp"
 
 namespace corpuscle::sph {
 
 struct PoiseuilleFlow : Flow {
-    double bodyForce = 0;
+    std::optional<double> bodyForce;     // F [m/s^2]
+    std::optional<double> pressureDrop;  // [Pa]
     Choice<boundary::WallShape> wallShape;
     std::string start = "rest";
     static const Schema<PoiseuilleFlow>& schema();

@@ -8,8 +8,8 @@ import subprocess
 import sys
 
 FAMILIES = {"observer": "time_s", "relaxation protocol": "stage"}
-UNITS = {"s": "s", "m": "m", "m2": "m^2", "m3": "m^3", "m_s": "m/s", "1_s": "1/s", "kg": "kg", "kg_m3": "kg/m^3", "N": "N", "Nm": "N m", "Ns": "N s", "Js": "J s",
-         "N_m": "N/m", "J": "J", "Pa": "Pa", "rad": "rad", "percent": "%"}
+UNITS = {"s": "s", "m": "m", "m2": "m^2", "m3": "m^3", "m3_s": "m^3/s", "m_s": "m/s", "1_s": "1/s", "kg": "kg", "kg_m3": "kg/m^3", "N": "N", "Nm": "N m", "Ns": "N s", "Js": "J s",
+         "N_m": "N/m", "J": "J", "Pa": "Pa", "Pas": "Pa s", "rad": "rad", "percent": "%"}
 
 
 def main():

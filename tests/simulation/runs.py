@@ -1238,6 +1238,76 @@ cells:
     same_in_parts(folder / "two2", two, "dmpFlow", 6, ranks=2)
 
 
+def vessel(path, radius, length, along=40, around=64):
+    """Writes an open tube of radius(x) along x, in um, as OFF."""
+    with open(path, "w") as out:
+        print(f"OFF\n{(along + 1) * around} {2 * along * around} 0", file=out)
+        for i in range(along + 1):
+            x = length * (i / along - 0.5)
+            for j in range(around):
+                a = 2 * math.pi * j / around
+                print(f"{x:.9g} {radius(x) * math.cos(a):.9g} {radius(x) * math.sin(a):.9g}", file=out)
+        for i in range(along):
+            for j in range(around):
+                a, b = i * around + j, i * around + (j + 1) % around
+                print(f"3 {a} {b} {a + around}\n3 {b} {b + around} {a + around}", file=out)
+
+
+def test_vessels(folder):
+    """A capsule driven through a constriction: the same on 1, 2 and 4 ranks and in parts, with the constriction as a surface of triangles,
+    within 1 %; nothing is lost, nothing crosses the wall; flow rate and forces balance, and Newton's fluid has its own viscosity."""
+    tube = "type: poiseuille\npressureDrop: 15 Pa\nwalls: {type: tube, diameter: 12 um}\n"
+    narrow = "type: poiseuille\npressureDrop: 15 Pa\nwalls: {type: constriction, diameter: 12 um, throat: 7 um, length: 4 um, taper: 6 um}\n"
+    case = {**IMPLICIT_CASE,
+            "system/control.yaml": "application: dmpFlow\nendTime: 14 ms\nwrite: {time: 7 ms}\ncheckpoint: {wallClock: never}\n",
+            "system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("step: 0.05", "step: 0.1").replace("error: 1}", "error: 1e-2}"),
+            "system/mesh.yaml": """domain: {size: [24 um, 12 um, 12 um], periodic: [true, false, false]}
+cells: [{name: rbc, shape: {type: spheroid, a: 3.2 um, c: 3.2 um}, edge: 0.9 um, centre: [-9 um, 0.4 um, 0 um]}]
+""",
+            "system/observers.yaml": "flow: {type: flowRate, every: 1 ms}\nplace: {type: suspension, every: 1 ms}\nbalance: {type: conservation, every: 1 ms}\n",
+            "constant/membranes.yaml": "rbc:\n  triangles: {type: skalak, Gs: 2e-5 N/m, C: 1}\n  bending: {type: dihedral, Eb: 0.01}\n",
+            "constant/flow.yaml": narrow}
+    start = prepared(folder / "start", case)
+    # The profile of the constriction.
+    radius = lambda x: 6 - 1.25 * (1 + math.cos(math.pi * min(1, max(0, (abs(x) - 2) / 6))))
+    triangles = make(folder / "triangles", {**case, "constant/flow.yaml": "type: poiseuille\npressureDrop: 15 Pa\n"
+                                            "walls: {type: surface, file: constant/vessel.off, at: asWritten}\n"})
+    vessel(triangles / "constant/vessel.off", radius, 24, along=120, around=192)
+    for program in ("membraneMesh", "particleFill"):
+        run(triangles, program)
+    seen = {}
+    for name, of, ranks in (("np1", start, 1), ("np2", start, 2), ("np4", start, 4), ("surface", triangles, 1)):
+        ready = copied(of, folder / name)
+        run(ready, "dmpFlow", ranks=ranks)
+        seen[name] = table(ready, "flow"), table(ready, "place", "rbc.csv")
+        flow, place = seen[name]
+        print(name, *(f"{key} {flow[-1][key]:.6g}" for key in ("flowRate_m3_s", "imbalance", "haematocrit_discharge")), f"x {1e6 * place[-1]['centroid_x_m']:.5g} um")
+        assert max(abs(row["volumeChange"]) for row in table(ready, "balance")) < 1e-8
+    for name, bar in (("np2", 2e-4), ("np4", 2e-4), ("surface", 0.01)):
+        for k, column in ((0, "flowRate_m3_s"), (1, "centroid_x_m")):
+            scale = max(abs(row[column]) for row in seen["np1"][k])
+            for one, other in zip(seen["np1"][k], seen[name][k]):
+                assert abs(one[column] - other[column]) < bar * scale, (name, column, one["time_s"], one[column], other[column])
+    way = seen["np1"][1][-1]["centroid_x_m"] - seen["np1"][1][0]["centroid_x_m"]
+    assert way > 12e-6, way  # through the throat
+    rates = [row["flowRate_m3_s"] for row in seen["np1"][0][2:]]
+    assert min(rates) < 0.97 * max(rates), "the capsule in the throat hinders the flow"
+    assert all(abs(row["imbalance"]) < 0.02 for row in seen["np1"][0][2:])
+    same_in_parts(folder / "np2", start, "dmpFlow", 20, ranks=2, observers=("flow",))
+    # Without a cell: a straight tube of 12 spacings has the viscosity of its fluid to within the error of the wall, as a shape and in explicit steps.
+    for name, keys, bar in (("tube", "integrator: implicit\n", 0.016), ("verlet", "integrator: velocityVerlet\n", 0.04)):
+        plain = make(folder / name, {"system/control.yaml": "application: sphFlow\nendTime: 60 us\n",
+                                     "system/numerics.yaml": f"spacing: 1 um\noperators: corrected\n{keys}",
+                                     "system/mesh.yaml": "domain: {size: [8 um, 12 um, 12 um], periodic: [true, false, false]}\n",
+                                     "system/observers.yaml": "flow: {type: flowRate, every: 5 us}\n",
+                                     "constant/fluid.yaml": case["constant/fluid.yaml"], "constant/flow.yaml": tube.replace("15 Pa", "1 Pa")})
+        run(plain, "particleFill")
+        run(plain, "sphFlow")
+        last = table(plain, "flow")[-1]
+        print(name, last["relativeViscosity"], last["imbalance"])
+        assert abs(last["relativeViscosity"] - 1) < bar and abs(last["imbalance"]) < 0.01, last
+
+
 def test_firstBreak(folder):
     """stop.firstBreak ends a run at the step of the first break with exit code 5; without a break the run goes to its end."""
     case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)

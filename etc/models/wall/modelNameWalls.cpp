@@ -41,6 +41,12 @@ double ModelNameWalls::volumeBehind(const particles::Box& fluid, const Vec3& dep
     return std::numbers::pi * (outer * outer - radius * radius) * fluid.size()[0];
 }
 
+// Poiseuille's flow: u = f/(4 nu) (R^2 - r^2). It settles by exp(-5.78 nu t/R^2).
+Hydraulics ModelNameWalls::hydraulics(const particles::Box& /*fluid*/) const {
+    const double R2 = radius * radius;
+    return {radius, R2 / 4, R2 / 5.78, std::numbers::pi * R2 * R2 / 8};
+}
+
 CORPUSCLE_REGISTER(WallShape, ModelNameWalls, "modelName", "a round tube along x");
 
 }  // namespace corpuscle::boundary

@@ -26,6 +26,7 @@ struct ModelNameWalls : WallShape {
     Walls place(const particles::Box& fluid) const override;
     double volume(const particles::Box& fluid) const override;
     double volumeBehind(const particles::Box& fluid, const Vec3& depth) const override;
+    Hydraulics hydraulics(const particles::Box& fluid) const override;
 };
 
 }  // namespace corpuscle::boundary

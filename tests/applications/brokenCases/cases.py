@@ -75,6 +75,21 @@ VORTICES = NO_CELLS + [replace(MESH, "[20 um, 16 um, 16 um]", "[16 um, 16 um, 16
 # A fluid alone between walls.
 LAYERED = NO_CELLS + [rewrite(FLOW, "{type: shear, shearRate: 10 1/s}\n"), remove(OBSERVERS)]
 
+# A fluid alone in a tube.
+def tube(walls, drive="pressureDrop: 1 Pa"):
+    return NO_CELLS + [rewrite(FLOW, f"type: poiseuille\n{drive}\nwalls: {walls}\n"), replace(CONTROL, "endStrain: 6", "endTime: 1 ms"),
+                       replace(CONTROL, "strain: 0.5", "time: 0.1 ms"), remove(OBSERVERS), replace(MESH, "[20 um, 16 um, 16 um]", "[20 um, 16 um, 20 um]"),
+                       replace(MESH, "[true, true, false]", "[true, false, false]")]
+
+
+def vessel(half=10):
+    """A square tube, 12 um wide and open at x = -half and half, as constant/vessel.off."""
+    corners = [(x, y, z) for x in (-half, half) for y, z in ((-6, -6), (6, -6), (6, 6), (-6, 6))]
+    sides = [(k, (k + 1) % 4, 4 + k) for k in range(4)] + [((k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+    text = f"OFF\n8 {len(sides)} 0\n" + "".join("{} {} {}\n".format(*x) for x in corners) + "".join("3 {} {} {}\n".format(*t) for t in sides)
+    return lambda directory: (directory / "constant/vessel.off").write_text(text)
+
+
 IMMERSED = replace(NUMERICS, "dualIdentity", "immersed")
 IMPLICIT = [replace(NUMERICS, "velocityVerlet", "implicit"), IMMERSED]
 
@@ -312,6 +327,22 @@ CASES = [
          "rbc.interior.concentration", "330", "carries no solute", "leave it out"),
     case("haemolysisWithoutSolute", append(OBSERVERS, "release: {type: haemolysis, every: 0.1 strain}\n"), OBSERVERS, "release", "release",
          "follows the solute", "carries none", "constant/fluid.yaml"),
+    case("tubeWiderThanTheBox", tube("{type: tube, diameter: 18 um}"), FLOW, "walls.diameter", "18 um", "18 um wide along y", "16 um",
+         "make the box at least as large, or the walls narrower"),
+    case("ductWiderThanTheBox", tube("{type: duct, width: 12 um, height: 24 um}"), FLOW, "walls.height", "24 um", "24 um wide along z", "20 um"),
+    case("throatThatIsNone", tube("{type: constriction, diameter: 12 um, throat: 12 um, taper: 4 um}"), FLOW, "walls.throat", "12 um",
+         "not narrower than the tube"),
+    case("throatLongerThanTheBox", tube("{type: constriction, diameter: 12 um, throat: 8 um, length: 6 um, taper: 8 um}"), FLOW, "walls.taper", "8 um",
+         "22 um long", "20 um along x"),
+    case("wavesThatClose", tube("{type: sinusoidalTube, diameter: 12 um, amplitude: 1}"), FLOW, "walls.amplitude", "1", "at least 0 and less than 1"),
+    case("vesselThatIsNotThere", tube("{type: surface, file: vessel.stl}"), FLOW, "walls.file", "vessel.stl", "vessel.stl"),
+    case("vesselInAnotherUnit", [*tube("{type: surface, file: constant/vessel.off, scale: 1 mm}"), vessel()], FLOW, "walls.file", "constant/vessel.off",
+         "beyond the box", "scale: 1 um"),
+    case("vesselThatIsTooShort", [*tube("{type: surface, file: constant/vessel.off}"), vessel(8)], FLOW, "walls.file", "constant/vessel.off",
+         "8 edges are open", "do not lie at the ends of the box", "-10 um and 10 um", "a cap that is missing"),
+    case("twoDrives", tube("{type: tube, diameter: 12 um}", "pressureDrop: 1 Pa\nbodyForce: 1 m/s^2"), FLOW, "bodyForce", "bodyForce", "pressureDrop"),
+    case("flowRateOfNoChannel", append(OBSERVERS, "rate: {type: flowRate, every: 0.1 strain}\n"), OBSERVERS, "rate", "rate", "between walls at rest",
+         "type: poiseuille"),
     case("edgeTooCoarseForTears", replace(MEMBRANES, "rupture: none", "rupture: {type: cohesive, fractureEnergy: 4 pN, length: 1.5 um}"), MESH,
          "cells[0].edge", "0.8 um", "too coarse for the tears of 'rbc'", "1.5 um", "at most half of it, 750 nm", "finer mesh"),
     case("edgeTooCoarseForImmersed", [IMMERSED, replace(NUMERICS, "spacing: 1 um", "spacing: 0.5 um"), replace(MESH, "0.8 um", "1.2 um")],

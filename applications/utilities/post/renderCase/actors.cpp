@@ -3,8 +3,10 @@
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkContourFilter.h>
 #include <vtkCubeSource.h>
 #include <vtkDoubleArray.h>
+#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkLineSource.h>
 #include <vtkNew.h>
@@ -201,7 +203,7 @@ void addArrows(vtkRenderer* renderer, const Slice& slice, const Camera& camera, 
 double wallThickness(const particles::Box& box) { return 0.03 * box.size().maxCoeff(); }
 
 void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const Camera& camera,
-            double metresPerPixel) {
+            double metresPerPixel, bool withPlates) {
     const Vec3 low = box.low * perMetre, high = box.high * perMetre;
     const auto isBehind = [&](int axis, bool upper) {  // whether the camera sees the inner side of this face
         Vec3 outwards = Vec3::Zero(), middle = box.middle();
@@ -230,7 +232,7 @@ void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, co
                 (behind ? back : front)->AddActor(flatActor(tube->GetOutput(), {0.45, 0.45, 0.48}));
             }
         }
-        if (box.periodic[k]) continue;
+        if (box.periodic[k] || !withPlates) continue;
         for (const bool upper : {false, true}) {
             Vec3 from = box.low, to = box.high;
             (upper ? from : to)[k] = upper ? box.high[k] : box.low[k];
@@ -249,6 +251,51 @@ void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, co
             if (!isBehind(k, upper)) property->SetOpacity(0.10);
             (isBehind(k, upper) ? back : front)->AddActor(actor);
         }
+    }
+}
+
+void addWalls(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const boundary::Walls& walls) {
+    if (!walls.exist()) return;
+    // The surface of distance zero, of the distances at the nodes of a grid. Beyond the box there is no fluid, so that
+    // walls that touch it are drawn whole.
+    constexpr double samples = 120;
+    const Vec3 size = box.size();
+    const double spacing = size.maxCoeff() / samples;
+    vtkNew<vtkImageData> grid;
+    Vec3 origin = box.low;
+    int count[3];
+    for (int k = 0; k < 3; ++k) {
+        const int margin = box.periodic[static_cast<std::size_t>(k)] ? 0 : 2;
+        count[k] = static_cast<int>(std::lround(size[k] / spacing)) + 1 + 2 * margin;
+        origin[k] -= margin * spacing;
+    }
+    grid->SetDimensions(count);
+    grid->SetOrigin(origin[0] * perMetre, origin[1] * perMetre, origin[2] * perMetre);
+    grid->SetSpacing(spacing * perMetre, spacing * perMetre, spacing * perMetre);
+    grid->AllocateScalars(VTK_DOUBLE, 1);
+    for (int k = 0; k < count[2]; ++k)
+        for (int j = 0; j < count[1]; ++j)
+            for (int i = 0; i < count[0]; ++i)
+                *static_cast<double*>(grid->GetScalarPointer(i, j, k)) =
+                    walls.distance(origin + spacing * Vec3(i, j, k)) * perMetre;
+    vtkNew<vtkContourFilter> surface;
+    surface->SetInputData(grid);
+    surface->SetValue(0, 0);
+    surface->ComputeNormalsOn();
+    for (const bool behind : {true, false}) {
+        vtkNew<vtkPolyDataMapper> mapper;
+        mapper->SetInputConnection(surface->GetOutputPort());
+        mapper->ScalarVisibilityOff();
+        vtkNew<vtkActor> actor;
+        actor->SetMapper(mapper);
+        vtkProperty* property = actor->GetProperty();
+        property->SetColor(0.72, 0.75, 0.80);
+        property->SetAmbient(0.45);
+        property->SetDiffuse(0.6);
+        property->SetFrontfaceCulling(behind);
+        property->SetBackfaceCulling(!behind);
+        if (!behind) property->SetOpacity(0.10);
+        (behind ? back : front)->AddActor(actor);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "boundary/walls.hpp"
 #include "camera.hpp"
 #include "field.hpp"
 #include "io/polyData.hpp"
@@ -33,8 +34,11 @@ double largestSpeedIn(const Slice& slice);  // within the plane [m/s]
 
 // The edges of the box, and a plate at each face that is not periodic. Plates between the eye and the contents of the
 // box are transparent; what lies behind the contents is added to `back`.
+// withPlates: without them only the edges are drawn.
 void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const Camera& camera,
-            double metresPerPixel);
+            double metresPerPixel, bool withPlates);
+// Walls of any shape: the half that shows its inner side is solid, the half in front of the contents transparent.
+void addWalls(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const boundary::Walls& walls);
 double wallThickness(const particles::Box& box);
 
 }  // namespace corpuscle

@@ -2,24 +2,49 @@
 
 #include <fmt/format.h>
 
+#include "boundary/wallShape.hpp"
 #include "simulation/caseSettings.hpp"
 #include "simulation/placesTable.hpp"
 
 namespace corpuscle {
 
-std::optional<particles::Box> readBox(Application& app, bool hasRun) {
-    const std::string dictionary = "system/mesh.yaml";
-    Problems problems;
-    Node mesh;
+namespace {
+
+// A dictionary as the last run used it, or as it stands in the case; empty if there is none.
+std::optional<Node> usedOrWritten(Application& app, bool hasRun, const std::string& dictionary, Problems& problems) {
     if (hasRun && app.hasDictionary("used.yaml")) {
         const Node used = app.dictionary("used.yaml", problems);
         const Node* found = used.find(dictionary);
-        if (!found) return std::nullopt;
-        mesh = *found;
-    } else {
-        if (!app.hasDictionary(dictionary)) return std::nullopt;
-        mesh = app.dictionary(dictionary, problems);
+        return found ? std::optional<Node>(*found) : std::nullopt;
     }
+    if (!app.hasDictionary(dictionary)) return std::nullopt;
+    return app.dictionary(dictionary, problems);
+}
+
+}  // namespace
+
+boundary::Walls readWalls(Application& app, bool hasRun, const particles::Box& box) {
+    Problems problems;
+    try {
+        const std::optional<Node> flow = usedOrWritten(app, hasRun, "constant/flow.yaml", problems);
+        const Node* const walls = flow ? flow->find("walls") : nullptr;
+        if (!walls) return {};
+        const auto shape = readChoice<boundary::WallShape>(*walls, problems);
+        problems.throwIfAny();
+        if (shape->planesAcross()) return {};
+        shape->prepare(app.caseDirectory());
+        return shape->place(box);
+    } catch (const Failure& fault) {
+        app.log().warning("the walls are not drawn: {}", fault.what());
+        return {};
+    }
+}
+
+std::optional<particles::Box> readBox(Application& app, bool hasRun) {
+    Problems problems;
+    const std::optional<Node> dictionary = usedOrWritten(app, hasRun, "system/mesh.yaml", problems);
+    if (!dictionary) return std::nullopt;
+    const Node& mesh = *dictionary;
     simulation::DomainSettings domain;
     if (const Node* found = mesh.find("domain"))
         domain = read<simulation::DomainSettings>(*found, problems);

@@ -275,7 +275,10 @@ void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, co
                               (low + panel.height) / layout.height);
         addLights(renderer);
     }
-    if (options.box && !options.frameCells) addBox(back, front, *options.box, plan.camera, layout.metresPerPixel);
+    if (options.box && !options.frameCells) {
+        addBox(back, front, *options.box, plan.camera, layout.metresPerPixel, !options.walls.exist());
+        addWalls(back, front, *options.box, options.walls);
+    }
     if (frame.slice) {
         addSlice(back, *frame.slice, *plan.fluid);
         if (options.arrows) addArrows(back, *frame.slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "boundary/walls.hpp"
 #include "camera.hpp"
 #include "field.hpp"
 #include "frames.hpp"
@@ -27,6 +28,7 @@ struct PictureOptions {
     int width = 0;            // pixels; 0: depends on the number of panels
     int height = 0;           // pixels; 0: depends on what is shown
     std::optional<particles::Box> box;
+    boundary::Walls walls;  // other than planes
 };
 
 // What is common to all panels and to all pictures of a series.

@@ -277,7 +277,10 @@ int main(int argc, char* argv[]) {
         // 2. What the case has.
         const Results results(app.caseDirectory());
         options.box = readBox(app, results.hasRun());
-        if (options.box) options.view = turnedForWalls(options.view, options.box->periodic);
+        if (options.box) {
+            options.walls = readWalls(app, results.hasRun(), *options.box);
+            if (!options.walls.exist()) options.view = turnedForWalls(options.view, options.box->periodic);
+        }
         const PlacesByName places = results.hasRun() ? PlacesByName() : readPlacesOfCells(app);
         if (!app.communicator().isRoot()) return ExitCode::done;
         std::vector<Frame> frames = results.frames(choice, options.box, places);
