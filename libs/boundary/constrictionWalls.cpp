@@ -47,9 +47,12 @@ struct ConstrictionWalls : RevolvedWalls {
     void check(const particles::Box& fluid, const Mark& mark, Problems& problems) const override {
         for (const int axis : {1, 2}) checkWidth("diameter", diameter, axis, fluid, mark, problems);
         if (!(throat < diameter))
-            problems.add(mark, "walls.throat",
-                         fmt::format("found {}, which is not narrower than the tube, {}",
-                                     formatQuantity(throat, unit::metre), formatQuantity(diameter, unit::metre)));
+            problems.add(
+                mark, "walls.throat",
+                fmt::format(
+                    "found {}, which is not narrower than the tube, {}; make the throat narrower, or use 'type: "
+                    "tube'",
+                    formatQuantity(throat, unit::metre), formatQuantity(diameter, unit::metre)));
         if (const double all = length + 2 * taper; all > fluid.size()[0] * (1 + 1e-9))
             problems.add(mark, "walls.taper",
                          fmt::format("the throat and its two tapers are {} long, but the box of system/mesh.yaml has "

@@ -9,6 +9,7 @@ namespace corpuscle::boundary {
 namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double slowestMode = 2.4048;  // first zero of the Bessel function J0
+constexpr double mostEntries = 16384;   // of the table
 }  // namespace
 
 RevolvedTube::RevolvedTube(std::shared_ptr<const RadiusProfile> profile, const particles::Box& fluid)
@@ -18,13 +19,13 @@ RevolvedTube::RevolvedTube(std::shared_ptr<const RadiusProfile> profile, const p
     least_ = profile_->at(0).radius;
     for (int k = 0; k < samples; ++k) {
         const auto [R, slope, curvature] = profile_->at((k + 0.5) * h - 0.5 * length_);
-        least_ = std::min(least_, R);
+        least_ = std::min(least_, R), largest_ = std::max(largest_, R);
         area_ += 2 * pi * R * std::sqrt(1 + slope * slope) * h;
         volume_ += pi * R * R * h;
         turn_ += pi * (1 - R * curvature / (1 + slope * slope)) * h;
         resistance_ += h / std::pow(R, 4);
     }
-    const auto count = static_cast<std::size_t>(std::ceil(64 * length_ / least_));
+    const auto count = static_cast<std::size_t>(std::min(std::ceil(64 * length_ / least_), mostEntries));
     step_ = length_ / static_cast<double>(count);
     for (std::size_t k = 0; k < count; ++k) table_.push_back(profile_->at(static_cast<double>(k) * step_).radius);
 }
@@ -84,8 +85,8 @@ Hydraulics RevolvedWalls::hydraulics(const particles::Box& fluid) const {
     const RevolvedTube all = tube(fluid);
     const double least = all.leastRadius(), length = fluid.size()[0];
     const double rate = pi * length / (8 * all.slenderResistance());  // flow rate nu/f
-    const double mean = all.volume() / (pi * length);                 // mean square of the radius
-    return {least, 2 * rate / (pi * least * least), mean / (slowestMode * slowestMode), {}};
+    const double widest = all.largestRadius();
+    return {least, 2 * rate / (pi * least * least), std::pow(widest / slowestMode, 2), {}};
 }
 
 }  // namespace corpuscle::boundary

@@ -3,7 +3,7 @@
 // The nearest point (s, R(s)) of the wall to a point (x, r), r its distance from the axis, minimises
 //     (s - x)^2 + (R(s) - r)^2
 // and lies within |s - x| <= |R(x) - r|. The least of a table of R in this range is refined by Newton's method. Error:
-// rounding, as long as R is smooth on the scale of the table, R_min/64.
+// rounding, as long as R is smooth on the scale of the table, R_min/64 or a 16,384th of the period.
 #pragma once
 #include <memory>
 #include <string>
@@ -32,6 +32,7 @@ class RevolvedTube : public Surface {
 
     double volume() const { return volume_; }
     double leastRadius() const { return least_; }
+    double largestRadius() const { return largest_; }
     double meanCurvature() const { return turn_; }  // its integral over the surface [m]
     // Integral of R^-4 over a period: the resistance of a slender tube is 8 mu/pi times this.
     double slenderResistance() const { return resistance_; }
@@ -46,7 +47,7 @@ class RevolvedTube : public Surface {
     Vec3 middle_;
     double length_, step_ = 0;
     std::vector<double> table_;  // R at the multiples of step_, over one period
-    double area_ = 0, volume_ = 0, least_ = 0, turn_ = 0, resistance_ = 0;
+    double area_ = 0, volume_ = 0, least_ = 0, largest_ = 0, turn_ = 0, resistance_ = 0;
 };
 
 // What the walls of such tubes have in common.

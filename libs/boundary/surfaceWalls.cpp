@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -48,15 +50,59 @@ struct Edges {
     }
 };
 
-// Area and middle of the openings at one end: of the closed polygons of their edges.
+// The openings at one end, as the closed polygons of their edges: length, area, and means of y, z and of their products
+// over the length.
 struct Opening {
     double area = 0, length = 0;
-    Vec3 middle = Vec3::Zero();
+    Vec3 middle = Vec3::Zero(), squares = Vec3::Zero();
     void add(const Vec3& a, const Vec3& b) {
         const double part = (b - a).norm();
-        length += part, middle += part * 0.5 * (a + b);
+        const Vec3 m = 0.5 * (a + b);
+        length += part, middle += part * Vec3(0, m[1], m[2]);
+        squares += part * Vec3(m[1] * m[1], m[2] * m[2], m[1] * m[2]);
+    }
+    void finish() {
+        if (length > 0) middle /= length, squares /= length;
     }
 };
+
+// Turns each part of the surface, a set of triangles with common nodes, outwards, or inwards if it lies within an odd
+// number of other parts, as an obstacle in a vessel does.
+void orientParts(TriangleMesh& mesh) {
+    std::vector<int> parent(mesh.nodes.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int n) {
+        while (parent[static_cast<std::size_t>(n)] != n) n = parent[static_cast<std::size_t>(n)];
+        return n;
+    };
+    for (const Index3& t : mesh.triangles)
+        for (std::size_t s = 1; s < 3; ++s) parent[static_cast<std::size_t>(root(t[s]))] = root(t[0]);
+    std::map<int, std::vector<std::size_t>> parts;  // triangles, by the root of their nodes
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) parts[root(mesh.triangles[t][0])].push_back(t);
+    const auto turn = [&](const std::vector<std::size_t>& part) {
+        for (const std::size_t t : part) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    };
+    std::vector<TriangleMesh> outwards;
+    for (const auto& [node, part] : parts) {
+        TriangleMesh alone{mesh.nodes, {}};
+        for (const std::size_t t : part) alone.triangles.push_back(mesh.triangles[t]);
+        if (volumeWithin(alone) < 0) alone.flip(), turn(part);
+        outwards.push_back(std::move(alone));
+    }
+    if (parts.size() == 1) return;
+    std::size_t number = 0;
+    for (const auto& [node, part] : parts) {
+        const Vec3& x = mesh.nodes[static_cast<std::size_t>(mesh.triangles[part.front()][0])];
+        bool isWithin = false;
+        for (std::size_t other = 0; other < outwards.size(); ++other)
+            if (other != number &&
+                geometry::TriangleTree(outwards[other], std::numeric_limits<double>::infinity()).nearest(x).distance <
+                    0)
+                isWithin = !isWithin;
+        if (isWithin) turn(part);
+        ++number;
+    }
+}
 
 }  // namespace
 
@@ -78,8 +124,7 @@ void SurfaceWalls::prepare(const std::filesystem::path& caseDirectory) const {
     auto [mesh, size, remarks] = geometry::readSurface(caseDirectory / file);
     if (mesh.triangles.empty()) throw Failure(ExitCode::invalidCase, file + ": the surface has no triangles");
     mesh.scale(scale);
-    // The surface is oriented outwards by its ends as they are, open or not.
-    if (volumeWithin(mesh) < 0) mesh.flip();
+    orientParts(mesh);
     remarks_.clear();
     for (const std::string& remark : remarks) remarks_.push_back(file + ": " + remark);
     mesh_ = std::make_shared<const TriangleMesh>(std::move(mesh));
@@ -96,6 +141,7 @@ void SurfaceWalls::check(const particles::Box& box, const Mark& mark, Problems& 
     const TriangleMesh mesh = in(box);
     const Eigen::AlignedBox3d bounds = boxOf(mesh);
     const Vec3 room = box.size();
+    bool isBeyond = false;
     const auto add = [&](const std::string& text) { problems.add(mark, "walls.file", file + ": " + text); };
     for (int k = 0; k < 3; ++k) {
         const double over = std::max(box.low[k] - bounds.min()[k], bounds.max()[k] - box.high[k]);
@@ -112,7 +158,8 @@ void SurfaceWalls::check(const particles::Box& box, const Mark& mark, Problems& 
                         formatQuantity(bounds.min()[k], unit::metre), formatQuantity(bounds.max()[k], unit::metre),
                         "xyz"[k], formatQuantity(box.low[k], unit::metre), formatQuantity(box.high[k], unit::metre),
                         cure));
-        return;
+        isBeyond = true;
+        break;
     }
     const Edges edges(mesh);
     const auto nodeOf = [&](int n) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(n)]; };
@@ -136,27 +183,37 @@ void SurfaceWalls::check(const particles::Box& box, const Mark& mark, Problems& 
         else if (loose++ == 0)
             first = 0.5 * (a + b);
     }
-    if (loose > 0)
+    if (loose > 0 && !isBeyond)
         add(fmt::format(
             "{} edges are open (first: at {}){}; close the surface there, as with a cap that is missing", loose,
             placeText(first),
             isInside() ? fmt::format(" and do not lie at the ends of the box, x = {} and {}",
                                      formatQuantity(box.low[0], unit::metre), formatQuantity(box.high[0], unit::metre))
                        : ""));
-    if (loose == 0 && ends[0].length + ends[1].length > 0) {
-        const double inset = 1e-6 * room[0];
+    if (isInside() && loose == 0 && !isBeyond && !(ends[0].length > 0 && ends[1].length > 0)) {
+        const bool none = ends[0].length + ends[1].length == 0;
+        add(fmt::format(
+            "the surface is {} at the end{} of the box, x = {}, so that nothing can flow along x; open it "
+            "there",
+            none ? "closed" : "open at one end only and closed", none ? "s" : "",
+            none ? formatQuantity(box.low[0], unit::metre) + " and " + formatQuantity(box.high[0], unit::metre)
+                 : formatQuantity(ends[0].length > 0 ? box.high[0] : box.low[0], unit::metre)));
+    } else if (isInside() && loose == 0 && !isBeyond) {
+        const double inset = 1.1 * atEnd * room[0];
         for (int side = 0; side < 2; ++side) {
             ends[side].area = sectionAt(mesh, side == 0 ? box.low[0] + inset : box.high[0] - inset).area;
-            if (ends[side].length > 0) ends[side].middle /= ends[side].length;
+            ends[side].finish();
         }
-        Vec3 apart = ends[1].middle - ends[0].middle;
-        apart[0] = 0;
+        const Vec3 apart = ends[1].middle - ends[0].middle;
         const double larger = std::max(ends[0].area, ends[1].area);
         if (std::abs(ends[0].area - ends[1].area) > alikeWithin * larger ||
-            apart.norm() > alikeWithin * std::sqrt(larger))
+            apart.norm() > alikeWithin * std::sqrt(larger) ||
+            (ends[0].squares - ends[1].squares).norm() > alikeWithin * larger)
             add(
                 fmt::format("its two ends do not fit together, as they must where the vessel meets its periodic "
-                            "images: the openings at x = {} and {} have {:.5g} and {:.5g} um^2, and middles {} apart",
+                            "images: the openings at x = {} and {} have {:.5g} and {:.5g} um^2, and middles {} apart; "
+                            "make both of the same shape, at the same y "
+                            "and z",
                             formatQuantity(box.low[0], unit::metre), formatQuantity(box.high[0], unit::metre),
                             1e12 * ends[0].area, 1e12 * ends[1].area, formatQuantity(apart.norm(), unit::metre)));
     }

@@ -1,7 +1,7 @@
 // `surface`: a wall from a surface file (geometry/readSurface). Two kinds:
 //
 // fluid: inside   a vessel along x. Its surface is closed but for plane openings at the two ends of the box, through
-//                 which it continues in its periodic images; without openings it is a closed chamber.
+//                 which it continues in its periodic images. Closed surfaces within it are obstacles.
 // fluid: outside  obstacles in a box that is periodic along all axes; closed surfaces.
 #pragma once
 #include <memory>

@@ -8,7 +8,7 @@
 //     tube haematocrit = volume of the cells/volume of the fluid and the cells
 //     discharge haematocrit = flow rate of the cells/Q,   of one cell 1/L oint x (u.n) dA
 // The forces that drive the fluid and those on the walls balance once the flow is steady: `imbalance` is their
-// difference over the drive.
+// difference over the drive. Bodies that are held take a part of the drive.
 //
 // Numbers to compare with: a Newtonian fluid has the apparent viscosity of the fluid (Poiseuille). In a round tube of
 // diameter D in um blood of discharge haematocrit 0.45 has, in vitro, the apparent viscosity
@@ -30,8 +30,12 @@ double ratio(double a, double b) { return b == 0 ? std::numeric_limits<double>::
 
 // Volume of a cell, and the integral of the velocity along x over it.
 void findTransport(const coupling::Cell& cell, double* out) {
-    const geometry::TriangleMesh surface{cell.membrane.position, cell.membrane.network().triangles()};
+    const geometry::TriangleMesh surface = closedSurface(cell);
     out[0] = surface.volume();
+    if (cell.membrane.network().brokenTriangles() > 0) {  // what flows through its holes is not known
+        out[1] = std::numeric_limits<double>::quiet_NaN();
+        return;
+    }
     const Vec3 origin = cell.membrane.position.front();
     double flux = 0, transport = 0;  // of u.n and of x (u.n), by the three nodes of each triangle
     for (const Index3& t : surface.triangles) {
@@ -97,8 +101,8 @@ struct FlowRateObserver : Observer {
     }
     std::string whyNot(const Subject& subject) const override {
         if (subject.channel) return {};
-        return "this observer looks at a flow between walls at rest, and the flow of this case is none; remove it, or "
-               "choose 'type: poiseuille' in constant/flow.yaml";
+        return "this observer needs a flow along x between walls at rest; remove it, or choose 'type: poiseuille' in "
+               "constant/flow.yaml";
     }
     std::vector<Table> tables(const SceneParts& parts) const override {
         std::vector<io::Column> columns{
@@ -106,7 +110,8 @@ struct FlowRateObserver : Observer {
             {"meanVelocity", "m_s", "flow rate over the mean cross-section"},
             {"pressureDrop", "Pa", "density times body force times the length of the box"},
             {"wallStress", "Pa", "force on the walls along x over their area"},
-            {"imbalance", "", "1 - force on the walls/force that drives the fluid; 0 in a steady flow"}};
+            {"imbalance", "",
+             "1 - force on the walls/force that drives the fluid; 0 in a steady flow without bodies that are held"}};
         if (parts.conductance) {
             columns.push_back({"apparentViscosity", "Pas", "that of a Newtonian fluid of this flow rate"});
             columns.push_back({"relativeViscosity", "", "apparent viscosity over that of the fluid outside the cells"});

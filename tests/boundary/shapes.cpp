@@ -177,7 +177,7 @@ TEST(Hydraulics, planes) {
     EXPECT_DOUBLE_EQ(planes.width, 4);
 }
 
-TEST(Constriction, refusesAThroatThatIsNone) {
+TEST(Constriction, refusesAThroatAsWideAsTheTube) {
     Problems problems;
     shapeOf("{type: constriction, diameter: 2 m, throat: 3 m, taper: 1 m}")->check(box, {}, problems);
     EXPECT_FALSE(problems.empty());

@@ -143,6 +143,51 @@ TEST(SurfaceWalls, obstaclesInAPeriodicBox) {
     EXPECT_NEAR(walls.volume(whole), 96 - 4 * pi / 3, 0.02);
 }
 
+// An octahedron of this radius.
+geometry::TriangleMesh octahedron(const Vec3& centre, double radius, bool inwards) {
+    geometry::TriangleMesh mesh;
+    for (int k = 0; k < 3; ++k)
+        for (const double sign : {-1.0, 1.0}) mesh.nodes.push_back(centre + sign * radius * Vec3::Unit(k));
+    for (const int x : {0, 1})
+        for (const int y : {2, 3})
+            for (const int z : {4, 5}) {
+                const bool outwards = ((x + y + z) % 2 == 0) != inwards;  // 1, 3, 5 are on the positive sides
+                mesh.triangles.push_back(outwards ? Index3{x, z, y} : Index3{x, y, z});
+            }
+    return mesh;
+}
+
+geometry::TriangleMesh joined(geometry::TriangleMesh one, const geometry::TriangleMesh& other) {
+    const auto first = static_cast<int>(one.nodes.size());
+    one.nodes.insert(one.nodes.end(), other.nodes.begin(), other.nodes.end());
+    for (const Index3& t : other.triangles) one.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return one;
+}
+
+// Each part is oriented on its own, whichever way its triangles are given.
+TEST(SurfaceWalls, orientsEachPart) {
+    const particles::Box whole{Vec3(-3, -2, -2), Vec3(3, 2, 2), {true, true, true}};
+    for (const bool first : {false, true})
+        for (const bool second : {false, true}) {
+            const Vec3 one(-1.5, 0, 0), two(1.5, 0.2, 0);
+            const SurfaceWalls obstacles =
+                wallsOf(joined(octahedron(one, 1, first), octahedron(two, 1, second)), "outside");
+            EXPECT_EQ(faultsOf(obstacles, whole), "");
+            const Walls walls = obstacles.place(whole);
+            EXPECT_LT(walls[0].distance(one), -0.4) << first << second;
+            EXPECT_LT(walls[0].distance(two), -0.4) << first << second;
+            EXPECT_GT(walls[0].distance(Vec3(0, 1.5, 1.5)), 0.5) << first << second;
+            EXPECT_NEAR(obstacles.volume(whole), 96 - 8.0 / 3, 1e-9);
+            // The same body in a vessel: there the fluid is around it too.
+            const SurfaceWalls post = wallsOf(joined(tube(straight), octahedron(Vec3(0, 0, 0), 0.8, second)));
+            EXPECT_EQ(faultsOf(post), "");
+            const Walls around = post.place(box);
+            EXPECT_LT(around[0].distance(Vec3(0, 0, 0)), -0.3) << second;
+            EXPECT_NEAR(around[0].distance(Vec3(0, 0, 1.2)), 0.3, 0.01) << second;
+            EXPECT_LT(around[0].distance(Vec3(0, 0, 1.8)), -0.2) << second;
+        }
+}
+
 TEST(SurfaceWalls, refusesEachFault) {
     geometry::TriangleMesh hole = tube(straight);
     hole.triangles.erase(hole.triangles.begin() + 2000);
@@ -167,6 +212,22 @@ TEST(SurfaceWalls, refusesEachFault) {
     fin.nodes.emplace_back(0, 1.9, 0.2);
     fin.triangles.push_back({24 * 64, 24 * 64 + 1, static_cast<int>(fin.nodes.size()) - 1});
     EXPECT_NE(faultsOf(wallsOf(fin)).find("more than two triangles"), std::string::npos) << faultsOf(wallsOf(fin));
+    geometry::TriangleMesh capped = tube(straight);
+    const auto centre = static_cast<int>(capped.nodes.size());
+    capped.nodes.emplace_back(-3, 0, 0);
+    for (int j = 0; j < 64; ++j) capped.triangles.push_back({centre, (j + 1) % 64, j});
+    const std::string oneEnd = faultsOf(wallsOf(capped));
+    EXPECT_NE(oneEnd.find("open at one end only and closed at the end of the box, x = -3 m"), std::string::npos)
+        << oneEnd;
+    const std::string closed = faultsOf(wallsOf(octahedron(Vec3(0, 0, 0), 1, false)));
+    EXPECT_NE(closed.find("closed at the ends of the box"), std::string::npos) << closed;
+    geometry::TriangleMesh turned = tube(straight);  // an ellipse that lies at one end and stands at the other
+    for (Vec3& x : turned.nodes) {
+        const double wide = std::exp(0.08 * x[0]);
+        x[1] *= wide, x[2] /= wide;
+    }
+    EXPECT_NE(faultsOf(wallsOf(turned)).find("do not fit together"), std::string::npos) << faultsOf(wallsOf(turned));
+    EXPECT_EQ(faultsOf(wallsOf(tube(straight, -3, 3 - 2e-4))), "") << "within the tolerance of an end";
     SurfaceWalls none;
     none.file = "none.stl";
     EXPECT_THROW(none.prepare("/tmp"), Failure);
