@@ -32,7 +32,7 @@ Vec3 EllipticTube::nearest(const Vec3& r) const {
     const bool wide = halfWidth_ >= halfHeight_;
     const double a = wide ? halfWidth_ : halfHeight_, b = wide ? halfHeight_ : halfWidth_;
     const double p = std::abs(wide ? r[1] : r[2]), q = std::abs(wide ? r[2] : r[1]);
-    double x, y;
+    double x = a, y = 0;  // on the long axis, beyond the centre of its curvature
     if (q > 1e-12 * b) {
         double t = b * q - b * b;
         for (int k = 0; k < 100; ++k) {
@@ -45,8 +45,6 @@ Vec3 EllipticTube::nearest(const Vec3& r) const {
     } else if (const double c = a * a - b * b; a * p < c) {
         x = a * a * p / c;
         y = b * std::sqrt(std::max(0.0, 1 - x * x / (a * a)));
-    } else {
-        x = a, y = 0;
     }
     const double along = std::copysign(wide ? x : y, r[1]), up = std::copysign(wide ? y : x, r[2]);
     return {0, along, up};

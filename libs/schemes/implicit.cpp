@@ -13,7 +13,7 @@ namespace {
 // settles is not resolved if the run goes on for far longer: as for a cell in a tube, where the flow settles in
 // microseconds and the cell travels for tenths of a second.
 double longestStep(const CaseFacts& facts) {
-    constexpr double stepsPerTransient = 40, transientsOfAStart = 30;
+    constexpr double stepsPerTransient = 40, transientsOfAStart = 100;
     if (facts.flow.settles && facts.duration > transientsOfAStart * facts.flow.transient) return 0;
     return facts.flow.transient / stepsPerTransient;
 }

@@ -66,6 +66,11 @@ TEST(Choice, writtenKeysStay) {
     EXPECT_DOUBLE_EQ(followed.scheme->fullStep(absent.facts, 0), 0.025);
     EXPECT_EQ(write(followed).find("implicit")->find("step")->scalar, "0.025");  // as written to used.yaml
     EXPECT_EQ(write(absent.settings).find("implicit")->find("step")->scalar, "0.05");
+    // A start-up is not followed in a run that is more than 100 times as long.
+    absent.facts.flow.settles = true, absent.facts.duration = 99;
+    EXPECT_DOUBLE_EQ(absent.settled("implicit").scheme->fullStep(absent.facts, 0), 0.025);
+    absent.facts.duration = 101;
+    EXPECT_DOUBLE_EQ(absent.settled("implicit").scheme->fullStep(absent.facts, 0), 0.05);
 }
 
 TEST(Choice, whoRefusesWhat) {
