@@ -72,7 +72,10 @@ void orientParts(TriangleMesh& mesh) {
     std::vector<int> parent(mesh.nodes.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int n) {
-        while (parent[static_cast<std::size_t>(n)] != n) n = parent[static_cast<std::size_t>(n)];
+        while (parent[static_cast<std::size_t>(n)] != n) {
+            int& next = parent[static_cast<std::size_t>(n)];
+            n = next = parent[static_cast<std::size_t>(next)];
+        }
         return n;
     };
     for (const Index3& t : mesh.triangles)
@@ -82,12 +85,12 @@ void orientParts(TriangleMesh& mesh) {
     const auto turn = [&](const std::vector<std::size_t>& part) {
         for (const std::size_t t : part) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
     };
-    std::vector<TriangleMesh> outwards;
+    std::vector<geometry::TriangleTree> outwards;  // of each part
     for (const auto& [node, part] : parts) {
         TriangleMesh alone{mesh.nodes, {}};
         for (const std::size_t t : part) alone.triangles.push_back(mesh.triangles[t]);
         if (volumeWithin(alone) < 0) alone.flip(), turn(part);
-        outwards.push_back(std::move(alone));
+        if (parts.size() > 1) outwards.emplace_back(alone, std::numeric_limits<double>::infinity());
     }
     if (parts.size() == 1) return;
     std::size_t number = 0;
@@ -95,10 +98,7 @@ void orientParts(TriangleMesh& mesh) {
         const Vec3& x = mesh.nodes[static_cast<std::size_t>(mesh.triangles[part.front()][0])];
         bool isWithin = false;
         for (std::size_t other = 0; other < outwards.size(); ++other)
-            if (other != number &&
-                geometry::TriangleTree(outwards[other], std::numeric_limits<double>::infinity()).nearest(x).distance <
-                    0)
-                isWithin = !isWithin;
+            if (other != number && outwards[other].nearest(x).distance < 0) isWithin = !isWithin;
         if (isWithin) turn(part);
         ++number;
     }

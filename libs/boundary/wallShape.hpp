@@ -15,9 +15,10 @@ namespace corpuscle::boundary {
 
 // The steady creeping flow along x that a force f per mass drives between walls, in a fluid of viscosity nu = mu/rho.
 struct Hydraulics {
-    double width = 0;     // over which the velocity changes: the gap of planes, the least radius of a tube [m]
-    double fastest = 0;   // largest velocity nu/f [m^2]; an estimate where the flow has no closed form
-    double settling = 0;  // time in which the flow settles by a factor e, times nu [m^2]; an upper bound
+    double width = 0;    // over which the velocity changes: the gap of planes, the least radius of a tube [m]
+    double fastest = 0;  // largest velocity nu/f [m^2]; an estimate where the flow has no closed form
+    // Time in which the flow settles by a factor e, times nu [m^2]; an estimate for surfaces from files.
+    double settling = 0;
     std::optional<double> conductance;  // flow rate nu/f [m^4]; empty where it has no closed form
 };
 

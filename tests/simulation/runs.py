@@ -1239,7 +1239,7 @@ cells:
 
 
 def vessel(path, radius, length, along=40, around=64):
-    """Writes an open tube of radius(x) along x, in um, as OFF."""
+    """Writes an open tube of radius(x) along x, in um, as OFF; every third pair of triangles has one that points the other way."""
     with open(path, "w") as out:
         print(f"OFF\n{(along + 1) * around} {2 * along * around} 0", file=out)
         for i in range(along + 1):
@@ -1250,7 +1250,8 @@ def vessel(path, radius, length, along=40, around=64):
         for i in range(along):
             for j in range(around):
                 a, b = i * around + j, i * around + (j + 1) % around
-                print(f"3 {a} {b} {a + around}\n3 {b} {b + around} {a + around}", file=out)
+                one, two = (b, a) if (i + j) % 3 == 0 else (a, b)
+                print(f"3 {one} {two} {a + around}\n3 {b} {b + around} {a + around}", file=out)
 
 
 def test_vessels(folder):
@@ -1275,6 +1276,7 @@ cells: [{name: rbc, shape: {type: spheroid, a: 3.2 um, c: 3.2 um}, edge: 0.9 um,
     vessel(triangles / "constant/vessel.off", radius, 24, along=120, around=192)
     for program in ("membraneMesh", "particleFill"):
         run(triangles, program)
+    assert "pointed inwards" in (triangles / "log.particleFill").read_text(), "what was turned is said"
     seen = {}
     for name, of, ranks in (("np1", start, 1), ("np2", start, 2), ("np4", start, 4), ("surface", triangles, 1)):
         ready = copied(of, folder / name)

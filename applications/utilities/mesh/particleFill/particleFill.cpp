@@ -318,6 +318,8 @@ int main(int argc, char* argv[]) {
         input.throwIfAny(problems);
         app.openLog();
         simulation::refreshSchemas(app);
+        if (const boundary::WallShape* const walls = input.flowModel->walls())
+            for (const std::string& remark : walls->remarks()) app.log().info("{}", remark);
         Filling filling = placeParticles(input, cells, bodies);
         if (!cells.empty() && !input.numerics.isImmersed()) relax(input, app.communicator().handle(), cells, filling);
         write(input, filling);
