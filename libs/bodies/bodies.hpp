@@ -35,6 +35,7 @@ class Bodies : public sph::Load {
     const std::vector<Body>& all() const { return bodies_; }
     std::vector<Body>& all() { return bodies_; }
     sph::RigidGroups& groups() { return groups_; }
+    void setBodyForce(const Vec3& force) { medium_.bodyForce = force; }
     // Index of the body of a particle. member: its field `member` in the store.
     std::size_t bodyOf(std::int64_t member) const;
 

@@ -53,6 +53,7 @@ class RevolvedTube : public Surface {
 // What the walls of such tubes have in common.
 struct RevolvedWalls : WallShape {
     bool isAcross(int axis) const override { return axis != 0; }
+    bool isStraight() const override { return false; }
     Walls place(const particles::Box& fluid) const override;
     double volume(const particles::Box& fluid) const override;
     double volumeBehind(const particles::Box& fluid, const Vec3& depth) const override;

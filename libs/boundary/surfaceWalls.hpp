@@ -23,6 +23,7 @@ struct SurfaceWalls : WallShape {
     std::vector<std::string> remarks() const override { return remarks_; }
     void check(const particles::Box& box, const Mark& mark, Problems& problems) const override;
     bool isAcross(int axis) const override { return isInside() && axis != 0; }
+    bool isStraight() const override { return false; }
     Walls place(const particles::Box& box) const override;
     double volume(const particles::Box& box) const override;
     double volumeBehind(const particles::Box& box, const Vec3& depth) const override;

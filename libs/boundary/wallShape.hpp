@@ -40,6 +40,9 @@ class WallShape {
     // The normal axis of walls that are two parallel planes at the ends of the box; empty for other walls.
     virtual std::optional<int> planesAcross() const { return {}; }
 
+    // Whether all cross-sections are the same, so that a developed flow is one along x alone.
+    virtual bool isStraight() const { return true; }
+
     // The walls of a fluid in this box, at rest.
     virtual Walls place(const particles::Box& fluid) const = 0;
     // Volume of the fluid between the walls; volume of the layers behind them, of this depth along each axis [m^3].

@@ -40,6 +40,7 @@ using Form = std::vector<std::pair<const char*, int>>;
 
 std::vector<Form> formsOf(Dimension d) {
     const auto is = [&](int mass, int length, int time) { return d == Dimension{mass, length, time}; };
+    if (is(0, 3, -1)) return {{{"length", 3}, {"time", -1}}, {{"volume", 1}, {"time", -1}}};
     if (is(0, 3, 0)) return {{{"length", 3}}, {{"volume", 1}}};
     if (is(0, 0, -1)) return {{{"time", -1}}, {{"frequency", 1}}, {{"angle", 1}, {"time", -1}}};
     if (is(0, 1, -2)) return {{{"length", 1}, {"time", -2}}, {{"force", 1}, {"mass", -1}}};
@@ -178,6 +179,8 @@ std::vector<std::string> usualUnits(Dimension d) {
     if (is(0, 2, 0)) return Words{"um^2", "nm^2", "mm^2", "cm^2", "m^2"};
     if (is(0, 3, 0)) return Words{"um^3", "fL", "pL", "nL", "uL", "mL", "L", "mm^3", "cm^3", "m^3", "nm^3"};
     if (is(0, 0, 1)) return Words{"s", "ms", "us", "ns", "ps", "min", "h"};
+    if (is(0, 3, -1))
+        return Words{"m^3/s", "um^3/s", "mm^3/s", "uL/min", "nL/min", "uL/s", "nL/s", "pL/s", "mL/min", "L/min"};
     if (is(0, 0, -1)) return Words{"1/s", "1/ms", "1/us", "1/min", "Hz", "kHz", "MHz", "rad/s", "s^-1"};
     if (is(0, -1, 0)) return Words{"1/um", "1/nm", "1/mm", "1/m", "um^-1"};
     if (is(0, 1, -1)) return Words{"mm/s", "um/s", "nm/s", "cm/s", "m/s", "um/ms"};

@@ -191,7 +191,7 @@ struct Named {
     std::string_view text;
     int leadingPower;  // of the first symbol; 0: takes no prefix
 };
-constexpr std::array<Named, 17> namedUnits{{{unit::metre, "m", 1},
+constexpr std::array<Named, 18> namedUnits{{{unit::metre, "m", 1},
                                             {{0, 2, 0}, "m^2", 2},
                                             {{0, 3, 0}, "m^3", 3},
                                             {unit::second, "s", 1},
@@ -199,6 +199,7 @@ constexpr std::array<Named, 17> namedUnits{{{unit::metre, "m", 1},
                                             {unit::metrePerSecond, "m/s", 1},
                                             {unit::metrePerSecond2, "m/s^2", 1},
                                             {unit::metre2PerSecond, "m^2/s", 2},
+                                            {unit::metre3PerSecond, "m^3/s", 3},
                                             {{1, 0, 0}, "kg", 0},
                                             {unit::kilogramPerMetre3, "kg/m^3", 0},
                                             {unit::pascal, "Pa", 1},

@@ -40,6 +40,7 @@ inline constexpr Dimension newtonPerMetre{1, 0, -2};
 inline constexpr Dimension joule{1, 2, -2};
 inline constexpr Dimension newtonSecondPerMetre{1, 0, -1};
 inline constexpr Dimension metre2PerSecond{0, 2, -1};
+inline constexpr Dimension metre3PerSecond{0, 3, -1};
 }  // namespace unit
 
 struct Quantity {

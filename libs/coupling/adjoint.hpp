@@ -1,6 +1,7 @@
 // What the two steps with adjoint operators (sph/operators.hpp) have in common: the explicit step (adjointVerlet.hpp)
 // and the implicit step (implicit/implicitStep.hpp).
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace corpuscle::coupling {
 struct AdjointOptions {
     sph::OperatorForm form = sph::OperatorForm::corrected;
     std::optional<double> shifting{};  // C of transport.hpp: strength per unit of strain; empty: no shifting
+    double densityRate = 0;            // C_rho of relaxDensities
     std::optional<DensityBalance> densityBalance{};
     long balanceInterval = 0;  // steps between two balances
     double largestBalance() const { return densityBalance ? densityBalance->largest() : 0; }
@@ -19,6 +21,23 @@ struct AdjointOptions {
 
 // Pressures of all owned particles from their densities [Pa].
 void findPressures(const Scene& scene, particles::RealArray& pressure);
+
+// Lets densities follow the number of particles, in a step of dt:
+//     rho_i <- rho_i [1 + min(C_rho gammadot dt, 1/2) (sigma_i - 1)],   sigma_i = sum_j V_j W (sph/momentPair.hpp)
+// The continuity equation takes no account of where particles are: where they part, the volume m/rho of each stays what
+// it is, and a void between them, which exerts no pressure, may grow. With this source, the pressure falls where
+// particles are sparse and rises where they are dense, until the fluid converges there at the rate C_rho gammadot
+// (1 - sigma). It is the source of incompressible SPH for a constant number density, spread over a time: Khayyer, Gotoh,
+// J. Comput. Phys. 230 (2011) 3093. gammadot: rate of the flow. Fluid particles only; the mean over each region is kept
+// by the density balance.
+template <class Real>
+void relaxDensities(Scene& scene, const sph::Operators<Real>& operators, double rate, double dt) {
+    if (rate == 0) return;
+    particles::ParticleStore& s = scene.store();
+    const double share = std::min(rate * scene.flow.rate * dt, 0.5);
+    for (std::size_t i = 0; i < s.size(); ++i)
+        if (s.kindOf(i) == particles::Kind::fluid) s.density[i] *= 1 + share * (operators.evenness(i) - 1);
+}
 
 // Ends step `number`, of length dt [s]: applies the density balance if it is due, then breaks bonds. Returns the bonds
 // that broke. Collective.

@@ -49,6 +49,7 @@ class Verlet final : public AdjointVerlet {
         evaluate(half);
         accelerate(dt, half);
         scene_.moveSolute(dt, half);
+        relaxDensities(scene_, operators_, options_.densityRate, dt);
         findMoves(dt);
         drift(half);
         move();

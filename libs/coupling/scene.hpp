@@ -7,6 +7,7 @@
 #include "bodies/bodies.hpp"
 #include "coupling/cellContacts.hpp"
 #include "coupling/dualIdentity.hpp"
+#include "coupling/flowControl.hpp"
 #include "coupling/soluteTransport.hpp"
 #include "particles/particleSystem.hpp"
 #include "sph/flow.hpp"
@@ -30,7 +31,13 @@ struct Scene {
     sph::Budget budget;                        // of energy and momentum; kept only if an observer asks for it
     // Fluid particles of this rank that had crossed a membrane and were moved back, since the start.
     long movedBack = 0;
-    double spacing = 0;  // dx [m]
+    double spacing = 0;                    // dx [m]
+    double now = 0;                        // time at which the present step begins [s]
+    std::unique_ptr<FlowControl> control;  // null unless the flow has a given flow rate
+
+    // Sets the body force and the velocities of walls to their values at t [s]. Schemes call it with the time at which
+    // they take them.
+    void driveAt(double t);
 
     // Moves the solute, if there is one, for dt [s] at the present positions, `rest` before the end of the step; lists
     // must be up to date. Collective.

@@ -16,7 +16,7 @@ double disturbanceOf(System<Real>& system, const typename System<Real>::Field& v
     const TimeDifference& time = system.time();
     const particles::ParticleStore& s = scene.store();
     const auto affine = [&](const Vec3& x) {
-        return scene.flow.shearRate > 0 ? scene.flow.velocity(x) : Vec3(Vec3::Zero());
+        return scene.flow.shearRate > 0 ? scene.flow.undisturbed(x) : Vec3(Vec3::Zero());
     };
     double sum = 0;
     const Vec3& g = scene.model().bodyForce;

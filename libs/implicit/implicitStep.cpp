@@ -52,7 +52,7 @@ class Step final : public ImplicitStep {
     Made advance(double dt, double planned) override {
         planned_ = std::max(dt, planned);
         movement_.moveVelocities(-ahead());
-        Made made = make(dt, isBackward() || isAfterBreak(), 0);
+        Made made = make(scene_.now, dt, isBackward() || isAfterBreak(), 0);
         movement_.moveVelocities(ahead());
         return made;
     }
@@ -65,12 +65,13 @@ class Step final : public ImplicitStep {
     bool isBackward() const { return damped || options_.settings.method == "backwardEuler"; }
     bool isAfterBreak() const { return state.steps > 0 && state.sinceBreak == 0; }
 
-    Made make(double dt, bool backward, int halvings) {
+    // start: time at which this part of the step begins [s].
+    Made make(double start, double dt, bool backward, int halvings) {
         BreakSearch search(dt, scene_.flow.rate);
         Outcome outcome = Outcome::otherLength;
         for (long tries = 0; outcome == Outcome::otherLength; ++tries) {
             if (tries > 0) ++statistics.breakTries;
-            outcome = attempt(search, halvings == 0 ? planned_ : dt, backward);
+            outcome = attempt(start, search, halvings == 0 ? planned_ : dt, backward);
         }
         if (outcome == Outcome::made) return end(search);
         dt = search.length();
@@ -80,9 +81,9 @@ class Step final : public ImplicitStep {
                                       "system/numerics.yaml",
                                       state.steps + 1, fault_, 1 << halvings));
         ++statistics.halvings;
-        Made made = make(0.5 * dt, true, halvings + 1);
+        Made made = make(start, 0.5 * dt, true, halvings + 1);
         if (isAfterBreak() || made.length < 0.5 * dt) return made;  // the same on all ranks
-        Made later = make(0.5 * dt, true, halvings + 1);
+        Made later = make(start + 0.5 * dt, true, halvings + 1);
         later.length += made.length;
         return later;
     }
@@ -114,10 +115,11 @@ class Step final : public ImplicitStep {
     enum class Outcome { made, failed, otherLength };
     // Tries one step. If it is not made, everything is where it was, and the reason is in fault_, or another length in
     // `search`.
-    Outcome attempt(BreakSearch& search, double planned, bool backward) {
+    Outcome attempt(double start, BreakSearch& search, double planned, bool backward) {
         const double dt = search.length();
         const TimeDifference time = backward ? TimeDifference::backwardEuler(dt, state)
                                              : TimeDifference::midpoint(dt, state, hasAcceleration());
+        scene_.driveAt(start + time.begin());
         movement_.depart(time);
         if (immersed_ && immersed_->freeDeparture() < 1) {
             fault_ = "membranes would meet on the way to where forces are taken";
@@ -278,6 +280,7 @@ class Step final : public ImplicitStep {
             s.densityRate[i] = -s.density[i] * rate_[i];
             s.density[i] = time.density(s.density[i], rate_[i]);
         }
+        coupling::relaxDensities(scene_, system_.operators(), options_.densityRate, time.dt);
         scene_.moveSolute(time.dt, time.dt - time.begin());
         movement_.arrive(velocity_);
         state.behind = time.dt - time.begin(), state.lastSpacing = time.h;

@@ -63,20 +63,18 @@ class FlowRateObservation : public Observation {
 
     std::vector<Row> observe(const Scene& scene, const Time&) override {
         const particles::ParticleStore& s = scene.store();
-        std::vector<double> sums{0, 0, 0};  // V u, drive, force on walls
+        std::vector<double> sums{0, 0};  // drive, force on walls
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (s.kindOf(i) == particles::Kind::wall) continue;
-            const double mass = s.optional().mass ? s.mass[i] : scene.model().mass;
-            sums[0] += mass / s.density[i] * s.velocity(i)[0];
-            sums[1] += mass * scene.model().bodyForce[0];
+            sums[0] += scene.mass(i) * scene.model().bodyForce[0];
         }
-        for (const Vec3& force : scene.forces->wallForces()) sums[2] += force[0];
+        for (const Vec3& force : scene.forces->wallForces()) sums[1] += force[0];
         sums = Communicator(scene.system->comm()).sum(std::move(sums));
         double area = 0;
         for (const boundary::Wall& wall : scene.flow.walls) area += wall.surface->area();
         const double length = scene.fluidBox.size()[0], section = scene.flow.section;
-        const double rate = sums[0] / length, drive = scene.model().density * scene.model().bodyForce[0];
-        std::vector<double> row{rate, rate / section, drive * length, sums[2] / area, 1 - sums[2] / sums[1]};
+        const double rate = coupling::flowRate(scene), drive = scene.model().density * scene.model().bodyForce[0];
+        std::vector<double> row{rate, rate / section, drive * length, sums[1] / area, 1 - ratio(sums[1], sums[0])};
         if (scene.flow.conductance) {
             const double viscosity = ratio(*scene.flow.conductance * drive, rate);
             row.insert(row.end(), {viscosity, viscosity / scene.model().viscosity});
@@ -85,7 +83,7 @@ class FlowRateObservation : public Observation {
             double volume = 0, transport = 0;
             for (const std::vector<double>& cell : ofEachCell(scene, 2, findTransport))
                 volume += cell[0], transport += cell[1];
-            row.insert(row.end(), {volume / (section * length), ratio(transport, sums[0])});
+            row.insert(row.end(), {volume / (section * length), ratio(transport, rate * length)});
         }
         return {{0, std::move(row)}};
     }

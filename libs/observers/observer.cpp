@@ -43,7 +43,7 @@ SceneParts SceneParts::of(const Scene& scene) {
         }
     for (const boundary::Wall& wall : scene.flow.walls) parts.walls.push_back(wall.name);
     parts.shear = scene.flow.shearRate != 0;
-    parts.bodyForce = !scene.model().bodyForce.isZero();
+    parts.bodyForce = !scene.flow.bodyForce.isZero();
     parts.budget = scene.budget.kept;
     parts.slidingImages = scene.system->periodicity().slides();
     parts.conductance = scene.flow.conductance.has_value();

@@ -17,6 +17,7 @@ class AdjointVerletStepper final : public ExplicitStepper {
           step_(coupling::AdjointVerlet::make(scene, adjointOptions(numerics, scene))) {}
 
     double advance(double dt, double /*planned*/) override {
+        scene_.driveAt(scene_.now + 0.5 * dt);
         scene_.broken = step_->advance(dt);
         if (step_->noFlux()) scene_.movedBack = step_->noFlux()->crossings();
         return dt;

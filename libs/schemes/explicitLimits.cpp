@@ -19,7 +19,7 @@ void addOtherLimits(const ExplicitRates& rates, const ExplicitMedium& medium, do
     limits.add("acoustic", reach * sph::acousticStep(medium.h, medium.soundAndFlow),
                "sound is too fast for the step: take a lower 'soundSpeed' in constant/fluid.yaml, or 'integrator: "
                "implicit' in system/numerics.yaml");
-    if (!medium.bodyForce.isZero()) limits.add("body force", sph::bodyForceStep(medium.h, medium.bodyForce.norm()));
+    if (medium.bodyForce > 0) limits.add("body force", sph::bodyForceStep(medium.h, medium.bodyForce));
     if (rates.spring2 > 0) limits.add("spring", medium.safety * sph::springStep(drag, rates.spring2), stiff);
 }
 

@@ -1,6 +1,5 @@
 // The limits of an explicit step (sph/stepLimits.hpp), from rates that are measured in a run or predicted for a case.
 #pragma once
-#include "core/vec.hpp"
 #include "sph/stepLimits.hpp"
 
 namespace corpuscle::schemes {
@@ -13,9 +12,9 @@ struct ExplicitRates {
 
 // Other quantities that limit a step.
 struct ExplicitMedium {
-    double h = 0;                   // smoothing length: half of the kernel's support [m]
-    double soundAndFlow = 0;        // speed of sound + the largest speed [m/s]
-    Vec3 bodyForce = Vec3::Zero();  // [m/s^2]
+    double h = 0;             // smoothing length: half of the kernel's support [m]
+    double soundAndFlow = 0;  // speed of sound + the largest speed [m/s]
+    double bodyForce = 0;     // the largest at any time [m/s^2]
     double safety = 1;
 };
 

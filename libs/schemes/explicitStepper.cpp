@@ -40,8 +40,8 @@ sph::StepLimits ExplicitStepper::limits(double t) {
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, scene_.system->comm());
     const sph::FluidModel& model = scene_.model();
     sph::StepLimits limits;
-    addLimits({0.5 * scene_.system->support(), model.soundSpeed + std::sqrt(most), model.bodyForce, safety_}, t,
-              limits);
+    const double force = std::max(scene_.flow.largestForce(), model.bodyForce.norm());
+    addLimits({0.5 * scene_.system->support(), model.soundSpeed + std::sqrt(most), force, safety_}, t, limits);
     rebuilds_ = scene_.system->rebuilds();
     return limits;
 }

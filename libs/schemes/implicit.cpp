@@ -13,9 +13,12 @@ namespace {
 // settles is not resolved if the run goes on for far longer: as for a cell in a tube, where the flow settles in
 // microseconds and the cell travels for tenths of a second.
 double longestStep(const CaseFacts& facts) {
-    constexpr double stepsPerTransient = 40, transientsOfAStart = 100;
-    if (facts.flow.settles && facts.duration > transientsOfAStart * facts.flow.transient) return 0;
-    return facts.flow.transient / stepsPerTransient;
+    constexpr double stepsPerTransient = 40, stepsPerChange = 16, transientsOfAStart = 100;
+    const double drive = facts.flow.drive ? facts.flow.drive->changesIn() / stepsPerChange : 0;
+    if (facts.flow.transient == 0 || (facts.flow.settles && facts.duration > transientsOfAStart * facts.flow.transient))
+        return drive;
+    const double own = facts.flow.transient / stepsPerTransient;
+    return drive > 0 ? std::min(drive, own) : own;
 }
 
 class ImplicitStepper final : public Stepper {
@@ -157,7 +160,10 @@ struct Implicit final : Scheme, implicit::ImplicitSettings {
         if (longest > 0 && fullStep(facts, 0) > (1 + 1e-9) * longest)
             return fmt::format(
                 "its steps do not follow the flow, which changes within {}; implicit.step at most {:.2g} would",
-                formatQuantity(facts.flow.transient, unit::second), longest * facts.flow.rate);
+                formatQuantity(facts.flow.drive ? std::min(facts.flow.drive->changesIn(), facts.flow.transient)
+                                                : facts.flow.transient,
+                               unit::second),
+                longest * facts.flow.rate);
         return Scheme::unfit(facts, numerics);
     }
     std::vector<UnusedKey> unused(const NumericsSettings&) const override {

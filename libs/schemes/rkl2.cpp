@@ -20,6 +20,7 @@ class Rkl2Stepper final : public ExplicitStepper {
           step_(*scene.system, *scene.forces, scene.shifting.get(), budget()) {}
 
     double advance(double dt, double /*planned*/) override {
+        scene_.driveAt(scene_.now + 0.5 * dt);
         step_.advance(dt);
         if (!scene_.solute) return dt;
         if (scene_.system->mustRebuild()) {  // the step ends with a drift
@@ -83,8 +84,9 @@ struct Rkl2 final : Scheme, sph::Rkl2Settings {
     }
 
     std::vector<UnusedKey> unused(const NumericsSettings& numerics) const override {
-        if (!numerics.isImmersed()) return {};
-        return {unusedGuard()};
+        std::vector<UnusedKey> keys{unusedDensityRate()};
+        if (numerics.isImmersed()) keys.push_back(unusedGuard());
+        return keys;
     }
 
     sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double t) const override {

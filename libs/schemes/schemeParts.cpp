@@ -2,11 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace corpuscle::schemes {
 
 namespace {
 constexpr double wallRate = 1.3;            // largest viscous rate beside walls over that of a lattice
 constexpr double furthestViscosities = 20;  // largest ratio of viscosities (sph/operators.hpp)
+
+// The lower the pressure behind a throat, the faster densities have to follow the number of particles: in sinusoidal
+// tubes 4 and 10 keep all sigma above 0.95 where this is 5, and 1 leaves a void.
+double automaticDensityRate(const coupling::Scene& scene) {
+    constexpr double share = 0.25, least = 1, most = 10;
+    const sph::FlowState& flow = scene.flow;
+    if (!flow.varies || flow.rate == 0) return 0;
+    const double drop = scene.model().density * flow.largestForce() * scene.fluidBox.size()[0];
+    return std::clamp(share * drop / (scene.model().viscosity * flow.rate), least, most);
+}
 }  // namespace
 
 ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& numerics) {
@@ -18,7 +30,7 @@ ExplicitRates predictedRates(const CaseFacts& facts, const NumericsSettings& num
 }
 
 ExplicitMedium predictedMedium(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed) {
-    return {0.5 * numerics.support(), soundSpeed + facts.flow.speed, facts.flow.bodyForce, numerics.safety};
+    return {0.5 * numerics.support(), soundSpeed + facts.flow.speed, facts.flow.largestForce(), numerics.safety};
 }
 
 sph::StepLimits verletLimits(const CaseFacts& facts, const NumericsSettings& numerics, double soundSpeed) {
@@ -40,7 +52,10 @@ coupling::DensityBalance densityBalance(const coupling::Scene& scene) {
 coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const coupling::Scene& scene) {
     coupling::AdjointOptions options;
     if (!numerics.isCorrected()) options.form = sph::OperatorForm::plain;
-    if (numerics.shifting) options.shifting = numerics.shifting->coefficient;
+    if (numerics.shifting) {
+        options.shifting = numerics.shifting->coefficient;
+        options.densityRate = numerics.shifting->densityRate.value_or(automaticDensityRate(scene));
+    }
     options.balanceInterval = numerics.balanceInterval();
     if (options.balanceInterval > 0) options.densityBalance = densityBalance(scene);
     return options;
@@ -62,6 +77,10 @@ void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Proble
                              "velocityVerlet' with 'operators: plain' in system/numerics.yaml",
                              formatQuantity(least, unit::pascalSecond), formatQuantity(largest, unit::pascalSecond),
                              numerics.integrator, numerics.operators, furthestViscosities));
+}
+
+Scheme::UnusedKey unusedDensityRate() {
+    return {"shifting.densityRate", "with plain operators, where densities follow the continuity equation alone"};
 }
 
 Scheme::UnusedKey unusedGuard() {

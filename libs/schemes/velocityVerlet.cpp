@@ -31,6 +31,7 @@ class VelocityVerletStepper final : public ExplicitStepper {
     }
 
     double advance(double dt, double /*planned*/) override {
+        scene_.driveAt(scene_.now + dt);
         step_->advance(dt);
         scene_.moveSolute(dt);
         if (!scene_.coupling) return dt;
@@ -81,8 +82,9 @@ struct VelocityVerlet final : Scheme {
     void check(const CaseFacts&, const NumericsSettings&, Problems&) const override {}
 
     std::vector<UnusedKey> unused(const NumericsSettings& numerics) const override {
-        if (!numerics.isImmersed()) return {};
-        return {unusedGuard()};
+        std::vector<UnusedKey> keys{unusedDensityRate()};
+        if (numerics.isImmersed()) keys.push_back(unusedGuard());
+        return keys;
     }
 
     sph::StepLimits limits(const CaseFacts& facts, const NumericsSettings& numerics, double /*t*/) const override {

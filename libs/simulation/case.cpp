@@ -97,7 +97,7 @@ double adjointSoundSpeed(const Case& c) {
     const sph::FlowState& flow = c.flow;
     const double nu = c.viscosities().largest / flow.density;
     return std::sqrt(std::max(
-        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.bodyForce.norm() * flow.length}));
+        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * flow.length}));
 }
 
 double plainSoundSpeed(const Case& c) {
@@ -115,7 +115,7 @@ double plainSoundSpeed(const Case& c) {
         length = std::min(length, a);
         speed = std::max(speed, c.bodyOf(body).motion->speed(a));
     }
-    square = std::max({square, speed * speed, nu * speed / length, flow.bodyForce.norm() * flow.length});
+    square = std::max({square, speed * speed, nu * speed / length, flow.largestForce() * flow.length});
     return 10 * std::sqrt(square);
 }
 
@@ -219,6 +219,13 @@ void prepareSurfaces(Case& c, const std::set<std::string>& unplaced, Problems& p
             walls->prepare(c.directory);
         } catch (const Failure& fault) {
             problems.add({"constant/flow.yaml", 0, 0}, "walls.file", fault.what());
+        }
+    }
+    if (const sph::Drive* const drive = c.flowModel->drive()) {
+        try {
+            drive->prepare(c.directory);
+        } catch (const Failure& fault) {
+            problems.add({"constant/flow.yaml", 0, 0}, "drive.file", fault.what());
         }
     }
     c.throwIfAny(problems);
@@ -346,7 +353,7 @@ sph::FluidModel Case::fluidModel() const {
             fluid.viscosity,
             soundSpeed(),
             particleMass(),
-            flow.bodyForce,
+            flow.factor * flow.bodyForce,
             flow.walls,
             fluid.layers.empty() ? 0 : viscosities().least,
             fluid.solute};

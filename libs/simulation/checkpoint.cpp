@@ -148,6 +148,7 @@ void save(File& file, const Case& input, const Scene& scene, const Time& time, c
     file.attribute("dt", state.integrator.dt);
     file.writeReplicated(schemeName(input), state.integrator.scheme);
     file.attribute("rebuilds", static_cast<std::int64_t>(scene.system->rebuilds()));
+    if (scene.control) file.writeReplicated("flowControl", scene.control->state());
     if (scene.shifting) file.attribute("shiftingSteps", static_cast<std::int64_t>(scene.shifting->count()));
     if (scene.cells.exist())
         file.attribute("guardMoves", static_cast<std::int64_t>(Communicator(comm).sum(scene.movedBack)));
@@ -200,6 +201,8 @@ RunState load(File& file, const std::string& where, const Case& input, Scene& sc
     if (scene.bodies)
         for (bodies::Body& body : scene.bodies->all())
             body.restore(file.template readReplicated<double>("bodies/" + body.name + "/state"));
+    if (scene.control && file.has("flowControl"))
+        scene.control->restore(file.template readReplicated<double>("flowControl"));
     if (scene.shifting) scene.shifting->restore(file.template attribute<std::int64_t>("shiftingSteps"));
     if (scene.cells.exist()) {
         const auto moves = file.template attribute<std::int64_t>("guardMoves");

@@ -25,6 +25,7 @@ std::unique_ptr<schemes::Stepper> Integrator::makeStepper() const {
 }
 
 void Integrator::start(Time& time) {
+    scene_.driveAt(time.t);
     stepper_->start();
     updateLimits(time);
 }
@@ -34,6 +35,7 @@ void Integrator::resume(const State& state, Time& time) {
         throw Failure(ExitCode::io, fmt::format("the checkpoint holds {} numbers of the scheme's state in place of {}: "
                                                 "another version wrote it; start from firstTime",
                                                 state.scheme.size(), stepper_->stateSize()));
+    scene_.driveAt(time.t);
     stepper_->resume(state.scheme);
     updateLimits(time);
     time.dt = stepper_->resumedStep(state.dt, time.dt);
@@ -55,9 +57,12 @@ void Integrator::shorten(double longest, bool damped) {
 void Integrator::advance(Time& time, const std::vector<Event>& events) {
     const double dt = time.shorten(events);
     tried_ = time.dt, shortened_ = dt < time.dt;
+    scene_.now = time.t;
     const double made = stepper_->advance(dt, time.dt);
     if (made < dt) time.aim.reset(), shortened_ = true;
     time.advance(made);
+    if (scene_.control) scene_.control->follow(scene_, time.t, made);
+    scene_.driveAt(time.t);
     if (stepper_->limitsChange(time.step)) updateLimits(time);
 }
 

@@ -110,7 +110,7 @@ void addBodies(const Case& input, Scene& scene) {
         body.fill(places, input.particleVolume(), *input.numerics.kernel, input.support());
         all.push_back(std::move(body));
     }
-    bodies::Bodies::Medium medium{input.flow.density, input.flow.bodyForce, input.spacing()};
+    bodies::Bodies::Medium medium{input.flow.density, input.flow.factor * input.flow.bodyForce, input.spacing()};
     if (input.scheme().traits().solvesForBodies) medium.leastDistance = bodies::Bodies::Medium::unlimited;
     scene.bodies = std::make_unique<bodies::Bodies>(std::move(all), medium);
 }
@@ -121,10 +121,10 @@ bodies::RigidMotion motionOfFlow(const Case& input, const Vec3& x) {
     Mat3 gradient;  // (i, k): derivative of u_i along axis k
     for (int k = 0; k < 3; ++k) {
         const Vec3 along = step * Vec3::Unit(k);
-        gradient.col(k) = (input.flow.velocity(x + along) - input.flow.velocity(x - along)) / (2 * step);
+        gradient.col(k) = (input.flow.undisturbed(x + along) - input.flow.undisturbed(x - along)) / (2 * step);
     }
-    return {input.flow.velocity(x), 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
-                                               gradient(1, 0) - gradient(0, 1))};
+    return {input.flow.undisturbed(x), 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                                                  gradient(1, 0) - gradient(0, 1))};
 }
 
 double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }
@@ -176,6 +176,7 @@ Scene emptyScene(const Case& input, MPI_Comm comm) {
     }
     scene.forces = std::make_unique<sph::FluidForces>(input.fluidModel(), *scene.system,
                                                       scene.bodies ? &scene.bodies->groups() : nullptr);
+    if (input.flow.flowRate > 0) scene.control = std::make_unique<coupling::FlowControl>(scene.flow);
     if (input.contact && hasCells)
         scene.contacts = std::make_unique<coupling::CellContacts>(*input.contact, scene.model().walls);
     if (input.fluid.solute) scene.solute = std::make_unique<coupling::SoluteTransport>(scene.model(), *scene.system);
@@ -201,7 +202,7 @@ class StartingParticles {
             const Vec3& x = fluid.points[k];
             const double density =
                 model.equationOfState->density(input_.flow.pressure(x), model.density, model.soundSpeed);
-            const std::size_t i = add(Kind::fluid, k, x, input_.flow.velocity(x), density);
+            const std::size_t i = add(Kind::fluid, k, x, input_.flow.undisturbed(x), density);
             if (s_.optional().side) s_.side[i] = side[k];
             if (s_.optional().viscosity && side[k] > 0)
                 s_.viscosity[i] *= typeOf(static_cast<int>(side[k])).viscosityRatio;
@@ -234,7 +235,7 @@ class StartingParticles {
             for (std::size_t k = 0; k < cell.nodeMass.size(); ++k) {
                 const Vec3& x = cell.membrane.position[k];
                 const std::size_t node = static_cast<std::size_t>(cell.firstNode) + k;
-                const std::size_t i = add(Kind::membrane, node, x, input_.flow.velocity(x), model.density);
+                const std::size_t i = add(Kind::membrane, node, x, input_.flow.undisturbed(x), model.density);
                 s_.mass[i] = cell.nodeMass[k];
                 s_.side[i] = cell.membrane.cell;
                 s_.node[i] = static_cast<std::int64_t>(node);
@@ -301,7 +302,7 @@ Scene buildScene(const Case& input, MPI_Comm comm) {
     for (Cell& cell : scene.cells) cell.membrane.openPores(0);  // those that open at once
     for (Cell& cell : scene.cells)                              // membranes move with the flow
         for (std::size_t k = 0; k < cell.membrane.velocity.size(); ++k)
-            cell.membrane.velocity[k] = input.flow.velocity(cell.membrane.position[k]);
+            cell.membrane.velocity[k] = input.flow.undisturbed(cell.membrane.position[k]);
     return scene;
 }
 

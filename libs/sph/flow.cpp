@@ -23,6 +23,18 @@ bool equallyLong(const std::string& flow, const particles::Box& box, const std::
     return equal;
 }
 
+void FlowState::setDrive(const Choice<Drive>& choice) {
+    if (!choice || (choice->isSteady() && choice->factor(0) == 1)) return;
+    drive = choice.model;
+    factor = drive->factor(0);
+    speed *= drive->largest(), rate *= drive->largest();
+    moveWalls(wallVelocities, factor, walls);
+}
+
+void FlowState::moveWalls(const std::vector<Vec3>& velocities, double factor, boundary::Walls& walls) {
+    for (std::size_t k = 0; k < velocities.size(); ++k) walls.setVelocity(static_cast<int>(k), factor * velocities[k]);
+}
+
 void checkWalls(const boundary::WallShape& walls, bool planes, const Mark& mark, Problems& problems) {
     const std::optional<int> across = walls.planesAcross();
     if (across == 0)

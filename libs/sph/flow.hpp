@@ -1,5 +1,6 @@
 // Family of flows. A flow, read from constant/flow.yaml, is what drives the fluid: the velocities of walls (whose
-// places come from boundary/wallShape.hpp) or of the periodic images of the box, and a body force.
+// places come from boundary/wallShape.hpp) or of the periodic images of the box, and a body force. Walls and body force
+// may change with time (drive.hpp).
 //
 // For a shear flow a case gives exactly one of Ca and shearRate; Ca uses the closed-form shear modulus of the
 // membrane's bond law,
@@ -11,6 +12,7 @@
 #include <optional>
 
 #include "boundary/wallShape.hpp"
+#include "sph/drive.hpp"
 
 namespace corpuscle::sph {
 
@@ -31,23 +33,37 @@ struct FlowState {
     bool densityFromRe = false;
     double shearRate = 0;  // gammadot; 0: none [1/s]
     int gradient = 2;      // axis along which a sheared flow changes
-    double speed = 0;      // largest speed that walls or body force give [m/s]
+    double speed = 0;      // largest speed that walls or body force give, at any time [m/s]
     double length = 0;     // length over which velocity changes: gap, or wavelength/(2 pi) [m]
-    double rate = 0;       // shearRate, or speed/length [1/s]
+    double rate = 0;       // largest rate: shearRate, or speed/length [1/s]
     double transient = 0;  // time in which an unsteady flow changes by a factor e [s]; 0: fully developed at t = 0
     bool settles = false;  // true: the flow approaches a steady one; false: it decays
-    Vec3 bodyForce = Vec3::Zero();                // per unit mass [m/s^2]
+    Vec3 bodyForce = Vec3::Zero();                // per unit mass, for the factor 1 of the drive [m/s^2]
     Vec3 slide = Vec3::Zero();                    // of the next image along axis `gradient` [m/s]; 0: no sliding
-    boundary::Walls walls;                        // with their velocities
-    std::function<Vec3(const Vec3&)> velocity;    // at t = 0
+    boundary::Walls walls;                        // with their present velocities
+    std::vector<Vec3> wallVelocities;             // by number, for the factor 1; empty: walls at rest [m/s]
+    std::function<Vec3(const Vec3&)> velocity;    // at t = 0, for the factor 1
     std::function<double(const Vec3&)> pressure;  // at t = 0 [Pa]
 
-    double section = 0;  // mean cross-section of the fluid between walls along x [m^2]; 0: no such flow
+    bool varies = false;  // the cross-section between the walls varies along the flow
+    double section = 0;   // mean cross-section of the fluid between walls along x [m^2]; 0: no such flow
     double confinement =
         0;  // rate at which the slowest velocity between these walls decays, over nu [1/m^2]; 0: not known
     std::optional<double> conductance;  // flow rate x nu/body force along x [m^4], of a uniform fluid; empty: not known
 
+    std::shared_ptr<const Drive> drive;  // null: steady
+    double factor = 1;                   // of the drive at the present time
+    double flowRate = 0;  // which the body force follows, for the factor 1 [m^3/s]; 0: the body force is given
+
     bool slides() const { return !slide.isZero(0); }
+    // Velocity without cells and bodies at the present factor [m/s]; that of the fluid at t = 0.
+    Vec3 undisturbed(const Vec3& x) const { return factor * velocity(x); }
+    // Largest body force at any time [m/s^2].
+    double largestForce() const { return (drive ? drive->largest() : 1) * bodyForce.norm(); }
+    // Takes over a drive: the factor at t = 0, and speed and rate at its largest. To be called at the end of `resolve`.
+    void setDrive(const Choice<Drive>& choice);
+    // Sets the velocities of walls to those at this factor.
+    static void moveWalls(const std::vector<Vec3>& velocities, double factor, boundary::Walls& walls);
 };
 
 class Flow {
@@ -56,6 +72,8 @@ class Flow {
     virtual ~Flow() = default;
     // The shape of the walls, null if there are none: known before `resolve`, since filling needs it.
     virtual const boundary::WallShape* walls() const { return nullptr; }
+    // How the drive changes with time, null if it cannot.
+    virtual const Drive* drive() const { return nullptr; }
     // Whether the flow carries particles along all axes: a perfect lattice then does not last.
     virtual bool isThreeDimensional() const { return false; }
     // Whether images of the box slide: known before `resolve`.

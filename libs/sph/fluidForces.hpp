@@ -38,6 +38,10 @@ class FluidForces {
     FluidForces(const FluidModel& model, const particles::ParticleSystem& system, RigidGroups* groups = nullptr);
 
     const FluidModel& model() const { return model_; }
+    // What drives the flow at present (FlowState of flow.hpp).
+    void setDrive(const Vec3& bodyForce, const boundary::Walls& walls) {
+        model_.bodyForce = bodyForce, model_.walls = walls;
+    }
 
     // Fills fx, fy, fz and densityRate of the owned particles. Accelerations of wall particles and of rigid groups are
     // summed up and set to zero.

@@ -9,11 +9,16 @@ const Schema<PoiseuilleFlow>& PoiseuilleFlow::schema() {
                       {.range = positive})
             .quantity("pressureDrop", &PoiseuilleFlow::pressureDrop, unit::pascal,
                       "fall of the pressure along the box, instead of a body force", {.range = positive})
-            .exactlyOneOf({"bodyForce", "pressureDrop"})
+            .quantity("flowRate", &PoiseuilleFlow::flowRate, unit::metre3PerSecond,
+                      "volume in unit time through a cross-section, which the body force follows", {.range = positive})
+            .exactlyOneOf({"bodyForce", "pressureDrop", "flowRate"})
             .model("walls", &PoiseuilleFlow::wallShape, "planes, a tube, a duct or a vessel",
                    {.fallback = "{normal: z}"})
             .word("start", &PoiseuilleFlow::start, {"rest", "parabola"}, "velocity at t = 0", {.fallback = "rest"})
-            .atRestart(AtRestart::noted, {"bodyForce", "pressureDrop"})
+            .model("drive", &PoiseuilleFlow::driveModel,
+                   "factor of body force, pressure drop or flow rate, which may change with time",
+                   {.fallback = "steady"})
+            .atRestart(AtRestart::noted, {"bodyForce", "pressureDrop", "flowRate", "drive"})
             .atRestart(AtRestart::fixed, {"walls", "start"});
     return s;
 }
@@ -29,7 +34,15 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
     if (!problems.empty()) return flow;
     flow.walls = wallShape->place(context.box);
     const boundary::Hydraulics hydraulics = wallShape->hydraulics(context.box);
-    const double force = bodyForce ? *bodyForce : *pressureDrop / (context.density * context.box.size()[0]);
+    flow.varies = !wallShape->isStraight();
+    flow.section = wallShape->volume(context.box) / context.box.size()[0];
+    flow.conductance = hydraulics.conductance;
+    // Without a closed form, the mean velocity is taken to be half the largest one.
+    const double conductance = hydraulics.conductance.value_or(0.5 * hydraulics.fastest * flow.section);
+    flow.flowRate = flowRate.value_or(0);
+    const double force = bodyForce      ? *bodyForce
+                         : pressureDrop ? *pressureDrop / (context.density * context.box.size()[0])
+                                        : *flowRate * context.viscosity / (context.density * conductance);
     flow.density = context.density;
     // As if all had the least viscosity.
     flow.speed = hydraulics.fastest * force * context.density / context.leastViscosity;
@@ -38,8 +51,6 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
     flow.settles = true;
     if (start == "rest" || context.layered)
         flow.transient = hydraulics.settling * context.density / context.leastViscosity;
-    flow.section = wallShape->volume(context.box) / context.box.size()[0];
-    flow.conductance = hydraulics.conductance;
     if (hydraulics.settling > 0) flow.confinement = 1 / hydraulics.settling;
     flow.bodyForce = Vec3(force, 0, 0);
     flow.velocity = [](const Vec3&) { return Vec3(0, 0, 0); };
@@ -50,10 +61,11 @@ FlowState PoiseuilleFlow::resolve(const FlowContext& context, const Mark& mark, 
         flow.velocity = [=](const Vec3& p) { return Vec3(scale * (p[axis] - low) * (high - p[axis]), 0, 0); };
     }
     flow.pressure = [](const Vec3&) { return 0.0; };
+    flow.setDrive(driveModel);
     return flow;
 }
 
 CORPUSCLE_REGISTER(Flow, PoiseuilleFlow, "poiseuille",
-                   "flow between walls at rest, driven along x by a body force or a pressure drop");
+                   "flow between walls at rest, driven along x by a body force, a pressure drop or a flow rate");
 
 }  // namespace corpuscle::sph

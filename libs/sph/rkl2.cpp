@@ -29,16 +29,17 @@ const Schema<Rkl2Settings>& Rkl2Settings::schema() {
 }
 
 double Rkl2Settings::accurateStep(const FlowState& flow, double t, double lambda) const {
-    if (flow.transient == 0) return std::numeric_limits<double>::infinity();
-    if (flow.settles) return std::max(2 / lambda, t / resolution);
-    return flow.transient / resolution;
+    const double drive = flow.drive ? flow.drive->changesIn() / resolution : std::numeric_limits<double>::infinity();
+    if (flow.transient == 0) return drive;
+    if (flow.settles) return std::min(drive, std::max(2 / lambda, t / resolution));
+    return std::min(drive, flow.transient / resolution);
 }
 
 void Rkl2Settings::addLimits(const FlowState& flow, double t, double lambda, StepLimits& limits) const {
     if (lambda <= 0) return;
     limits.add("viscous, " + std::to_string(stages) + " stages",
                LegendreStages::reach(static_cast<int>(stages)) / lambda);
-    if (flow.transient > 0) limits.add("unsteady flow", accurateStep(flow, t, lambda));
+    if (flow.transient > 0 || flow.drive) limits.add("unsteady flow", accurateStep(flow, t, lambda));
 }
 
 Rkl2::Rkl2(ParticleSystem& system, FluidForces& forces, Shifting* shifting, Budget* budget)

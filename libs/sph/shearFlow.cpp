@@ -12,7 +12,10 @@ const Schema<ShearFlow>& ShearFlow::schema() {
             .model("walls", &ShearFlow::wallShape, "the two moving walls", {.fallback = "{normal: z}"})
             .word("start", &ShearFlow::start, {"linear", "rest"},
                   "velocity at t = 0: the linear profile, or fluid at rest", {.fallback = "linear"})
-            .atRestart(AtRestart::fixed, {"walls", "start"});
+            .model("drive", &ShearFlow::driveModel, "factor of the walls' velocity, which may change with time",
+                   {.fallback = "steady"})
+            .atRestart(AtRestart::fixed, {"walls", "start"})
+            .atRestart(AtRestart::noted, {"drive"});
     return s;
 }
 
@@ -30,11 +33,13 @@ FlowState ShearFlow::resolve(const FlowContext& context, const Mark& mark, Probl
         flow.transient = std::pow(gap / (2 * std::numbers::pi), 2) * flow.density / context.leastViscosity;
     flow.gradient = axis;
     flow.walls = wallShape->place(context.box);
-    for (const boundary::Wall& wall : boundary::Walls(flow.walls))
-        flow.walls.setVelocity(wall.number, Vec3(-flow.speed * wall.normal(Vec3::Zero())[axis], 0, 0));
+    for (const boundary::Wall& wall : flow.walls)
+        flow.wallVelocities.emplace_back(-flow.speed * wall.normal(Vec3::Zero())[axis], 0, 0);
+    FlowState::moveWalls(flow.wallVelocities, 1, flow.walls);
     const double rate = start == "linear" ? flow.shearRate : 0;
     flow.velocity = [=](const Vec3& p) { return Vec3(rate * (p[axis] - middle), 0, 0); };
     flow.pressure = [](const Vec3&) { return 0.0; };
+    flow.setDrive(driveModel);
     return flow;
 }
 

@@ -16,6 +16,7 @@ namespace corpuscle::sph {
 struct ShiftingSettings {
     double coefficient = 1;
     long steps = 10;
+    std::optional<double> densityRate;  // of coupling/adjoint.hpp; empty: automatic
     static const Schema<ShiftingSettings>& schema();
 };
 

@@ -3,6 +3,7 @@
 
     runs.py BIN TEST    BIN: directory of the applications
 """
+import cmath
 import csv
 import json
 import math
@@ -554,6 +555,122 @@ def decay_error(case):
     rows, rate = table(case, "balance"), 4e-6 * (2 * math.pi / 1e-3) ** 2
     energy = [row["kineticEnergy_J"] for row in rows]
     return largest(abs(e / energy[0] - math.exp(-rate * row["time_s"])) for e, row in zip(energy, rows))
+
+
+def oscillating_mean(t, mean, amplitude, omega, phase):
+    """Mean velocity over F L^2/nu between planes at rest, from rest, under the force F (mean + amplitude sin(omega t + phase)); t in L^2/nu."""
+    total = 0
+    for k in range(1, 80, 2):
+        rate = (k * math.pi) ** 2
+        steady = mean * (1 - math.exp(-rate * t)) / rate
+        swing = (rate * math.sin(omega * t + phase) - omega * math.cos(omega * t + phase)
+                 - math.exp(-rate * t) * (rate * math.sin(phase) - omega * math.cos(phase))) / (rate**2 + omega**2)
+        total += 8 / (k * math.pi) ** 2 * (steady + amplitude * swing)
+    return total
+
+
+def oscillating_couette(z, t, omega):
+    """Velocity over the speed of the walls, which move as sin(omega t), developed; z over the gap, from the middle; t in L^2/nu."""
+    kappa = cmath.sqrt(1j * omega)
+    return (cmath.sinh(kappa * z) / cmath.sinh(0.5 * kappa) * cmath.exp(1j * omega * t)).imag
+
+
+def test_drive(folder):
+    """Drives that change in time: a body force and walls that oscillate, by each scheme, against exact solutions; a table of a sine gives what the sine
+    gives; 1, 2 and 4 ranks agree, restarts continue bit for bit, also with cells; a given flow rate is held."""
+    sine, omega = {"mean": 0.5, "amplitude": 1, "phase": math.pi / 6}, 2 * math.pi * 10  # 1/s; L^2/nu is 1 s
+    pushed = {**PLATES, "system/control.yaml": "application: sphFlow\nendTime: 0.2 s\ncheckpoint: {wallClock: never}\n",
+              "system/observers.yaml": "flow: {type: flowRate, every: 10 ms}\nbalance: {type: conservation, every: 10 ms}\n",
+              "constant/flow.yaml": "type: poiseuille\nbodyForce: 1e-4 m/s^2\ndrive: {type: sine, frequency: 10 Hz, mean: 0.5, phase: 30 deg}\n"}
+    shorn = {**pushed, "system/observers.yaml": "profile: {type: profile, every: 25 ms, axis: z, bins: 32}\nbalance: {type: conservation, every: 10 ms}\n",
+             "system/control.yaml": pushed["system/control.yaml"].replace("0.2", "0.25"),
+             "constant/flow.yaml": "type: shear\nshearRate: 0.025 1/s\ndrive: {type: sine, frequency: 10 Hz}\n"}
+    schemes = {"verlet": ("velocityVerlet", ""), "adjoint": ("velocityVerlet", "operators: corrected\n"), "rkl2": ("rkl2", ""), "implicit": ("implicit", "")}
+    for name, (scheme, more) in schemes.items():
+        numerics = PLATES["system/numerics.yaml"].replace("velocityVerlet", scheme).replace("31.25", "62.5") + more
+        if scheme == "implicit":
+            numerics = numerics.replace(", steps: 10", "")
+        if name == "adjoint":
+            numerics = numerics.replace(", steps: 10", "")
+        case = prepared(folder / f"pushed-{name}", {**pushed, "system/numerics.yaml": numerics})
+        run(case, "sphFlow")
+        rows = table(case, "flow")
+        scale = 1e-4 * 1e-6 / 1e-6
+        pairs = [(row["meanVelocity_m_s"], scale * oscillating_mean(row["time_s"], omega=omega, **sine)) for row in rows[1:]]
+        error = math.sqrt(sum((u - e) ** 2 for u, e in pairs) / sum(e * e for _, e in pairs))
+        drops = [abs(row["pressureDrop_Pa"] / (1000 * 1e-4 * 0.25e-3) - (0.5 + math.sin(omega * row["time_s"] + math.pi / 6))) for row in rows]
+        budget = table(case, "balance", "budget.csv")[-1]["residualShare"]
+        moved = prepared(folder / f"shorn-{name}", {**shorn, "system/numerics.yaml": numerics})
+        run(moved, "sphFlow")
+        profile = [row for row in table(moved, "profile") if row["time_s"] > 0.16]
+        differences = [row["u_m_s"] / 12.5e-6 - oscillating_couette(row["position_m"] / 1e-3, row["time_s"], omega) for row in profile]
+        print(name, len(pairs), f"force {error:.4f}", f"drop {max(drops):.2g}", f"budget {budget:.2g}", f"walls {max(map(abs, differences)):.4f}")
+        assert len(pairs) == 20 and error < 0.02 and max(drops) < 1e-4 and budget < 2e-3
+        assert len(differences) >= 4 * 16 and max(map(abs, differences)) < 0.02
+    same_in_parts(case, prepared(folder / "again", {**pushed, "system/numerics.yaml": numerics}), "sphFlow", 17, observers=("flow",))
+
+    # A sine by its table; the same on several ranks.
+    rows = "".join(f"{k / 4000:.10g},{0.5 + math.sin(omega * k / 4000 + math.pi / 6):.12g}\n" for k in range(401))
+    by_table = prepared(folder / "table", {**pushed, "system/numerics.yaml": numerics, "constant/drive.csv": "time_s,factor\n" + rows,
+                                           "constant/flow.yaml": "type: poiseuille\nbodyForce: 1e-4 m/s^2\ndrive: {type: table, file: constant/drive.csv, repeat: true}\n"})
+    runs = {"whole": case, "table": by_table}
+    for ranks in (2, 4):
+        runs[f"np{ranks}"] = prepared(folder / f"np{ranks}", {**pushed, "system/numerics.yaml": numerics})
+    for name, other in runs.items():
+        if name != "whole":
+            run(other, "sphFlow", ranks=int(name[2:]) if name.startswith("np") else 1)
+        for one, two in zip(table(case, "flow"), table(other, "flow")):
+            assert abs(one["flowRate_m3_s"] - two["flowRate_m3_s"]) < (2e-3 if name == "table" else 1e-5) * 2e-12, (name, one, two)
+
+    # A capsule between walls that oscillate: by the implicit step and by velocity Verlet on the same operators.
+    files = {**IMPLICIT_CASE, "system/control.yaml": IMPLICIT_CASE["system/control.yaml"].replace("0.6", "0.5"),
+             "system/observers.yaml": "deformation: {type: shape, every: 0.05 strain}\nbalance: {type: conservation, every: 0.1 strain}\n",
+             "constant/flow.yaml": "type: shear\nCa: 0.3\ninertia: {Re: 0.1}\ndrive: {type: sine, frequency: 1 kHz, phase: 90 deg}\n"}
+    start = prepared(folder / "capsule", files)
+    shapes = {}
+    for name, change, ranks in (("implicit", "implicit", 1), ("implicit2", "implicit", 2), ("verlet", "velocityVerlet", 1)):
+        done = copied(start, folder / f"capsule-{name}")
+        run(done, "dmpFlow", "-set", f"system/numerics.yaml:/integrator={change}", ranks=ranks)
+        shapes[name] = [row["D12_inertia"] for row in table(done, "deformation")]
+        print("capsule", name, *(f"{d:.5f}" for d in shapes[name]))
+    most = max(shapes["implicit"])
+    assert most > 0.02 and len(shapes["implicit"]) == 11 and shapes["implicit"][-1] < 0.9 * most, "the capsule goes back when the walls do"
+    assert max(abs(a - b) for a, b in zip(shapes["implicit"], shapes["implicit2"])) < 1e-4
+    assert max(abs(a - b) for a, b in zip(shapes["implicit"], shapes["verlet"])) < 0.03 * most
+    same_in_parts(folder / "capsule-implicit", start, "dmpFlow", 9, observers=("deformation",))
+
+    # A given flow rate: with a capsule in a tube, and of fluid alone by explicit steps, from rest and oscillating.
+    tube = {**IMPLICIT_CASE, "system/control.yaml": "application: dmpFlow\nendTime: 4 ms\ncheckpoint: {wallClock: never}\n",
+            "system/mesh.yaml": """domain: {size: [16 um, 12 um, 12 um], periodic: [true, false, false]}
+cells: [{name: rbc, shape: {type: spheroid, a: 4 um, c: 4 um}, edge: 1 um, centre: [0 um, 0.3 um, 0 um]}]
+""",
+            "system/observers.yaml": "flow: {type: flowRate, every: 0.2 ms}\n",
+            "constant/flow.yaml": "type: poiseuille\nflowRate: 200000 um^3/s\nwalls: {type: tube, diameter: 12 um}\n"}
+    start = prepared(folder / "tube", tube)
+    ends = {}
+    for name, ranks in (("tube1", 1), ("tube2", 2)):
+        done = copied(start, folder / name)
+        run(done, "dmpFlow", ranks=ranks)
+        ends[name] = table(done, "flow")
+        print(name, *(f"{row['flowRate_m3_s'] / 2e-13:.5f}" for row in ends[name]), f"{ends[name][-1]['pressureDrop_Pa']:.5g} Pa")
+        assert all(abs(row["flowRate_m3_s"] / 2e-13 - 1) < 5e-3 for row in ends[name][3:])
+    newtonian = 128 * 1e-3 * 2e-13 * 16e-6 / (math.pi * 12e-6**4)
+    assert ends["tube1"][-1]["pressureDrop_Pa"] > 1.05 * newtonian, "the capsule hinders the flow"
+    assert abs(ends["tube1"][-1]["pressureDrop_Pa"] / ends["tube2"][-1]["pressureDrop_Pa"] - 1) < 2e-3
+    same_in_parts(folder / "tube1", start, "dmpFlow", 7, observers=("flow",))
+    # This pressure drop drives this flow rate.
+    given = prepared(folder / "given", {**tube, "constant/flow.yaml": tube["constant/flow.yaml"].replace(
+        "flowRate: 200000 um^3/s", f"pressureDrop: {ends['tube1'][-1]['pressureDrop_Pa']} Pa")})
+    run(given, "dmpFlow")
+    assert abs(table(given, "flow")[-1]["flowRate_m3_s"] / 2e-13 - 1) < 0.01
+    for name, drive in (("steady", ""), ("swinging", "drive: {type: sine, frequency: 10 Hz, mean: 2}\n")):
+        plain = prepared(folder / f"explicit-{name}", {**pushed, "system/numerics.yaml": PLATES["system/numerics.yaml"].replace("31.25", "62.5"),
+                                                       "constant/flow.yaml": "type: poiseuille\nflowRate: 2e-12 m^3/s\n" + drive})
+        run(plain, "sphFlow")
+        rows = [row for row in table(plain, "flow") if row["time_s"] > 0.05]
+        errors = [row["flowRate_m3_s"] / 2e-12 - (2 + math.sin(omega * row["time_s"]) if drive else 1) for row in rows]
+        print("explicit", name, *(f"{e:.5f}" for e in errors))
+        assert len(errors) >= 14 and max(map(abs, errors)) < 5e-3
 
 
 def test_rkl2(folder):

@@ -200,8 +200,10 @@ void writeBodies(const Case& input, const Filling& f) {
 
 void write(const Case& input, const Filling& f) {
     writeBodies(input, f);
-    simulation::writeStart(input, "fluid",
-                           withState(input, f.fluid, f.side, 0, input.flow.velocity, input.flow.pressure));
+    simulation::writeStart(
+        input, "fluid",
+        withState(
+            input, f.fluid, f.side, 0, [&](const Vec3& x) { return input.flow.undisturbed(x); }, input.flow.pressure));
     if (f.walls.empty()) {
         std::filesystem::remove(simulation::startFile(input, "walls"));
         return;
