@@ -102,7 +102,7 @@ class Verlet final : public AdjointVerlet {
         operators_.build(*scene_.system);
         if (immersed_) {
             immersed_->place(*scene_.system, operators_.volumes());
-            noFlux_->find(*scene_.system, *immersed_);
+            noFlux_->find(*scene_.system, *immersed_, extrapolation);
         }
         operators_.setInside(*scene_.system, insideShares(scene_, noFlux_.get()));
         findPressures(scene_, pressure_);

@@ -16,7 +16,7 @@ void HolderSums::plan(const Cells& cells, MPI_Comm comm, std::span<const char> m
     std::map<int, Neighbour> byRank;
     shared_.clear(), isMine_.clear();
     for (std::size_t c = 0; c < cells.heldCount(); ++c) {
-        if (cells[c].holders.size() < 2) continue;
+        if (cells[c].holders.size() < 2 || first_[c] == first_[c + 1]) continue;
         for (std::size_t row = first_[c]; row < first_[c + 1]; ++row)
             shared_.push_back(row), isMine_.push_back(mine[row]);
         for (const int r : cells[c].holders) {

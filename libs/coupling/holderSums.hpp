@@ -1,7 +1,8 @@
 // Sums over the ranks that hold a cell, of numbers in rows: one row for each of its nodes, or one for the cell.
 //
 // The holders of a cell send each other their parts, and each adds them up in the order of the ranks, so that all get
-// the same bits. A cell with a single holder costs nothing. Rows to which a rank adds nothing are not sent.
+// the same bits. A cell with a single holder or without rows costs nothing. Rows to which a rank adds nothing are not
+// sent.
 #pragma once
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@ namespace corpuscle::coupling {
 class HolderSums {
   public:
     // Plans the sums for the cells that the rank holds now, in their order. rows(cell): number of rows of a cell.
-    // mine: for each row, whether this rank may have a part to add. Collective among holders.
+    // mine: for each row, whether this rank may have a part to add. Collective among the holders of cells with rows.
     template <class Rows>
     void plan(const Cells& cells, MPI_Comm comm, Rows&& rows, std::span<const char> mine) {
         first_.assign(1, 0);

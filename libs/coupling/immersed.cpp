@@ -31,6 +31,16 @@ std::vector<NodeConditions> conditionsOf(const Cells& cells, const sph::FluidMod
     return conditions;
 }
 
+// `some` with the others that forEach visits, each once.
+template <class ForEach>
+std::vector<int> withOthers(const std::vector<int>& some, ForEach&& forEach) {
+    std::vector<int> all = some;
+    forEach([&](int particle) { all.push_back(particle); });
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
 }  // namespace
 
 Immersed::Immersed(Cells& cells, const sph::FluidModel& model, const ParticleSystem& system, CellContacts* contacts)
@@ -38,7 +48,8 @@ Immersed::Immersed(Cells& cells, const sph::FluidModel& model, const ParticleSys
       system_(system),
       contacts_(contacts),
       map_(system.spacing(), system.support(), conditionsOf(cells, model, system)),
-      layout_(cells) {}
+      layout_(cells),
+      holes_(system.spacing()) {}
 
 void Immersed::move(double seconds) {
     for (Cell& cell : cells_)
@@ -122,12 +133,23 @@ void Immersed::place(const ParticleSystem& system, const std::vector<double>& vo
     layout_ = NodeLayout(cells_);
     map_.place(cells_, layout_, system, volume);
     volume_.place(cells_, layout_);
+    holes_.place(cells_, volume_.torn(), system, volume);
+    if (holes_.exist()) touched_ = withOthers(map_.touched(), [&](auto&& add) { holes_.forTouched(add); });
     for (Cell& cell : cells_) {
         membrane::Membrane& m = cell.membrane;
         m.force.assign(m.force.size(), Vec3::Zero());
         m.addElasticForces(m.position, m.force);
     }
     if (contacts_) addContact();
+}
+
+void Immersed::placeOthers(ParticleSystem& system, const particles::SharedParticles& shared,
+                           const std::vector<double>& volume) {
+    const GhostRecords ghosts(system, shared, volume);
+    map_.placeOthers(cells_, layout_, system, shared, ghosts);
+    holes_.placeOthers(system, shared, ghosts);
+    if (holes_.exist())
+        touchedOthers_ = withOthers(map_.touchedOthers(), [&](auto&& add) { holes_.forTouchedOthers(add); });
 }
 
 void Immersed::addContact() {
@@ -159,12 +181,18 @@ bool Immersed::isViscous() const {
 }
 
 void Immersed::spread(Vectors f, particles::RealArray& force) const {
-    volume_.apply(f);
+    if (holes_.exist())
+        holes_.spread(volume_.applyToForces(f), force);
+    else
+        volume_.apply(f);
     map_.spread(f, force);
 }
 
 void Immersed::spreadToOthers(Vectors f, particles::RealArray& force) const {
-    volume_.apply(f);
+    if (holes_.exist())
+        holes_.spreadToOthers(volume_.applyToForces(f), force);
+    else
+        volume_.apply(f);
     map_.spreadToOthers(f, force);
 }
 

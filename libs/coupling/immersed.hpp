@@ -5,7 +5,8 @@
 //     u_m = P S u,     f_fluid = S^T P f_m
 // symbol | meaning
 // S      | interpolation from the fluid to the nodes (nodeFluidMap.hpp)
-// P      | projection that conserves the volume of closed cells (volumeProjection.hpp); without effect on open cells
+// P      | projection that conserves the volume of closed cells (volumeProjection.hpp). For a torn cell, P S is
+//        | P S - g H/(g.g), and S^T P its transpose, with the flux H u of the fluid through its holes (holeFlux.hpp)
 // K, C   | stiffness and damping of the membranes (membraneStiffness.hpp); K with that of contact (cellContacts.hpp)
 // The two maps are transposes of each other, so the exchange conserves power. The stiffness that acts on the fluid is
 // S^T P K P S, symmetric and positive semi-definite as K is.
@@ -15,6 +16,7 @@
 // `placeOthers`.
 #pragma once
 #include "coupling/cellContacts.hpp"
+#include "coupling/holeFlux.hpp"
 #include "coupling/membraneStiffness.hpp"
 #include "coupling/nodeFluidMap.hpp"
 #include "coupling/volumeProjection.hpp"
@@ -66,15 +68,16 @@ class Immersed {
 
     // Weights of ghosts, to be called right after `place`. Collective.
     void placeOthers(particles::ParticleSystem& system, const particles::SharedParticles& shared,
-                     const std::vector<double>& volume) {
-        map_.placeOthers(cells_, layout_, system, shared, volume);
-    }
+                     const std::vector<double>& volume);
 
     // P S u for changes of velocity u, of four numbers per particle. Collective.
     template <class Real>
     Vectors interpolate(const Real* u) {
         Vectors v = map_.interpolate(u);
-        volume_.apply(v);
+        if (holes_.exist())
+            volume_.apply(v, holes_.of(u));
+        else
+            volume_.apply(v);
         return v;
     }
     // The same for velocities: images of particles that slide have their slide velocity in addition.
@@ -82,7 +85,13 @@ class Immersed {
     Vectors interpolateVelocities(const Real* u) {
         Vectors v = map_.interpolate(u);
         map_.addSlides(v);
-        volume_.apply(v);
+        if (!holes_.exist()) {
+            volume_.apply(v);
+            return v;
+        }
+        std::vector<double> flux = holes_.of(u);
+        holes_.addSlides(flux);
+        volume_.apply(v, flux);
         return v;
     }
     Vectors force() const;                                                  // of the membranes [N]
@@ -118,9 +127,11 @@ class Immersed {
 
     const CellContacts* contacts() const { return contacts_; }
 
-    const std::vector<int>& touched() const { return map_.touched(); }  // own particles with weights for a node
-    const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }  // for one held cell
-    const std::vector<int>& touchedOthers() const { return map_.touchedOthers(); }              // entries of ghosts
+    // Own particles to which `spread` adds, and entries of ghosts to which `spreadToOthers` adds.
+    const std::vector<int>& touched() const { return holes_.exist() ? touched_ : map_.touched(); }
+    const std::vector<int>& touchedOthers() const { return holes_.exist() ? touchedOthers_ : map_.touchedOthers(); }
+    // Own particles with weights for a node of one held cell.
+    const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }
 
     // Number of nodes with Shepard's weights, over all ranks, at the last `place`; and the largest of any `place`.
     long fallbacks() const { return map_.fallbacks(); }
@@ -138,6 +149,8 @@ class Immersed {
     NodeFluidMap map_;
     NodeLayout layout_;
     VolumeProjection volume_;
+    HoleFlux holes_;
+    std::vector<int> touched_, touchedOthers_;  // with a torn cell only
     MembraneStiffness stiffness_;
     MPI_Comm comm_ = MPI_COMM_NULL;
     int rank_ = 0;

@@ -39,6 +39,7 @@ std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux) 
     std::optional<Curvature> curvature;
     const Cell* of = nullptr;
     noFlux->forNearest([&](int particle, const Cell& cell, const geometry::SurfacePoint& at) {
+        if (cell.membrane.network().isOpen()) return;
         const auto i = static_cast<std::size_t>(particle);
         sph::Inside found;
         if (const double ratio = scene.cells.types()[cell.type].viscosityRatio; ratio != 1) {

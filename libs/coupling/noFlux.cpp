@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/periodicSurface.hpp"
 #include "membrane/surface.hpp"
 
 namespace corpuscle::coupling {
@@ -39,18 +38,34 @@ void NoFlux::forgetOthers() {
     surfaces_.keepHeld(cells_);
 }
 
-void NoFlux::find(const ParticleSystem& system, std::size_t c, const std::vector<int>& candidates) {
+geometry::NearestImages::Found NoFlux::beside(const geometry::TriangleTree& tree, const geometry::NearestImages& images,
+                                              const Cell& cell, const Vec3& x) const {
+    geometry::NearestImages::Found found = images.nearest(x);
+    if (!found || !cell.membrane.network().isOpen()) return found;
+    if (tree.isOnBorder(found.at)) return {};
+    found.at.triangle = cell.membrane.network().wholeTriangles()[static_cast<std::size_t>(found.at.triangle)];
+    return found;
+}
+
+void NoFlux::find(const ParticleSystem& system, std::size_t c, double moved, const std::vector<int>& candidates) {
     const particles::ParticleStore& s = system.store();
     const Cell& cell = cells_[c];
     if (candidates.empty()) return;
-    const geometry::NearestImages images(surfaces_.of(cell), cell.membrane.position, system.periodicity());
-    for (const int i : candidates) {
-        if (s.kindOf(static_cast<std::size_t>(i)) != Kind::fluid) continue;
-        const auto [at, x] = images.nearest(s.position(static_cast<std::size_t>(i)));
+    const bool isTorn = cell.membrane.network().isOpen();
+    const geometry::TriangleTree& tree = surfaces_.of(cell);
+    const geometry::NearestImages images(tree, cell.membrane.position, system.periodicity());
+    for (const int particle : candidates) {
+        const auto i = static_cast<std::size_t>(particle);
+        if (s.kindOf(i) != Kind::fluid) continue;
+        const auto [at, x] = beside(tree, images, cell, s.position(i));
         if (!at) continue;
         const double q = at.distance / spacing_, chi = std::max(0.0, 1 - q * q);
-        const Vec3 slide = system.periodicity().slideOf(s.position(static_cast<std::size_t>(i)), x);
-        near_.push_back({i, c, at, sideOf(s, i, cell), chi * chi, normal(cell, at, x), slide});
+        const Vec3 slide = system.periodicity().slideOf(s.position(i), x);
+        near_.push_back({particle, c, at, sideOf(s, particle, cell), chi * chi, normal(cell, at, x), slide});
+        if (!isTorn) continue;
+        Near& near = near_.back();
+        const double before = at.distance - moved * (s.velocity(i) - velocity(near)).dot(near.normal);
+        near.side = before < 0 ? -1 : 1;
     }
 }
 
@@ -61,11 +76,12 @@ void NoFlux::keepSides(ParticleSystem& system) {
     for (std::size_t k = 0; k < near_.size();) {  // near_ is ordered by cells
         const std::size_t c = near_[k].cell;
         const Cell& cell = cells_[c];
-        const geometry::NearestImages images(surfaces_.of(cell), cell.membrane.position, period);
+        const geometry::TriangleTree& tree = surfaces_.of(cell);
+        const geometry::NearestImages images(tree, cell.membrane.position, period);
         for (; k < near_.size() && near_[k].cell == c; ++k) {
             const auto i = static_cast<std::size_t>(near_[k].particle);
             const double own = near_[k].side;
-            const auto [at, x] = images.nearest(s.position(i));
+            const auto [at, x] = beside(tree, images, cell, s.position(i));
             if (!at || own * at.distance >= least) continue;
             if (own * at.distance < 0) ++crossings_, deepest_ = std::max(deepest_, std::abs(at.distance));
             s.setPosition(i, s.position(i) + (at.point + own * least * normal(cell, at, x) - x));

@@ -183,15 +183,19 @@ void NodeFluidMap::Weights::findTouched(const NodeLayout& layout, std::size_t pa
         }
 }
 
-void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, ParticleSystem& system,
-                               const particles::SharedParticles& shared, const std::vector<double>& volume) {
-    const std::size_t own = shared.owned();
-    particles::RealArray records(4 * (own + static_cast<std::size_t>(system.ghosts())));
-    for (std::size_t i = 0; i < own; ++i) {
-        Vec3::Map(records.data() + 4 * i) = system.store().position(i);
-        records[4 * i + 3] = volume[i];
+GhostRecords::GhostRecords(ParticleSystem& system, const particles::SharedParticles& shared,
+                           const std::vector<double>& volume)
+    : first_(4 * shared.owned()), records_(first_ + 4 * static_cast<std::size_t>(system.ghosts())) {
+    for (std::size_t i = 0; i < shared.owned(); ++i) {
+        Vec3::Map(records_.data() + 4 * i) = system.store().position(i);
+        records_[4 * i + 3] = volume[i];
     }
-    system.halo().exchange(records.data(), system.owned(), 4);
+    system.halo().exchange(records_.data(), system.owned(), 4);
+}
+
+void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, const ParticleSystem& system,
+                               const particles::SharedParticles& shared, const GhostRecords& ghosts) {
+    const std::size_t own = shared.owned();
     const double reach = radius_ + 0.5 * system.skin(), ofHalo = system.support() + system.skin();
     others_.clear();
     for (const Cell& cell : cells)
@@ -201,10 +205,9 @@ void NodeFluidMap::placeOthers(const Cells& cells, const NodeLayout& layout, Par
                 system.forGhostsNear(image, reach, [&](int ghost) {
                     const std::size_t entry = shared.entry(ghost);
                     if (entry < own || shared.ghostOf()[entry - own] != ghost) return;
-                    const double* record = records.data() + 4 * (own + static_cast<std::size_t>(ghost));
-                    const Vec3 q = (Vec3::Map(record) - image) / radius_;
+                    const Vec3 q = (ghosts.position(ghost) - image) / radius_;
                     if (q.squaredNorm() >= 1) return;
-                    add({static_cast<int>(entry), record[3] * NodeBasis::weight(q.norm()), q}, m, others_);
+                    add({static_cast<int>(entry), ghosts.volume(ghost) * NodeBasis::weight(q.norm()), q}, m, others_);
                 });
             });
             others_.first.push_back(others_.entries.size());

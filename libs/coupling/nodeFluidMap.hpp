@@ -29,6 +29,20 @@
 
 namespace corpuscle::coupling {
 
+// Positions and volumes of all ghosts of a rank, as on the ranks that own the particles.
+class GhostRecords {
+  public:
+    // volume: of each own particle [m^3]. Collective.
+    GhostRecords(particles::ParticleSystem& system, const particles::SharedParticles& shared,
+                 const std::vector<double>& volume);
+    Vec3 position(int ghost) const { return Vec3::Map(&records_[first_ + 4 * static_cast<std::size_t>(ghost)]); }
+    double volume(int ghost) const { return records_[first_ + 4 * static_cast<std::size_t>(ghost) + 3]; }
+
+  private:
+    std::size_t first_;
+    particles::RealArray records_;  // four numbers of each own particle and each ghost
+};
+
 class NodeFluidMap {
   public:
     static constexpr double radiusInSpacings = 2, largestWeights = 4.0;
@@ -45,9 +59,9 @@ class NodeFluidMap {
     // Collective. Throws Failure(numerics), on all ranks, if a node has no fluid around it.
     void place(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
                const std::vector<double>& volume);
-    // Weights of ghosts, to be called right after `place`. Collective.
-    void placeOthers(const Cells& cells, const NodeLayout& layout, particles::ParticleSystem& system,
-                     const particles::SharedParticles& shared, const std::vector<double>& volume);
+    // Weights of ghosts, to be called right after `place`.
+    void placeOthers(const Cells& cells, const NodeLayout& layout, const particles::ParticleSystem& system,
+                     const particles::SharedParticles& shared, const GhostRecords& ghosts);
 
     // S u, u of four numbers per particle. Collective among holders.
     template <class Real>

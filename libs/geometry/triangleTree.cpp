@@ -56,6 +56,11 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh, double reach)
         triangles_.push_back(mesh.triangles[number_[t]]);
         place_[number_[t]] = static_cast<int>(t);
     }
+    for (const MeshEdge& edge : edges_) {
+        if (edge.left >= 0 && edge.right >= 0) continue;
+        isBorderNode_.resize(nodes_.size(), 0);
+        isBorderNode_[edge.a] = isBorderNode_[edge.b] = 1;
+    }
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e)
         for (const int t : {edges_[e].left, edges_[e].right}) {
             if (t < 0) continue;
@@ -171,6 +176,19 @@ SurfacePoint TriangleTree::nearest(const Vec3& x, double within) const {
     const double distance = std::sqrt(least2);
     best.distance = (x - best.point).dot(pseudoNormal(at, best.weights)) < 0 ? -distance : distance;
     return best;
+}
+
+bool TriangleTree::isOnBorder(const SurfacePoint& at) const {
+    if (isBorderNode_.empty()) return false;
+    const int triangle = place_[at.triangle];
+    for (int s = 0; s < 3; ++s)
+        if (at.weights[s] == 1) return isBorderNode_[triangles_[triangle][s]] != 0;
+    for (int s = 0; s < 3; ++s)
+        if (at.weights[s] == 0) {
+            const MeshEdge& edge = edges_[sideEdge_[triangle][(s + 1) % 3]];
+            return edge.left < 0 || edge.right < 0;
+        }
+    return false;
 }
 
 Vec3 TriangleTree::pseudoNormal(int triangle, const Vec3& w) const {

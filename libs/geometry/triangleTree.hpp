@@ -6,7 +6,7 @@
 // far, which is initially the reach. The result is exact. The sign is that of (x - p).n at the nearest point p, with n
 // the pseudo-normal there: the normal of a triangle in its interior, the sum of the two triangles' normals on an edge,
 // the angle-weighted sum at a node (Baerentzen and Aanaes 2005). It is correct at edges and nodes of any closed
-// surface.
+// surface, and away from the border of an open one.
 #pragma once
 #include <limits>
 #include <vector>
@@ -28,7 +28,7 @@ Vec3 nearestWeights(const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& c);
 
 class TriangleTree {
   public:
-    // A closed, outward oriented mesh; reach in metres.
+    // An outward oriented mesh of at least one triangle, closed or with borders; reach in metres.
     TriangleTree(const TriangleMesh& mesh, double reach);
 
     // The nodes have moved; the triangles are the same.
@@ -38,6 +38,9 @@ class TriangleTree {
     // nearest to the mesh. `within` [m]: nothing further away is searched; a known upper bound of the distance saves
     // most of the work.
     SurfacePoint nearest(const Vec3& x, double within = std::numeric_limits<double>::infinity()) const;
+
+    // Whether a point found by `nearest` lies on the border of the mesh, where the surface ends.
+    bool isOnBorder(const SurfacePoint& at) const;
 
     double reach() const { return reach_; }
 
@@ -61,6 +64,7 @@ class TriangleTree {
 
     std::vector<Index3> sideEdge_;  // edge number of each side of each triangle
     std::vector<MeshEdge> edges_;
+    std::vector<char> isBorderNode_;  // empty without borders
     std::vector<Vec3> faceNormal_, edgeNormal_, nodeNormal_;
     std::vector<Box> boxes_;  // parents before children
 };

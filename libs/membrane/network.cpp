@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <string>
 
 #include "core/error.hpp"
@@ -233,6 +234,34 @@ std::vector<std::vector<int>> Network::rims() const {
         loops.push_back(std::move(loop));
     }
     return loops;
+}
+
+std::vector<int> Network::sheetOfNodes() const {
+    std::vector<int> parent(nodeCount());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto rootOf = [&](int node) {
+        while (parent[node] != node) {
+            node = parent[node] = parent[parent[node]];
+        }
+        return node;
+    };
+    std::vector<char> isHeld(nodeCount(), 0);
+    for (const int t : wholeTriangles_) {
+        for (const int node : triangles_[t]) {
+            isHeld[node] = 1;
+            const int one = rootOf(triangles_[t][0]), other = rootOf(node);
+            parent[std::max(one, other)] = std::min(one, other);
+        }
+    }
+    std::vector<int> sheet(nodeCount(), -1);
+    int count = 0;
+    for (int node = 0; node < static_cast<int>(nodeCount()); ++node) {
+        if (isHeld[node]) {
+            const int root = rootOf(node);  // the lowest node of its sheet
+            sheet[node] = root == node ? count++ : sheet[root];
+        }
+    }
+    return sheet;
 }
 
 double Network::holeRestArea() const {

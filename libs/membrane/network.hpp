@@ -79,15 +79,20 @@ class Network {
     int brokenBonds() const { return static_cast<int>(allBonds_.size() - bonds_.size()); }
     int brokenTriangles() const { return static_cast<int>(triangles_.size() - wholeTriangles_.size()); }
     // Whether a triangle is broken, or was: what has left through a hole does not come back when it closes, so that
-    // nothing may hold volume, area or sides of a cell that was open.
+    // nothing may hold a cell that was open at its initial volume or area, or particles on the side where they started.
     bool wasOpen() const { return wasOpen_; }
     bool isOpen() const { return hasBorder_ || wasOpen_; }
+    // Whether it was closed before it broke: with caps over its holes it encloses a volume.
+    bool isTorn() const { return wasOpen_ && !hasBorder_; }
     long changes() const { return changes_; }  // of the lists, so far
 
     // Rims of the holes: closed loops of nodes along edges of whole triangles, in the orientation of these triangles.
     // Each loop begins at its bond of lowest number, so that the order is fixed. Borders of the original mesh are not
     // rims.
     std::vector<std::vector<int>> rims() const;
+    // The sheets into which the whole triangles have come apart: a number for each node, from 0 in the order of the
+    // nodes, -1 for nodes without whole triangles. Triangles that share a node belong to one sheet.
+    std::vector<int> sheetOfNodes() const;
     double holeRestArea() const;                     // stress-free area of the broken triangles, m^2
     double holeArea(std::span<const Vec3> x) const;  // present area of fans about the rims' mean points, m^2
 

@@ -56,7 +56,7 @@ struct Inclusion : FluidScene {
         NoFlux noFlux(scene.cells, scene.spacing);
         std::vector<int> every(scene.store().size());
         for (std::size_t i = 0; i < every.size(); ++i) every[i] = static_cast<int>(i);
-        noFlux.findAmong(*scene.system, [&](std::size_t) { return every; });
+        noFlux.findAmong(*scene.system, 0, [&](std::size_t) { return every; });
         const std::vector<sph::Inside> inside = insideShares(scene, &noFlux);
         return sum([&](std::size_t i) { return inside[i].share; });
     }

@@ -117,6 +117,21 @@ TEST(TriangleTree, signAtNodesAndEdges) {
     EXPECT_GT(nodesAndEdges, 500);
 }
 
+// Two triangles of a square: its sides and corners are the border, the diagonal is not.
+TEST(TriangleTree, knowsTheBorderOfAnOpenMesh) {
+    const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    const TriangleTree grid(square, 2);
+    const auto isOnBorder = [&](double x, double y) { return grid.isOnBorder(grid.nearest({x, y, 0.3})); };
+    EXPECT_FALSE(isOnBorder(0.5, 0.5));
+    EXPECT_FALSE(isOnBorder(0.7, 0.2));
+    for (const auto& [x, y] : {std::pair{0.5, -0.1}, {1.2, 0.4}, {0.3, 1.2}, {-0.2, 0.6}, {1.1, 1.3}, {-0.1, -0.1}})
+        EXPECT_TRUE(isOnBorder(x, y)) << x << " " << y;
+    EXPECT_GT(grid.nearest({0.5, 0.5, 0.3}).distance, 0);
+    EXPECT_LT(grid.nearest({0.5, 0.5, -0.3}).distance, 0);
+    const TriangleTree closed(cell(), 1e-6);
+    EXPECT_FALSE(closed.isOnBorder(closed.nearest(cell().nodes[7])));
+}
+
 TEST(TriangleTree, followsTheMovedMesh) {
     TriangleMesh mesh = cell();
     TriangleTree grid(mesh, 0.5e-6);

@@ -104,6 +104,38 @@ TEST(Rupture, OneBondLeavesEveryLaw) {
     EXPECT_EQ(network.brokenBonds(), 2);
 }
 
+// A sphere cut along its equator comes apart in two sheets, with one rim each.
+TEST(Network, SheetsAreWhatIsConnected) {
+    const Mesh mesh = testing::icosphere(2);
+    Network network(mesh.nodes, mesh.triangles);
+    std::vector<int> sheet = network.sheetOfNodes();
+    EXPECT_EQ(std::count(sheet.begin(), sheet.end(), 0), 162);
+    EXPECT_FALSE(network.isTorn());
+    std::vector<int> cut;
+    for (const Bond& bond : network.allBonds()) {
+        if ((mesh.nodes[bond.node[0]].y() < 0.2) != (mesh.nodes[bond.node[1]].y() < 0.2)) {
+            cut.push_back(bond.number);
+        }
+    }
+    network.breakBonds(cut);
+    EXPECT_TRUE(network.isTorn());
+    sheet = network.sheetOfNodes();
+    EXPECT_EQ(network.rims().size(), 2u);
+    for (int node = 0; node < 162; ++node) {
+        const bool isFirst = (mesh.nodes[node].y() < 0.2) == (mesh.nodes[0].y() < 0.2);
+        EXPECT_EQ(sheet[node], isFirst ? 0 : 1) << node;
+    }
+    // A node without whole triangles belongs to no sheet.
+    cut.clear();
+    for (const Bond& bond : network.allBonds()) {
+        if (bond.node[0] == 0 || bond.node[1] == 0) {
+            cut.push_back(bond.number);
+        }
+    }
+    network.breakBonds(cut);
+    EXPECT_EQ(network.sheetOfNodes()[0], -1);
+}
+
 TEST(Rupture, ForcesStayMinusTheGradient) {
     const Mesh mesh = testing::irregular(1);
     Membrane membrane = membraneOf(mesh, allLaws());
