@@ -27,9 +27,9 @@ void findPressures(const Scene& scene, particles::RealArray& pressure);
 // The continuity equation takes no account of where particles are: where they part, the volume m/rho of each stays what
 // it is, and a void between them, which exerts no pressure, may grow. With this source, the pressure falls where
 // particles are sparse and rises where they are dense, until the fluid converges there at the rate C_rho gammadot
-// (1 - sigma). It is the source of incompressible SPH for a constant number density, spread over a time: Khayyer, Gotoh,
-// J. Comput. Phys. 230 (2011) 3093. gammadot: rate of the flow. Fluid particles only; the mean over each region is kept
-// by the density balance.
+// (1 - sigma), gammadot the rate of the flow. It is the source by which incompressible SPH keeps the number density
+// constant, spread over a time: Khayyer, Gotoh, J. Comput. Phys. 230 (2011) 3093. Fluid particles only; the density
+// balance keeps the mean over each region.
 template <class Real>
 void relaxDensities(Scene& scene, const sph::Operators<Real>& operators, double rate, double dt) {
     if (rate == 0) return;

@@ -83,7 +83,7 @@ class Step final : public ImplicitStep {
         ++statistics.halvings;
         Made made = make(start, 0.5 * dt, true, halvings + 1);
         if (isAfterBreak() || made.length < 0.5 * dt) return made;  // the same on all ranks
-        Made later = make(start + 0.5 * dt, true, halvings + 1);
+        Made later = make(start + 0.5 * dt, 0.5 * dt, true, halvings + 1);
         later.length += made.length;
         return later;
     }

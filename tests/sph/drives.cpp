@@ -58,7 +58,7 @@ FlowState resolved(const std::string& text) {
 }  // namespace
 
 TEST(Drive, sineHasItsMeanAmplitudeAndPhase) {
-    const auto drive = choose<Drive>("{type: sine, frequency: 4 Hz, mean: 2, amplitude: 0.5, phase: 90 deg}");
+    const auto drive = choose<Drive>("{type: sine, frequency: 4 Hz, mean: 2, amplitude: 0.5, phase: 0.25}");
     EXPECT_NEAR(drive->factor(0), 2.5, 1e-12);
     EXPECT_NEAR(drive->factor(1.0 / 16), 2, 1e-12);
     EXPECT_NEAR(drive->factor(1.0 / 8), 1.5, 1e-12);
@@ -100,7 +100,8 @@ TEST_F(TableOfFactors, thatMakeNoSenseAreRefused) {
 
 // Speed and rate are the largest at any time; velocities are those at t = 0.
 TEST(Drive, scalesAFlow) {
-    const std::string drive = ", drive: {type: sine, frequency: 1 Hz, mean: 1, amplitude: 2, phase: 30 deg}}";
+    const std::string drive =
+        ", drive: {type: sine, frequency: 1 Hz, mean: 1, amplitude: 2, phase: 0.08333333333333333}}";
     const FlowState steady = resolved("{type: shear, shearRate: 5 1/s}"),
                     moving = resolved("{type: shear, shearRate: 5 1/s" + drive);
     EXPECT_NEAR(moving.factor, 2, 1e-12);
