@@ -11,7 +11,7 @@ constexpr double wallRate = 1.3;            // largest viscous rate beside walls
 constexpr double furthestViscosities = 20;  // largest ratio of viscosities (sph/operators.hpp)
 
 // The lower the pressure behind a throat, the faster densities have to follow the number of particles: in a sinusoidal
-// tube where this is 2.2, values from 2.2 to 10 keep all sigma above 0.95, and 1 leaves a void. Higher values add noise.
+// tube where this is 2.2, values from 2.2 to 10 keep all sigma above 0.95, and 1 leaves a void. Higher ones add noise.
 // Beside cells this noise makes flow rates on different numbers of ranks differ by up to 0.8 %: there, the case has to
 // ask for it.
 double automaticDensityRate(const coupling::Scene& scene) {
