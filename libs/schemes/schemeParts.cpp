@@ -11,11 +11,10 @@ constexpr double wallRate = 1.3;            // largest viscous rate beside walls
 constexpr double furthestViscosities = 20;  // largest ratio of viscosities (sph/operators.hpp)
 
 // The lower the pressure behind a throat, the faster densities have to follow the number of particles: in a sinusoidal
-// tube where this is 2.2, values from 2.2 to 10 keep all sigma above 0.95, and 1 leaves a void. Higher ones add noise.
-// Beside cells this noise makes flow rates on different numbers of ranks differ by up to 0.8 %: there, the case has to
-// ask for it.
+// tube where drop/(mu gammadot) is 22, with 10 all sigma stay above 0.97, and 1 and 2.2 leave a void. Beside cells the
+// noise makes flow rates on different numbers of ranks differ by up to 0.8 %: there, the case has to ask for it.
 double automaticDensityRate(const coupling::Scene& scene) {
-    constexpr double share = 0.1, least = 1, most = 4;
+    constexpr double share = 0.5, least = 1, most = 10;
     const sph::FlowState& flow = scene.flow;
     if (!flow.varies || flow.rate == 0 || scene.cells.exist()) return 0;
     const double drop = scene.model().density * flow.largestForce() * scene.fluidBox.size()[0];

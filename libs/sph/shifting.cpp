@@ -18,7 +18,7 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
             .integer("steps", &ShiftingSettings::steps, "time steps between two shifts",
                      {.fallback = "10", .range = atLeast(1)})
             .quantityOr("auto", "densityRate", &ShiftingSettings::densityRate, unit::none,
-                        "rate at which densities follow the number of particles, over that of the flow; auto: 1 to 4, "
+                        "rate at which densities follow the number of particles, over that of the flow; auto: 1 to 10, "
                         "by the pressure drop, in vessels without cells whose cross-section varies, else 0",
                         {.fallback = "auto", .range = between(0, 100)})
             .atRestart(AtRestart::noted, {"coefficient", "steps", "densityRate"});
