@@ -13,6 +13,17 @@ inline std::vector<sph::testing::Particle> still(const Index3& size, double diso
     return all;
 }
 
+// A lattice of particles with a spherical hole around the origin, which is at a corner of the periodic box.
+inline std::vector<sph::testing::Particle> withHole(const Index3& size, double radius) {
+    std::vector<sph::testing::Particle> all = still(size);
+    std::erase_if(all, [&](const sph::testing::Particle& p) {
+        Vec3 x = p.x;
+        for (int k = 0; k < 3; ++k) x[k] -= size[k] * std::round(x[k] / size[k]);
+        return x.norm() < radius;
+    });
+    return all;
+}
+
 // Fluid on a disordered lattice, moving with the flow, between walls whose particles are on the undisturbed lattice and
 // move with the walls.
 template <class Flow>

@@ -20,24 +20,14 @@ sph::FluidModel model() {
     return m;
 }
 
-// A lattice of particles with a spherical hole around the origin, which is at a corner of the periodic box.
-std::vector<sph::testing::Particle> withHole() {
-    std::vector<sph::testing::Particle> all = coupling::testing::still(size);
-    std::erase_if(all, [](const sph::testing::Particle& p) {
-        Vec3 x = p.x;
-        for (int k = 0; k < 3; ++k) x[k] -= size[k] * std::round(x[k] / size[k]);
-        return x.norm() < hole;
-    });
-    return all;
-}
-
 struct Void : FluidScene {
     sph::Operators<double> operators{model(), *scene.system, sph::OperatorForm::corrected};
     Transport transport{scene, 3.0};
     double longest = 0;  // of any displacement
 
     explicit Void(bool withContact)
-        : FluidScene(withHole(), size, model(), rate, 0.3, MPI_COMM_WORLD, particles::Precision::full) {
+        : FluidScene(coupling::testing::withHole(size, hole), size, model(), rate, 0.3, MPI_COMM_WORLD,
+                     particles::Precision::full) {
         if (withContact)
             scene.contacts = std::make_unique<CellContacts>(contact::ContactSettings{}, scene.model().walls);
         scene.system->start();

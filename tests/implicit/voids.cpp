@@ -22,22 +22,12 @@ sph::FluidModel viscous() {
     return m;
 }
 
-// A lattice of particles with a spherical hole around the origin, which is at a corner of the periodic box.
-std::vector<sph::testing::Particle> withHole() {
-    std::vector<sph::testing::Particle> all = coupling::testing::still(size);
-    std::erase_if(all, [](const sph::testing::Particle& p) {
-        Vec3 x = p.x;
-        for (int k = 0; k < 3; ++k) x[k] -= size[k] * std::round(x[k] / size[k]);
-        return x.norm() < hole;
-    });
-    return all;
-}
-
 // Fluid at rest around the hole, without shifting.
 struct Void : FluidScene {
     std::unique_ptr<ImplicitStep> step;
     explicit Void(double densityRate)
-        : FluidScene(withHole(), size, viscous(), rate, 0, MPI_COMM_WORLD, particles::Precision::full) {
+        : FluidScene(coupling::testing::withHole(size, hole), size, viscous(), rate, 0, MPI_COMM_WORLD,
+                     particles::Precision::full) {
         ImplicitStep::Options options;
         options.settings = {.step = strainOfStep, .tolerance = 1e-6};
         options.densityRate = densityRate;
