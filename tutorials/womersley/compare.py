@@ -17,6 +17,7 @@ NU, R, F = 3.5e-3 / 1060, 2e-3, 0.1  # constant/fluid.yaml, constant/flow.yaml
 PERIOD = 1 / 1.2  # s, constant/beat.csv
 TOLERANCE = float(sys.argv[1]) if len(sys.argv) > 1 else 0.02
 HARMONICS = 12
+COLUMNS = ("time_s", "drive", "flowRate_mL_s", "exact_mL_s")  # of womersley.csv
 
 
 def rows(path):
@@ -50,7 +51,7 @@ def womersley(t):
 table = [row for row in rows("postProcessing/flow/flowRate.csv") if row["time_s"] > 0]
 last = [row for row in table if row["time_s"] > table[-1]["time_s"] - PERIOD]
 with open("postProcessing/womersley.csv", "w") as out:
-    print("time_s,drive,flowRate_mL_s,exact_mL_s", file=out)
+    print(*COLUMNS, sep=",", file=out)
     for row in table:
         print(f"{row['time_s']:.6g},{row['pressureDrop_Pa']:.6g},{1e6 * row['flowRate_m3_s']:.6g},{1e6 * womersley(row['time_s']):.6g}", file=out)
 most = max(abs(womersley(row["time_s"])) for row in last)

@@ -24,7 +24,7 @@ READER_ONLY = [re.compile(p) for p in (
     r"'1e-400' is not a whole number",                         # to YAML it is 0, a whole number
     r"stands twice|a blank is missing after",                  # faults of the text, found before it is parsed
     r"that of 'cell'",                                         # of a ready cell, which is inserted before a case is read
-    r"write FILE:/path",                                       # the form of a text, of keys of a study
+    r"(write|expected) FILE:/path",                            # the form of a text, of keys of a study
     r"has no law that resists shear", r"the zero vector", r"needs at least one value", r"an even number", r"all zero",
     r"more than one of|give either size|a rectangle has two|too coarse for this sheet|no particles here",
     r"local.*global|thickness|write held|through the glass",
