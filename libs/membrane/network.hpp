@@ -90,7 +90,7 @@ class Network {
     // Each loop begins at its bond of lowest number, so that the order is fixed. Borders of the original mesh are not
     // rims.
     std::vector<std::vector<int>> rims() const;
-    // The sheets into which the whole triangles have come apart: a number for each node, from 0 in the order of the
+    // The connected sheets that the whole triangles form: a number for each node, from 0 in the order of the
     // nodes, -1 for nodes without whole triangles. Triangles that share a node belong to one sheet.
     std::vector<int> sheetOfNodes() const;
     double holeRestArea() const;                     // stress-free area of the broken triangles, m^2
