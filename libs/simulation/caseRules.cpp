@@ -366,7 +366,7 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
     }
 }
 
-std::vector<std::string> unusedEntries(const Case& c) {
+std::vector<std::string> caseWarnings(const Case& c) {
     std::map<std::string, std::set<std::string>> taken;  // by kind
     for (const PlacedSurface& surface : surfacesOf(c.mesh))
         taken[surface.kind].insert(surface.kind == "cell"
@@ -386,6 +386,9 @@ std::vector<std::string> unusedEntries(const Case& c) {
     };
     find(c.membranes.types, "constant/membranes.yaml", "cell", "membrane");
     find(c.bodies.types, "constant/bodies.yaml", "body", "body");
+    // A case may well step over a start or a decay; a drive, hardly.
+    const std::string unfit = c.flow.drive && !c.flow.drive->isSteady() ? c.scheme().unfit(c.facts(), c.numerics) : "";
+    if (!unfit.empty()) words.push_back(fmt::format("system/numerics.yaml: {}: {}", c.numerics.integrator, unfit));
     return words;
 }
 

@@ -127,7 +127,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     if (results_.due(time)) results_.write(scene, time);
     observers_.run(scene, time);
     for (const std::string& note : observers_.notes()) app_.log().warning("{}", note);
-    for (const std::string& note : unusedEntries(input_)) app_.log().warning("{}", note);
+    for (const std::string& note : caseWarnings(input_)) app_.log().warning("{}", note);
 }
 
 void Schedule::afterStep(const Scene& scene, const Time& time) {

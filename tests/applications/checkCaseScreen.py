@@ -71,7 +71,8 @@ def test_cells(folder):
 
 
 def test_warnings(folder):
-    """Edges much longer or shorter than the spacing, and a density that follows only from Re: one warning each, with the text to write."""
+    """Edges much longer or shorter than the spacing, a density that follows only from Re, entries without a cell, and steps longer than the flow takes to change:
+    one warning each, with the text to write."""
     case = make(folder, IMPLICIT_CASE)
     assert "edge is" not in screen(case)[1]
     for edge, words in (("0.08 dx", ("edge is 0.08 dx", "156 nodes for each particle")), ("0.4 um", ("edge is 0.4 dx",)),
@@ -89,6 +90,12 @@ def test_warnings(folder):
         (case / "constant" / "membranes.yaml").write_text(laws + "\n" + laws.replace("rbc:", name + ":", 1))
         warned = screen(case)[1]
         assert all(word in warned for word in (f"constant/membranes.yaml: {name}: no cell", "they take rbc", "'membrane'")), warned
+    (case / "constant" / "membranes.yaml").write_text(laws)
+    sine = "-set", "constant/flow.yaml:/drive={type: sine, frequency: 10 kHz}", "-set", "constant/flow.yaml:/inertia=physical"
+    assert "do not follow" not in screen(case, *sine, "-set", "system/numerics.yaml:/implicit={tolerance: 1e-4}")[1]  # steps that are not written are shortened
+    for step, warns in ((0.5, True), (1e-6, False)):
+        warned = screen(case, *sine, "-set", f"system/numerics.yaml:/implicit/step={step}")[1]
+        assert all(word in warned for word in ("system/numerics.yaml: implicit: ", "do not follow", "implicit.step at most")) == warns, warned
 
 
 def peak(case, application):

@@ -376,7 +376,7 @@ int main(int argc, char* argv[]) {
         reportGroups(report, input);
         findEdges(report, input);
         findDensity(report, input);
-        for (const std::string& words : simulation::unusedEntries(input)) report.warnings.push_back(words);
+        for (const std::string& words : simulation::caseWarnings(input)) report.warnings.push_back(words);
         reportSize(report, input);
         simulation::requireMemory(app.communicator(), input);
         reportCosts(report, input);
