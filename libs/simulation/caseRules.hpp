@@ -14,9 +14,9 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh);
 // Adds a problem for each rule that the case breaks; the problem names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems);
 
-// What a case may do but hardly means, one sentence each, which says what to do: entries of constant/membranes.yaml and
-// constant/bodies.yaml that no cell or body uses, so that changes to them have no effect; steps, as written, that do not
-// follow a drive.
+// What a case may do but hardly means, one sentence each, which says what to do: entries of constant/membranes.yaml
+// and constant/bodies.yaml that no cell or body uses, so that changes to them have no effect; steps, as written, that do
+// not follow a drive.
 std::vector<std::string> caseWarnings(const Case& c);
 
 // Values that each lie within their range can combine to a quantity that overflows or underflows. Adds a problem for
