@@ -477,7 +477,7 @@ def integrators_agree(folder, name, files, step, since):
 
 
 def test_integrators(folder):
-    """A capsule by both; a red cell, and one that tears: long.integrators."""
+    """A capsule by both. A red cell, and one that tears: long.integratorsOfCells."""
     integrators_agree(folder, "capsule", IMPLICIT_CASE, 0.025, 0.1)
 
 
