@@ -13,7 +13,7 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr double fewest = 6;         // with fewer particles a point has Shepard's weights
+constexpr double fewest = 4;         // with fewer particles a point has the plain mean
 constexpr double largestStep = 1.0;  // between the points of a cap, in spacings
 // Sums of each point: the upper triangle of sum V W (1, q) (1, q)^T, and the number of particles.
 constexpr std::size_t moments = 11;
@@ -109,8 +109,9 @@ void HoleFlux::findWeights(const Cells& cells, MPI_Comm comm) {
         for (int i = 0; i < 4; ++i)
             for (int j = i; j < 4; ++j) A(i, j) = A(j, i) = *sum++;
         const Eigen::Vector4d c = A.ldlt().solve(Eigen::Vector4d::Unit(0));
-        if (!(all * (std::abs(c[0]) + c.tail<3>().norm()) <= NodeFluidMap::largestWeights)) continue;
-        points_[p].constant = c[0], points_[p].slope = c.tail<3>();
+        const double share = NodeBasis::shareOfMean(all * (std::abs(c[0]) + c.tail<3>().norm()));
+        if (share == 1) continue;
+        points_[p].constant = share / all + (1 - share) * c[0], points_[p].slope = (1 - share) * c.tail<3>();
     }
     // Entries of one sheet and particle are one; the last of each particle, if it is of the same sheet, takes the rest.
     std::vector<std::size_t> entryOf;

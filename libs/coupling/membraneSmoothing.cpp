@@ -1,6 +1,8 @@
 #include "coupling/membraneSmoothing.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 namespace corpuscle::coupling {
 
@@ -17,22 +19,31 @@ void MembraneSmoothing::placeCell(const Cell& cell, std::size_t first, const Nod
             neighbours[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);
             neighbours[static_cast<std::size_t>(t[(k + 1) % 3])].push_back(t[k]);
         }
-    std::vector<std::size_t> seenFrom(x.size(), x.size()), found;
+    // Nodes to be taken, the one with the least distance of its path first.
+    using Reached = std::pair<double, std::size_t>;
+    std::vector<Reached> heap;
+    std::vector<std::size_t> takenFrom(x.size(), x.size());
     for (std::size_t m = 0; m < x.size(); ++m) {
-        found.assign(1, m), seenFrom[m] = m;
+        heap.assign(1, {0.0, m});
         double sum = 0;
         Vec3 mean = Vec3::Zero();
         double square = 0;
-        for (std::size_t k = 0; k < found.size(); ++k) {  // `found` grows in this loop
-            const std::size_t n = found[k];
+        while (!heap.empty()) {
+            std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+            const auto [path, n] = heap.back();
+            heap.pop_back();
+            if (std::exchange(takenFrom[n], m) == m) continue;
             const Vec3 d = x[n] - x[m];
-            const double r = d.norm() / reach_, w = areas[first + n].norm() * (1 - r) * (1 - r) * (1 + 2 * r);
+            const double r = path / reach_, w = areas[first + n].norm() * (1 - r) * (1 - r) * (1 + 2 * r);
             members_.push_back({first + n, w});
             sum += w, mean += w * d, square += w * d.squaredNorm();
             for (const int next : neighbours[n]) {
                 const auto j = static_cast<std::size_t>(next);
-                if (seenFrom[j] == m || (x[j] - x[m]).squaredNorm() >= reach_ * reach_) continue;
-                seenFrom[j] = m, found.push_back(j);
+                if (takenFrom[j] == m) continue;
+                const double further = std::max(path, (x[j] - x[m]).norm());
+                if (further >= reach_) continue;
+                heap.emplace_back(further, j);
+                std::push_heap(heap.begin(), heap.end(), std::greater<>());
             }
         }
         for (std::size_t k = first_.back(); k < members_.size(); ++k)

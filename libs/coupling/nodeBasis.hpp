@@ -6,8 +6,15 @@
 // z = y, with integral 1 and second moment 0.1. The exact velocity has a kink |z| at a membrane that exerts a
 // tangential force; phi is |z| rounded off, since the force is spread by weights of this kind. W is Wendland's C2
 // function, and m and phi are polynomials in |z| for |z| <= 1.
+//
+// Weights of moving least squares grow without bound where the particles lie badly, as with fluid on one side only, or
+// are too few. They are then mixed with the plain mean, with the weights V W (Shepard). Its share is a smooth function
+// of sum |w|, so that the velocity of a node is continuous in its position. (If the weights were exchanged at once, a
+// node at the boundary between the two would be driven from one to the other in each step, with a jump of its velocity
+// that does not decrease with the step.)
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 #include "core/vec.hpp"
@@ -30,6 +37,13 @@ struct NodeBasis {
     }
     // Values that sum_j w b must have for weights W (c.b): 1 for b_0, 0 for q, the given ones for phi and rho^2.
     static Vector conditions(double kink, double alongSquare) { return {1, 0, 0, 0, kink, alongSquare}; }
+    // Share of the plain mean: 0 up to a sum |w| of 4, 1 from 8 on, and for a sum that is not a number.
+    static constexpr double largestExact = 4, largestUsed = 8;
+    static double shareOfMean(double sumOfMagnitudes) {
+        if (!(sumOfMagnitudes < largestUsed)) return 1;
+        const double t = std::max(0.0, (sumOfMagnitudes - largestExact) / (largestUsed - largestExact));
+        return t * t * (3 - 2 * t);
+    }
     static Vector derivative(int axis) { return Vector::Unit(1 + axis); }  // the same for weights of R d/dx
 };
 

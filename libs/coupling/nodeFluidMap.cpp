@@ -20,7 +20,7 @@ using particles::ParticleSystem;
 
 namespace {
 
-constexpr int fewest = 10;  // with fewer particles a node has Shepard's weights
+constexpr int fewest = NodeBasis::size;  // with fewer particles there are no weights but those of the plain mean
 // Sums of each node: the upper triangle of sum V W b b^T, and the number of particles.
 constexpr std::size_t moments = NodeBasis::size * (NodeBasis::size + 1) / 2 + 1;
 
@@ -95,6 +95,15 @@ bool NodeFluidMap::hasSlopes() const {
     return std::any_of(conditions_.begin(), conditions_.end(), [](const NodeConditions& c) { return c.slope != 0; });
 }
 
+void NodeFluidMap::Coefficients::mix(double share, const NodeBasis::Vector& mean) {
+    if (share == 1) {  // the others may not be finite
+        *this = {mean, mean, NodeBasis::Vector::Zero(), decltype(slope)::Zero()};
+        return;
+    }
+    along += share * (mean - along), across += share * (mean - across);
+    shift *= 1 - share, slope *= 1 - share;
+}
+
 // Coefficients from the sums over all particles near the node.
 NodeFluidMap::Coefficients NodeFluidMap::solve(const Cell& cell, std::size_t m, const double* sums) const {
     NodeBasis::Matrix A;
@@ -151,9 +160,10 @@ void NodeFluidMap::findCoefficients(const Cells& cells, const NodeLayout& layout
             if (!(all > 0) && dry++ == 0)
                 fault = fmt::format("node {} of the membrane '{}' has no fluid within {} m: the run has diverged",
                                     m - layout.first(c), cells[c].membrane.name, radius_);
-            if (absolute[2 * m] <= largestWeights && absolute[2 * m + 1] <= largestWeights) continue;
-            const NodeBasis::Vector mean = NodeBasis::Vector::Unit(0) / all;
-            coefficients_[m] = {mean, mean, NodeBasis::Vector::Zero(), decltype(Coefficients::slope)::Zero()};
+            const double share =
+                std::max(NodeBasis::shareOfMean(absolute[2 * m]), NodeBasis::shareOfMean(absolute[2 * m + 1]));
+            if (share == 0) continue;
+            coefficients_[m].mix(share, NodeBasis::Vector::Unit(0) / all);
             fallbacks += cells[c].isOwnedBy(ranks.rank()) ? 1 : 0;
         }
     const std::vector<long> counts = ranks.sum(std::vector<long>{fallbacks, dry});

@@ -14,8 +14,9 @@
 // v, t   | chosen so that nodes move as in the exact flow along a flat membrane between two fluids (flatMembrane.hpp)
 // v',r,r'| 0.23, -0.07, 0.02, fitted to the responses of a sphere to loads of all kinds
 //        | (tests/implicit/loadedSphere.cpp)
-// Constant and linear fields are interpolated exactly. Where sum_j |w_mj| > 4, as with fluid on one side only, or where
-// fewer than 10 particles are near, s_m is the mean with the weights V_j W (Shepard).
+// Constant and linear fields are interpolated exactly, except where sum_j |w_mj| or sum_j |w'_mj| is above 4, as with
+// fluid on one side only: there, s_m is partly or entirely the mean with the weights V_j W (shareOfMean in
+// nodeBasis.hpp), and the other weights are multiplied by the share that is left.
 //
 // A rank has the weights of its own particles for the nodes of the cells that it holds. Sums over the particles around
 // a node are completed among the holders of its cell (holderSums.hpp).
@@ -45,7 +46,7 @@ class GhostRecords {
 
 class NodeFluidMap {
   public:
-    static constexpr double radiusInSpacings = 2, largestWeights = 4.0;
+    static constexpr double radiusInSpacings = 2;
     static constexpr double kinkAcross = 0.23, squareAlong = -0.07, squareAcross = 0.02;  // v', r, r'
 
     // conditions: v and t of each type of cell. support: of the fluid's kernel [m].
@@ -80,7 +81,8 @@ class NodeFluidMap {
     const std::vector<int>& touchedBy(std::size_t cell) const { return own_.touchedBy[cell]; }
     const std::vector<int>& touchedOthers() const { return others_.touched; }  // entries of ghosts
 
-    // Number of nodes with Shepard's weights at the last `place`, over all ranks; and the largest of any `place`.
+    // Number of nodes with a share of the plain mean at the last `place`, over all ranks; and the largest of any
+    // `place`.
     long fallbacks() const { return fallbacks_; }
     long mostFallbacks() const { return mostFallbacks_; }
 
@@ -107,6 +109,7 @@ class NodeFluidMap {
     struct Coefficients {  // c of the weights of one node
         NodeBasis::Vector along, across, shift;
         Eigen::Matrix<double, NodeBasis::size, 3> slope;
+        void mix(double share, const NodeBasis::Vector& mean);  // `mean`: coefficients of the plain mean
     };
     void findNormals(const Cells& cells);
     void findNear(const Cells& cells, const particles::ParticleSystem& system, const std::vector<double>& volume);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+
 #include <Eigen/LU>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -112,7 +114,8 @@ struct InFluid : SphereScene {
     // v - g (g.v + H u)/(g.g) for each cell.
     std::vector<Vec3> withVolume(std::vector<Vec3> v, const std::vector<Vec3>& u) const;
     std::vector<Vec3> expected(const std::vector<std::vector<Weight>>& weights, const std::vector<Vec3>& u) const;
-    std::vector<std::vector<Weight>> weights(long& shepard) const;
+    // mixed: number of nodes with a share of the plain mean.
+    std::vector<std::vector<Weight>> weights(long& mixed) const;
     // Velocity at a node by its weights; u: velocities of the particles, by id.
     static Vec3 mean(const std::vector<Weight>& weights, const Vec3& normal, const std::vector<Vec3>& u) {
         Vec3 along = Vec3::Zero(), across = Vec3::Zero();
@@ -155,13 +158,13 @@ double kink(double z) {
     return (integral(0, at, distance) + integral(at, 1, distance)) / sum;
 }
 
-std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const {
+std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& mixed) const {
     const double v =
         FlatMembrane(*sph::testing::model("wendlandC2").kernel, system->support(), reach, 1).conditions().kink;
     const std::vector<Vec3> normal = normals();
     const std::vector<Mean> mean = means();
     std::vector<std::vector<Weight>> result;
-    shepard = 0;
+    mixed = 0;
     for (const Vec3& node : positions()) {
         const Vec3& n = normal[result.size()];
         std::vector<Weight>& own = result.emplace_back();
@@ -189,13 +192,16 @@ std::vector<std::vector<InFluid::Weight>> InFluid::weights(long& shepard) const 
             sumAlong += std::abs(own[k].along * along.dot(of[k]));
             sumAcross += std::abs(own[k].across * across.dot(of[k]));
         }
-        const bool whole = std::max(sumAlong, sumAcross) <= NodeFluidMap::largestWeights && own.size() >= 10;
-        shepard += !whole;
+        const double excess = std::clamp((std::max(sumAlong, sumAcross) - 4) / 4, 0.0, 1.0);
+        const double exact = own.size() < 6 ? 0 : 1 - excess * excess * (3 - 2 * excess);
+        mixed += exact < 1;
         for (std::size_t k = 0; k < own.size(); ++k) {
-            own[k].along *= whole ? along.dot(of[k]) : 1 / moments(0, 0);
-            own[k].across *= whole ? across.dot(of[k]) : 1 / moments(0, 0);
+            const auto mix = [&](double weight) { return exact > 0 ? exact * weight : 0; };
+            const double mean = (1 - exact) / moments(0, 0);
+            own[k].along *= mix(along.dot(of[k])) + mean;
+            own[k].across *= mix(across.dot(of[k])) + mean;
             for (int a = 0; a < 3; ++a)
-                own[k].slope[a] *= whole ? Vec6(solver.solve(Vec6::Unit(a + 1))).dot(of[k]) / reach : 0;
+                own[k].slope[a] *= mix(Vec6(solver.solve(Vec6::Unit(a + 1))).dot(of[k]) / reach);
         }
     }
     return result;
@@ -294,9 +300,9 @@ TEST(Immersed, weightsAreThoseOfTheMomentMatrix) {
     InFluid scene;
     scene.open(0), scene.open(1);
     scene.build();
-    long shepard = 0;
-    const auto weights = scene.weights(shepard);
-    EXPECT_EQ(shepard, 0);
+    long mixed = 0;
+    const auto weights = scene.weights(mixed);
+    EXPECT_EQ(mixed, 0);
     EXPECT_EQ(scene.immersed.fallbacks(), 0);
     const std::vector<Vec3> u = scene.random(scene.all.size(), 2);
     const auto of = [&](std::size_t id, const Vec3&) { return u[id]; };
@@ -448,9 +454,9 @@ TEST(Immersed, forcesAndStiffnessAreThoseOfTheMembranes) {
 
 TEST(Immersed, touchesWhatHasAWeight) {
     InFluid scene;
-    long shepard = 0;
+    long mixed = 0;
     std::vector<char> expected(scene.all.size(), 0);
-    for (const auto& ofNode : scene.weights(shepard))
+    for (const auto& ofNode : scene.weights(mixed))
         for (const InFluid::Weight& w : ofNode) expected[w.particle] |= w.along != 0;
     for (const int i : scene.immersed.touched())
         EXPECT_TRUE(expected[static_cast<std::size_t>(scene.system->store().id[static_cast<std::size_t>(i)])]);
@@ -476,8 +482,8 @@ TEST(Immersed, volumeIsRestoredAlongItsGradient) {
         << "an opened cell has no volume to keep";
 }
 
-// With fluid only well outside the first cell, the full weights would extrapolate, and Shepard's replace them.
-TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
+// With fluid only well outside the first cell, the full weights would extrapolate, and are mixed with the plain mean.
+TEST(Immersed, plainMeanWhereWeightsAreLarge) {
     InFluid scene;
     const particles::Box& box = scene.system->box();
     const Vec3 middle = middleOf(scene.cells[0]);
@@ -485,10 +491,10 @@ TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
         if (box.periodicity().shortest(scene.all[j].x - middle).norm() < radius + 0.6) scene.volumes[j] = 0;
     scene.open(0), scene.open(1);
     scene.build();
-    long shepard = 0;
-    const auto weights = scene.weights(shepard);
-    EXPECT_EQ(scene.immersed.fallbacks(), shepard);
-    EXPECT_GT(shepard, 20);
+    long mixed = 0;
+    const auto weights = scene.weights(mixed);
+    EXPECT_EQ(scene.immersed.fallbacks(), mixed);
+    EXPECT_GT(mixed, 20);
     const std::vector<Vec3> u = scene.random(scene.all.size(), 7);
     const auto found =
         scene.immersed.interpolate(scene.field<double>([&](std::size_t id, const Vec3&) { return u[id]; }).data());
@@ -506,11 +512,39 @@ TEST(Immersed, shepardsWeightsWhereOthersAreLarge) {
     }
 }
 
+// The share of the plain mean changes gradually: a membrane that grows towards fluid around it, with none inside,
+// does not change its velocity by a jump.
+TEST(Immersed, velocitiesAreContinuousWherePlainMeanSetsIn) {
+    InFluid scene;
+    const particles::Box& box = scene.system->box();
+    const Vec3 middle = middleOf(scene.cells[0]);
+    for (std::size_t j = 0; j < scene.all.size(); ++j)
+        if (box.periodicity().shortest(scene.all[j].x - middle).norm() < radius + 0.3) scene.volumes[j] = 0;
+    const std::vector<Vec3> u = scene.random(scene.all.size(), 7);
+    const auto field = scene.field<double>([&](std::size_t id, const Vec3&) { return u[id]; });
+    constexpr int positions = 200;
+    const std::vector<Vec3> start = scene.cells[0].membrane.position;
+    std::vector<Vec3> before;
+    double largest = 0;
+    long fewest = std::numeric_limits<long>::max(), most = 0;
+    for (int k = 0; k < positions; ++k) {
+        for (std::size_t n = 0; n < start.size(); ++n)
+            scene.cells[0].membrane.position[n] = middle + (0.9 + 0.2 * k / positions) * (start[n] - middle);
+        scene.build();
+        fewest = std::min(fewest, scene.immersed.fallbacks()), most = std::max(most, scene.immersed.fallbacks());
+        const std::vector<Vec3> v = scene.immersed.interpolate(field.data());
+        for (std::size_t m = 0; m < before.size(); ++m) largest = std::max(largest, (v[m] - before[m]).norm());
+        before = v;
+    }
+    EXPECT_GT(most, fewest + 50) << "the membrane does not pass from one to the other";
+    EXPECT_LT(largest, 0.1);
+}
+
 // Weights that reproduce linear fields exactly pass a force to the fluid with its torque; the forces of a membrane have
 // no net torque.
 TEST(Immersed, spreadForcesKeepTheirTorque) {
     InFluid scene;
-    ASSERT_EQ(scene.immersed.fallbacks(), 0) << "Shepard's weights keep the force alone";
+    ASSERT_EQ(scene.immersed.fallbacks(), 0) << "the plain mean keeps the force alone";
     const std::vector<Vec3> forces = scene.immersed.force();
     std::size_t first = 0;
     for (const Cell& cell : scene.cells) {
