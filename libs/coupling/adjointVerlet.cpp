@@ -104,7 +104,7 @@ class Verlet final : public AdjointVerlet {
             immersed_->place(*scene_.system, operators_.volumes());
             noFlux_->find(*scene_.system, *immersed_, extrapolation);
         }
-        operators_.setInside(*scene_.system, insideShares(scene_, noFlux_.get()));
+        operators_.setInside(*scene_.system, insideShares(scene_, noFlux_.get(), immersed_.get()));
         findPressures(scene_, pressure_);
         field_.resize(width * n);
         for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));

@@ -133,7 +133,17 @@ class Immersed {
     // Own particles with weights for a node of one held cell.
     const std::vector<int>& touchedBy(std::size_t cell) const { return map_.touchedBy(cell); }
 
-    // Number of nodes with Shepard's weights, over all ranks, at the last `place`; and the largest of any `place`.
+    // f(node, particle, weight) for the nodes of one held cell, counted from its first, and the own particles within
+    // two spacings of them; the weights fall to 0 there.
+    template <class F>
+    void forNear(std::size_t cell, F&& f) const {
+        const std::size_t first = layout_.first(cell);
+        map_.forNear(first, layout_.last(cell),
+                     [&](std::size_t m, int particle, double weight) { f(m - first, particle, weight); });
+    }
+
+    // Number of nodes with a share of the plain mean (nodeFluidMap.hpp), over all ranks, at the last `place`; and the
+    // largest of any `place`.
     long fallbacks() const { return map_.fallbacks(); }
     long mostFallbacks() const { return map_.mostFallbacks(); }
 

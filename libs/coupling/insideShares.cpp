@@ -10,26 +10,35 @@ namespace corpuscle::coupling {
 
 namespace {
 
-// Curvature of a membrane, interpolated between its nodes [1/m].
+// The mean curvature of the membrane of one cell near each particle that is near a node of it [1/m].
 class Curvature {
   public:
-    explicit Curvature(const membrane::Membrane& m)
-        : triangles_(m.network().triangles()), atNodes_(membrane::curvatures(m.position, triangles_)) {}
-    double at(const geometry::SurfacePoint& point) const {
-        double sum = 0;
-        for (int k = 0; k < 3; ++k)
-            sum += point.weights[k] * atNodes_[static_cast<std::size_t>(triangles_[point.triangle][k])];
-        return sum;
+    Curvature(const Immersed& immersed, std::size_t cell, std::size_t particles) : sums_(particles) {
+        const membrane::Membrane& m = immersed.cells()[cell].membrane;
+        const auto& triangles = m.network().triangles();
+        const std::vector<Vec3> ofArea = membrane::areaGradient(m.position, triangles),
+                                ofVolume = membrane::volumeGradient(m.position, triangles);
+        immersed.forNear(cell, [&](std::size_t node, int particle, double weight) {
+            Sum& sum = sums_[static_cast<std::size_t>(particle)];
+            sum.curvature += weight * ofArea[node].dot(ofVolume[node].stableNormalized());
+            sum.area += weight * ofVolume[node].norm();
+        });
+    }
+    double at(int particle) const {
+        const Sum& sum = sums_[static_cast<std::size_t>(particle)];
+        return sum.area > 0 ? sum.curvature / sum.area : 0;
     }
 
   private:
-    const std::vector<Index3>& triangles_;
-    std::vector<double> atNodes_;
+    struct Sum {
+        double curvature = 0, area = 0;
+    };
+    std::vector<Sum> sums_;
 };
 
 }  // namespace
 
-std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux) {
+std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux, const Immersed* immersed) {
     const particles::ParticleStore& s = scene.store();
     if (!s.optional().viscosity) return std::vector<sph::Inside>(s.size());
     const double mu = scene.model().viscosity, dx = scene.spacing;
@@ -37,14 +46,15 @@ std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux) 
     if (!noFlux) return inside;
     std::vector<char> isNear(s.size(), 0);
     std::optional<Curvature> curvature;
-    const Cell* of = nullptr;
-    noFlux->forNearest([&](int particle, const Cell& cell, const geometry::SurfacePoint& at) {
+    std::size_t of = scene.cells.heldCount();
+    noFlux->forNearest([&](int particle, std::size_t number, const geometry::SurfacePoint& at) {
+        const Cell& cell = scene.cells[number];
         if (cell.membrane.network().isOpen()) return;
         const auto i = static_cast<std::size_t>(particle);
         sph::Inside found;
         if (const double ratio = scene.cells.types()[cell.type].viscosityRatio; ratio != 1) {
-            if (std::exchange(of, &cell) != &cell) curvature.emplace(cell.membrane);
-            found = {std::clamp(0.5 - at.distance / dx - curvature->at(at) * dx / 24, 0.0, 1.0), mu * ratio};
+            if (std::exchange(of, number) != number) curvature.emplace(*immersed, number, s.size());
+            found = {std::clamp(0.5 - at.distance / dx - curvature->at(particle) * dx / 24, 0.0, 1.0), mu * ratio};
         }
         // A particle near two membranes belongs to that for which its share is larger.
         if (!std::exchange(isNear[i], 1) || found.share > inside[i].share) inside[i] = found;

@@ -69,6 +69,17 @@ void NoFlux::find(const ParticleSystem& system, std::size_t c, double moved, con
     }
 }
 
+// The distance from the membrane, positive on the own side, grows by `step` unless another part of the membrane comes
+// nearer; from there it falls again at the same rate.
+Vec3 NoFlux::toOwnSide(const geometry::TriangleTree& tree, const geometry::NearestImages& images, const Cell& cell,
+                       const geometry::SurfacePoint& at, const Vec3& x, double own) const {
+    const Vec3 away = own * normal(cell, at, x);
+    const double before = own * at.distance, step = leastDistanceInSpacings * spacing_ - before;
+    const auto [then, image] = beside(tree, images, cell, x + step * away);
+    const double after = then ? own * then.distance : before + step;
+    return std::clamp(0.5 * (after - before + step), 0.0, step) * away;
+}
+
 void NoFlux::keepSides(ParticleSystem& system) {
     particles::ParticleStore& s = system.store();
     const Periodicity& period = system.periodicity();
@@ -84,7 +95,7 @@ void NoFlux::keepSides(ParticleSystem& system) {
             const auto [at, x] = beside(tree, images, cell, s.position(i));
             if (!at || own * at.distance >= least) continue;
             if (own * at.distance < 0) ++crossings_, deepest_ = std::max(deepest_, std::abs(at.distance));
-            s.setPosition(i, s.position(i) + (at.point + own * least * normal(cell, at, x) - x));
+            s.setPosition(i, s.position(i) + toOwnSide(tree, images, cell, at, x, own));
         }
     }
 }

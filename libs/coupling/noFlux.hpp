@@ -4,8 +4,10 @@
 //     x_i += dt [u_i - chi ((u_i - u_m).n) n],    chi = (1 - (phi/dx)^2)^2  for |phi| < dx
 // phi: signed distance from the membrane; n, u_m: normal and velocity of the membrane at the nearest point
 // (transport.hpp has the equation with shifting). After the move, a particle that is beyond the membrane, or on its own
-// side but nearer than 0.05 dx, is placed at that distance on its own side; those that were beyond it are counted.
-// Particles further than dx from a membrane are left alone.
+// side but nearer than 0.05 dx, is placed at that distance on its own side; those that were beyond it are counted. In a
+// gap between two parts of the membrane that is narrower than 0.1 dx, it is placed in the middle. (If the other part were
+// ignored, the particle would be thrown from one part to the other in each step, by lengths that do not decrease with
+// the step.) Particles further than dx from a membrane are left alone.
 //
 // Of a torn cell (membrane::Network::isTorn), only whole triangles act. A particle whose nearest point of these lies on
 // their border is within a hole, and left alone. Through holes, particles change sides: their own side is not that
@@ -48,10 +50,10 @@ class NoFlux {
     void forNear(F&& f) const {
         for (const Near& near : near_) f(near.particle, near.side, near.chi, near.normal, velocity(near));
     }
-    // f(particle, cell, nearest point of the membrane) for the particles found, ordered by cells.
+    // f(particle, index of the cell, nearest point of its membrane) for the particles found, ordered by cells.
     template <class F>
     void forNearest(F&& f) const {
-        for (const Near& near : near_) f(near.particle, std::as_const(cells_)[near.cell], near.at);
+        for (const Near& near : near_) f(near.particle, near.cell, near.at);
     }
     // Places particles on their own side, after particles and nodes have moved.
     void keepSides(particles::ParticleSystem& system);
@@ -79,6 +81,9 @@ class NoFlux {
     // The nearest point of the whole triangles beside a particle, and the particle's image there.
     geometry::NearestImages::Found beside(const geometry::TriangleTree& tree, const geometry::NearestImages& images,
                                           const Cell& cell, const Vec3& x) const;
+    // Displacement that brings a particle at x, with this nearest point, to its place on its own side.
+    Vec3 toOwnSide(const geometry::TriangleTree& tree, const geometry::NearestImages& images, const Cell& cell,
+                   const geometry::SurfacePoint& at, const Vec3& x, double own) const;
     Vec3 velocity(const Near& near) const;
     Vec3 normal(const Cell& cell, const geometry::SurfacePoint& at, const Vec3& x) const;
 

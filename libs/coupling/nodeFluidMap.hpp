@@ -81,6 +81,13 @@ class NodeFluidMap {
     const std::vector<int>& touchedBy(std::size_t cell) const { return own_.touchedBy[cell]; }
     const std::vector<int>& touchedOthers() const { return others_.touched; }  // entries of ghosts
 
+    // f(node, particle, V W) for the own particles within R of the nodes from `first` up to, but not including, `last`.
+    template <class F>
+    void forNear(std::size_t first, std::size_t last, F&& f) const {
+        for (std::size_t m = first; m < last; ++m)
+            for (std::size_t k = firstNear_[m]; k < firstNear_[m + 1]; ++k) f(m, near_[k].particle, near_[k].weight);
+    }
+
     // Number of nodes with a share of the plain mean at the last `place`, over all ranks; and the largest of any
     // `place`.
     long fallbacks() const { return fallbacks_; }

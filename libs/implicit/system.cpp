@@ -34,7 +34,7 @@ void System<Real>::prepare(const TimeDifference& time) {
     for (auto term = terms_.rbegin(); term != terms_.rend(); ++term)
         if (*term != bodies) (*term)->prepare(time.reach);
     if (noFlux_) noFlux_->find(*scene_.system, *immersed_, time.begin());
-    operators().setInside(*scene_.system, coupling::insideShares(scene_, noFlux_));
+    operators().setInside(*scene_.system, coupling::insideShares(scene_, noFlux_, immersed_));
     if (rigid_) rigid_->prepare(time.reach);
     findDiagonal();
 }

@@ -57,7 +57,9 @@ struct Inclusion : FluidScene {
         std::vector<int> every(scene.store().size());
         for (std::size_t i = 0; i < every.size(); ++i) every[i] = static_cast<int>(i);
         noFlux.findAmong(*scene.system, 0, [&](std::size_t) { return every; });
-        const std::vector<sph::Inside> inside = insideShares(scene, &noFlux);
+        Immersed immersed(scene.cells, scene.model(), *scene.system);
+        immersed.place(*scene.system, std::vector<double>(every.size(), 1.0));
+        const std::vector<sph::Inside> inside = insideShares(scene, &noFlux, &immersed);
         return sum([&](std::size_t i) { return inside[i].share; });
     }
 };

@@ -150,6 +150,27 @@ TEST_P(Sides, aParticleTooCloseOnItsOwnSideIsMovedNotCounted) {
     }
 }
 
+// In a gap that is too narrow for the distance from both sheets, a particle goes to the middle and stays there; without
+// regard to the other sheet it would be moved to and fro.
+TEST(NoFlux, aParticleBetweenTwoSheetsGoesToTheMiddle) {
+    Watched scene;
+    constexpr double gap = 0.06;
+    for (Vec3& x : scene.cells[0].membrane.position) x[2] = centre[2] + gap / (2 * radius) * (x[2] - centre[2]);
+    const int particle = scene.nearestOf(1);
+    const auto i = static_cast<std::size_t>(std::max(particle, 0));
+    const auto height = [&] { return scene.fromCentre(i)[2]; };
+    for (const double above : {-0.01, 0.02, 0.05}) {  // the last is beyond the upper sheet
+        if (particle >= 0) scene.system->store().setPosition(i, centre + Vec3(0.1, 0.05, above));
+        scene.find();
+        for (int step = 0; step < 2; ++step) {
+            scene.noFlux.keepSides(*scene.system);
+            if (particle >= 0) {
+                EXPECT_NEAR(height(), 0, 0.02 * gap) << above << ", step " << step;
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(InAndOut, Sides, ::testing::Values(0, 1));
 
 // Particles beside whole triangles of a torn cell keep the side on which they are, not that where they started;
