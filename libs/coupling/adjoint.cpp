@@ -6,13 +6,13 @@
 
 namespace corpuscle::coupling {
 
-void findPressures(const Scene& scene, particles::RealArray& pressure) {
+void findPressures(const Scene& scene, double background, particles::RealArray& pressure) {
     const particles::ParticleStore& s = scene.store();
     const sph::FluidModel& model = scene.model();
     pressure.resize(s.size());
     model.equationOfState->specificPressure(s.density.data(), pressure.data(), static_cast<int>(s.size()),
                                             model.density, model.soundSpeed);
-    for (std::size_t i = 0; i < s.size(); ++i) pressure[i] *= s.density[i] * s.density[i];
+    for (std::size_t i = 0; i < s.size(); ++i) pressure[i] = background + pressure[i] * s.density[i] * s.density[i];
 }
 
 std::vector<RuptureEvent> endStep(Scene& scene, AdjointOptions& options, long number, double dt) {

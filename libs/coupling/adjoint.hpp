@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/noFlux.hpp"
 #include "coupling/scene.hpp"
 #include "sph/operators.hpp"
 
@@ -14,13 +15,16 @@ struct AdjointOptions {
     sph::OperatorForm form = sph::OperatorForm::corrected;
     std::optional<double> shifting{};  // C of transport.hpp: strength per unit of strain; empty: no shifting
     double densityRate = 0;            // C_rho of relaxDensities
+    double backgroundPressure = 0;     // [Pa], of findPressures
     std::optional<DensityBalance> densityBalance{};
     long balanceInterval = 0;  // steps between two balances
     double largestBalance() const { return densityBalance ? densityBalance->largest() : 0; }
 };
 
-// Pressures of all owned particles from their densities [Pa].
-void findPressures(const Scene& scene, particles::RealArray& pressure);
+// Pressures of all owned particles from their densities, and the background pressure [Pa]. A constant pressure has no
+// effect on an incompressible fluid. Particles, however, part where they are under tension, since the surface of a void
+// between them bears none, and are pressed into voids where they are under pressure.
+void findPressures(const Scene& scene, double background, particles::RealArray& pressure);
 
 // Lets densities follow the number of particles, in a step of dt:
 //     rho_i <- rho_i [1 + min(C_rho gammadot dt, 1/2) (sigma_i - 1)],   sigma_i = sum_j V_j W (sph/momentPair.hpp)
@@ -37,6 +41,22 @@ void relaxDensities(Scene& scene, const sph::Operators<Real>& operators, double 
     const double share = std::min(rate * scene.flow.rate * dt, 0.5);
     for (std::size_t i = 0; i < s.size(); ++i)
         if (s.kindOf(i) == particles::Kind::fluid) s.density[i] *= 1 + share * (operators.evenness(i) - 1);
+}
+
+// Places fluid particles that are behind a wall, or nearer to it than 0.05 dx, at that distance from it. gap(i): the
+// distance of particle i from the nearest wall a step ago [m]; only particles within a spacing are looked at.
+template <class Gap>
+void keepWithinWalls(Scene& scene, Gap&& gap) {
+    const boundary::Walls& walls = scene.model().walls;
+    if (!walls.exist()) return;
+    particles::ParticleStore& s = scene.store();
+    const double least = NoFlux::leastDistanceInSpacings * scene.spacing;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        if (s.kindOf(i) != particles::Kind::fluid || gap(i) > scene.spacing) continue;
+        const boundary::Wall& wall = walls.nearest(s.position(i));
+        if (const double lack = least - wall.distance(s.position(i)); lack > 0)
+            s.setPosition(i, s.position(i) + lack * wall.normal(s.position(i)));
+    }
 }
 
 // Ends step `number`, of length dt [s]: applies the density balance if it is due, then breaks bonds. Returns the bonds

@@ -105,7 +105,7 @@ class Verlet final : public AdjointVerlet {
             noFlux_->find(*scene_.system, *immersed_, extrapolation);
         }
         operators_.setInside(*scene_.system, insideShares(scene_, noFlux_.get(), immersed_.get()));
-        findPressures(scene_, pressure_);
+        findPressures(scene_, options_.backgroundPressure, pressure_);
         field_.resize(width * n);
         for (std::size_t i = 0; i < n; ++i) put(i, s.velocity(i) + extrapolation * Vec3(s.fx[i], s.fy[i], s.fz[i]));
         operators_.apply(*scene_.system, field_, [&](std::size_t i, double) { return pressure_[i]; });
@@ -207,9 +207,11 @@ class Verlet final : public AdjointVerlet {
     void move() {
         ParticleStore& s = scene_.store();
         for (std::size_t i = 0; i < s.size(); ++i) s.setPosition(i, s.position(i) + transport_[i]);
-        if (!immersed_) return;
-        immersed_->restoreVolume();
-        noFlux_->keepSides(*scene_.system);
+        if (immersed_) {
+            immersed_->restoreVolume();
+            noFlux_->keepSides(*scene_.system);
+        }
+        keepWithinWalls(scene_, [&](std::size_t i) { return operators_.wallGap(i); });
     }
 
     // Replaces the forces on the particles by those of the nodes alone.

@@ -8,8 +8,8 @@
 // V_j, W   | volumes of the particles; Wendland's C2 function (nodeBasis.hpp)                           | m^3
 // R        | 2 dx, as for nodes                                                                         | m
 // The flux of a linear velocity field is exact. Moving least squares of first order: Lancaster and Salkauskas, Math.
-// Comp. 37 (1981) 141. Where particles are on one side of a point only, so that sum_j |w_pj| might exceed 4, the weights
-// are mixed with those of the plain mean (shareOfMean in nodeBasis.hpp); points without particles add nothing.
+// Comp. 37 (1981) 141. Where particles are on one side of a point only, so that sum_j |w_pj| might exceed 4, the
+// weights are mixed with those of the plain mean (shareOfMean in nodeBasis.hpp); points without particles add nothing.
 //
 // A rank has the weights of its own particles, and of ghosts after `placeOthers`; sums are completed among the holders
 // of the cell (holderSums.hpp). A rank that holds no torn cell sends and computes nothing.

@@ -5,9 +5,9 @@
 // phi: signed distance from the membrane; n, u_m: normal and velocity of the membrane at the nearest point
 // (transport.hpp has the equation with shifting). After the move, a particle that is beyond the membrane, or on its own
 // side but nearer than 0.05 dx, is placed at that distance on its own side; those that were beyond it are counted. In a
-// gap between two parts of the membrane that is narrower than 0.1 dx, it is placed in the middle. (If the other part were
-// ignored, the particle would be thrown from one part to the other in each step, by lengths that do not decrease with
-// the step.) Particles further than dx from a membrane are left alone.
+// gap between two parts of the membrane that is narrower than 0.1 dx, it is placed in the middle. (If the other part
+// were ignored, the particle would be thrown from one part to the other in each step, by lengths that do not decrease
+// with the step.) Particles further than dx from a membrane are left alone.
 //
 // Of a torn cell (membrane::Network::isTorn), only whole triangles act. A particle whose nearest point of these lies on
 // their border is within a hole, and left alone. Through holes, particles change sides: their own side is not that

@@ -18,14 +18,15 @@ class FluidTerm final : public Term<Real> {
     using typename Term<Real>::Field;
     using typename Term<Real>::Forces;
 
-    FluidTerm(const coupling::Scene& scene, sph::OperatorForm form)
+    FluidTerm(const coupling::Scene& scene, const coupling::AdjointOptions& options)
         : scene_(scene),
-          operators_(scene.model(), *scene.system, form,
+          backgroundPressure_(options.backgroundPressure),
+          operators_(scene.model(), *scene.system, options.form,
                      sph::NoSlip::ofImplicit(scene.system->spacing(), scene.system->support())) {}
 
     void prepare(const Reach& reach) override {
         operators_.build(*scene_.system);
-        coupling::findPressures(scene_, pressure_);
+        coupling::findPressures(scene_, backgroundPressure_, pressure_);
         const sph::FluidModel& model = scene_.model();
         stiffness_.resize(pressure_.size());
         for (std::size_t i = 0; i < stiffness_.size(); ++i)
@@ -73,6 +74,7 @@ class FluidTerm final : public Term<Real> {
 
   private:
     const coupling::Scene& scene_;
+    double backgroundPressure_;  // [Pa]
     sph::Operators<Real> operators_;
     particles::RealArray pressure_;
     std::vector<double> stiffness_;  // (middle + lead) K [Pa s]

@@ -38,7 +38,7 @@ class Step final : public ImplicitStep {
         : ImplicitStep(immersedIn(scene), noFluxIn(scene)),
           scene_(scene),
           options_(options),
-          system_(scene, options.form, options_.settings, immersed_.get(), noFlux_.get(),
+          system_(scene, options, options_.settings, immersed_.get(), noFlux_.get(),
                   isOnGrid(options.settings.preconditioner)),
           preconditioner_(makePreconditioner(options.settings.preconditioner, system_)),
           movement_(system_, options.shifting, noFlux_.get()),

@@ -92,6 +92,7 @@ void Movement<Real>::arrive(const Field& velocity) {
     system.moveImages(dt - time.begin());
     if (system_.rigid()) system_.rigid()->arrive(dt, time.h, velocity);
     if (noFlux_) noFlux_->keepSides(system);
+    coupling::keepWithinWalls(system_.scene(), [&](std::size_t i) { return system_.operators().wallGap(i); });
     if (!system.periodicity().slides()) return;
     // So that code that reads velocities before the next step need not ask to which image they belong.
     countCrossings([&] { system.wrapAll(); });

@@ -9,6 +9,7 @@
 #pragma once
 #include <optional>
 
+#include "coupling/adjoint.hpp"
 #include "coupling/noFlux.hpp"
 #include "coupling/transport.hpp"
 #include "implicit/system.hpp"

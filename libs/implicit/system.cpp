@@ -11,9 +11,9 @@ using particles::setVector;
 using particles::vectorAt;
 
 template <class Real>
-System<Real>::System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
+System<Real>::System(coupling::Scene& scene, const coupling::AdjointOptions& options, const ImplicitSettings& settings,
                      coupling::Immersed* immersed, coupling::NoFlux* noFlux, bool onGrid)
-    : scene_(scene), immersed_(immersed), noFlux_(noFlux), fluid_(scene, form) {
+    : scene_(scene), immersed_(immersed), noFlux_(noFlux), fluid_(scene, options) {
     if (immersed_) {
         membranes_ = std::make_unique<MembraneTerm<Real>>(*immersed_, *scene.system, operators().volumes(), settings);
         terms_.push_back(membranes_.get());

@@ -34,7 +34,7 @@ class System {
 
     // immersed, noFlux: null without cells. onGrid: the preconditioner has a part on the background grid. All but
     // onGrid are kept by reference.
-    System(coupling::Scene& scene, sph::OperatorForm form, const ImplicitSettings& settings,
+    System(coupling::Scene& scene, const coupling::AdjointOptions& options, const ImplicitSettings& settings,
            coupling::Immersed* immersed, coupling::NoFlux* noFlux, bool onGrid);
 
     // Prepares, at x* with up-to-date lists, the terms, the particles near membranes, and the diagonal. Collective.

@@ -84,7 +84,7 @@ struct Rkl2 final : Scheme, sph::Rkl2Settings {
     }
 
     std::vector<UnusedKey> unused(const NumericsSettings& numerics) const override {
-        std::vector<UnusedKey> keys{unusedDensityRate()};
+        std::vector<UnusedKey> keys = unusedShifting();
         if (numerics.isImmersed()) keys.push_back(unusedGuard());
         return keys;
     }

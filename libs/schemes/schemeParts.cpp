@@ -10,15 +10,26 @@ namespace {
 constexpr double wallRate = 1.3;            // largest viscous rate beside walls over that of a lattice
 constexpr double furthestViscosities = 20;  // largest ratio of viscosities (sph/operators.hpp)
 
+// Over the box, by the largest force that drives the flow [Pa].
+double pressureDrop(const coupling::Scene& scene) {
+    return scene.model().density * scene.flow.largestForce() * scene.fluidBox.size()[0];
+}
+
 // The lower the pressure behind a throat, the faster densities have to follow the number of particles: in a sinusoidal
-// tube where drop/(mu gammadot) is 22, with 10 all sigma stay above 0.97, and 1 and 2.2 leave a void. Beside cells the
-// noise makes flow rates on different numbers of ranks differ by up to 0.8 %: there, the case has to ask for it.
+// tube where drop/(mu gammadot) is 22, with 10 all sigma stay above 0.97, and 1 and 2.2 leave a void. Beside cells this
+// adds noise, and in folds and films, where sigma stays away from 1, densities grow until the run ends.
 double automaticDensityRate(const coupling::Scene& scene) {
     constexpr double share = 0.5, least = 1, most = 10;
     const sph::FlowState& flow = scene.flow;
     if (!flow.varies || flow.rate == 0 || scene.cells.exist()) return 0;
-    const double drop = scene.model().density * flow.largestForce() * scene.fluidBox.size()[0];
-    return std::clamp(share * drop / (scene.model().viscosity * flow.rate), least, most);
+    return std::clamp(share * pressureDrop(scene) / (scene.model().viscosity * flow.rate), least, most);
+}
+
+// A cell that fills a throat takes up nearly all of the pressure drop: the pressure is lower by half of the drop than
+// on average behind it, and higher by the same before it.
+double automaticBackgroundPressure(const coupling::Scene& scene) {
+    constexpr double share = 2.0 / 3;
+    return scene.flow.varies && scene.cells.exist() ? share * pressureDrop(scene) : 0;
 }
 }  // namespace
 
@@ -56,6 +67,7 @@ coupling::AdjointOptions adjointOptions(const NumericsSettings& numerics, const 
     if (numerics.shifting) {
         options.shifting = numerics.shifting->coefficient;
         options.densityRate = numerics.shifting->densityRate.value_or(automaticDensityRate(scene));
+        options.backgroundPressure = numerics.shifting->backgroundPressure.value_or(automaticBackgroundPressure(scene));
     }
     options.balanceInterval = numerics.balanceInterval();
     if (options.balanceInterval > 0) options.densityBalance = densityBalance(scene);
@@ -80,8 +92,9 @@ void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Proble
                              numerics.integrator, numerics.operators, furthestViscosities));
 }
 
-Scheme::UnusedKey unusedDensityRate() {
-    return {"shifting.densityRate", "with plain operators, where densities follow the continuity equation alone"};
+std::vector<Scheme::UnusedKey> unusedShifting() {
+    const char* const why = "with plain operators, where densities follow the continuity equation alone";
+    return {{"shifting.densityRate", why}, {"shifting.backgroundPressure", why}};
 }
 
 Scheme::UnusedKey unusedGuard() {

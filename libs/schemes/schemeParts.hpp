@@ -27,6 +27,6 @@ void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Proble
 // The leakage guard has nothing to do where membrane nodes are not particles.
 Scheme::UnusedKey unusedGuard();
 // Plain operators leave densities to the continuity equation.
-Scheme::UnusedKey unusedDensityRate();
+std::vector<Scheme::UnusedKey> unusedShifting();
 
 }  // namespace corpuscle::schemes

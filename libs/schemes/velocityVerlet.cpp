@@ -82,7 +82,7 @@ struct VelocityVerlet final : Scheme {
     void check(const CaseFacts&, const NumericsSettings&, Problems&) const override {}
 
     std::vector<UnusedKey> unused(const NumericsSettings& numerics) const override {
-        std::vector<UnusedKey> keys{unusedDensityRate()};
+        std::vector<UnusedKey> keys = unusedShifting();
         if (numerics.isImmersed()) keys.push_back(unusedGuard());
         return keys;
     }

@@ -21,7 +21,11 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
                         "rate at which densities follow the number of particles, over that of the flow; auto: 1 to 10, "
                         "by the pressure drop, in vessels without cells whose cross-section varies, else 0",
                         {.fallback = "auto", .range = between(0, 100)})
-            .atRestart(AtRestart::noted, {"coefficient", "steps", "densityRate"});
+            .quantityOr("auto", "backgroundPressure", &ShiftingSettings::backgroundPressure, unit::pascal,
+                        "pressure added everywhere, so that the fluid is not under tension and does not part; auto: "
+                        "two thirds of the pressure drop in vessels with cells whose cross-section varies, else 0",
+                        {.fallback = "auto", .range = atLeast(0)})
+            .atRestart(AtRestart::noted, {"coefficient", "steps", "densityRate", "backgroundPressure"});
     return s;
 }
 

@@ -16,7 +16,8 @@ namespace corpuscle::sph {
 struct ShiftingSettings {
     double coefficient = 1;
     long steps = 10;
-    std::optional<double> densityRate;  // of coupling/adjoint.hpp; empty: automatic
+    std::optional<double> densityRate;         // of coupling/adjoint.hpp; empty: automatic
+    std::optional<double> backgroundPressure;  // likewise [Pa]
     static const Schema<ShiftingSettings>& schema();
 };
 

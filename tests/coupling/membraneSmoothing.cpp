@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/sphereScene.hpp"
@@ -39,8 +40,8 @@ TEST(MembraneSmoothing, isContinuousInFoldedMembranes) {
     SphereScene scene({14, 12, 12}, {Vec3(7, 6, 6)}, false);
     const std::vector<Vec3> round = scene.cells[0].membrane.position;
     const Vec3 middle(7, 6, 6);
-    NodeVectors u(round.size());
-    for (std::size_t m = 0; m < u.size(); ++m) u[m] = Vec3(std::sin(7.0 * double(m)), std::sin(11.0 * double(m)), std::sin(13.0 * double(m)));
+    NodeVectors u(round.size(), Vec3::Zero());
+    membrane::testing::jitter(u, 1, 7);
     constexpr int positions = 500;
     Found before;
     double ofMean = 0, ofSquare = 0, whole = 0;

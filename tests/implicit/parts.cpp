@@ -23,7 +23,7 @@ double velocityAt(double t) { return 2 + 3 * t - 0.7 * t * t; }
 
 struct Fluid : coupling::testing::FluidScene {
     ImplicitSettings settings;
-    System<double> system{scene, sph::OperatorForm::corrected, settings, nullptr, nullptr, true};
+    System<double> system{scene, {}, settings, nullptr, nullptr, true};
     static constexpr double dt = 0.4;
 
     explicit Fluid(double viscosity = 1)

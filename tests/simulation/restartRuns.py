@@ -71,7 +71,7 @@ def test_fixed(folder):
     for change, key, now, before in (
             ("system/numerics.yaml:/kernel={type: lucy, support: 2.4 dx}", "kernel", "{type: lucy, support: 2.4 dx}", "{type: wendlandC2, support: 2.4 dx}"),
             ("system/numerics.yaml:/kernel/support=2.5 dx", "kernel.support", "2.5 dx", "2.4 dx"),
-            ("system/numerics.yaml:/shifting=none", "shifting", "none", "{coefficient: 0.5, steps: 7, densityRate: auto}"),
+            ("system/numerics.yaml:/shifting=none", "shifting", "none", "{coefficient: 0.5, steps: 7, densityRate: auto, backgroundPressure: auto}"),
             ("system/numerics.yaml:/skin=0.4 dx", "skin", "0.4 dx", "0.3 dx"),
             ("system/mesh.yaml:/cells/0/centre=[4 um, 0 um, 0 um]", "cells[0].centre", "[4 um, 0 m, 0 m]", "[5 um, 0 m, 0 m]"),
             ("system/mesh.yaml:/cells/0/shape/d=7.9 um", "cells[0].shape.d", "7.9 um", "8 um"),
