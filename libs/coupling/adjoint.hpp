@@ -22,8 +22,8 @@ struct AdjointOptions {
 };
 
 // Pressures of all owned particles from their densities, and the background pressure [Pa]. A constant pressure has no
-// effect on an incompressible fluid. Particles, however, part where they are under tension, since the surface of a void
-// between them bears none, and are pressed into voids where they are under pressure.
+// effect on an incompressible continuum. Particles, however, part where they are under tension, since the surface of a
+// void between them bears none, and are pressed into voids where they are under pressure.
 void findPressures(const Scene& scene, double background, particles::RealArray& pressure);
 
 // Lets densities follow the number of particles, in a step of dt:
@@ -44,7 +44,7 @@ void relaxDensities(Scene& scene, const sph::Operators<Real>& operators, double 
 }
 
 // Places fluid particles that are behind a wall, or nearer to it than 0.05 dx, at that distance from it. gap(i): the
-// distance of particle i from the nearest wall a step ago [m]; only particles within a spacing are looked at.
+// distance of particle i from the nearest wall where forces were evaluated [m]; those beyond a spacing are left alone.
 template <class Gap>
 void keepWithinWalls(Scene& scene, Gap&& gap) {
     const boundary::Walls& walls = scene.model().walls;

@@ -10,15 +10,22 @@ namespace corpuscle::coupling {
 
 namespace {
 
-// The mean curvature of the membrane of one cell near each particle that is near a node of it [1/m].
+// The mean curvature of the membrane of one cell at a time near each particle that is near a node of it [1/m].
 class Curvature {
   public:
-    Curvature(const Immersed& immersed, std::size_t cell, std::size_t particles) : sums_(particles) {
-        const membrane::Membrane& m = immersed.cells()[cell].membrane;
+    Curvature(const Immersed& immersed, std::size_t particles) : immersed_(immersed), sums_(particles) {}
+
+    std::size_t cell() const { return cell_; }
+    void find(std::size_t cell) {
+        if (cell_ != none)
+            immersed_.forNear(
+                cell_, [&](std::size_t, int particle, double) { sums_[static_cast<std::size_t>(particle)] = {}; });
+        cell_ = cell;
+        const membrane::Membrane& m = immersed_.cells()[cell].membrane;
         const auto& triangles = m.network().triangles();
         const std::vector<Vec3> ofArea = membrane::areaGradient(m.position, triangles),
                                 ofVolume = membrane::volumeGradient(m.position, triangles);
-        immersed.forNear(cell, [&](std::size_t node, int particle, double weight) {
+        immersed_.forNear(cell, [&](std::size_t node, int particle, double weight) {
             Sum& sum = sums_[static_cast<std::size_t>(particle)];
             sum.curvature += weight * ofArea[node].dot(ofVolume[node].stableNormalized());
             sum.area += weight * ofVolume[node].norm();
@@ -33,7 +40,10 @@ class Curvature {
     struct Sum {
         double curvature = 0, area = 0;
     };
-    std::vector<Sum> sums_;
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    const Immersed& immersed_;
+    std::size_t cell_ = none;
+    std::vector<Sum> sums_;  // of each particle
 };
 
 }  // namespace
@@ -46,14 +56,14 @@ std::vector<sph::Inside> insideShares(const Scene& scene, const NoFlux* noFlux, 
     if (!noFlux) return inside;
     std::vector<char> isNear(s.size(), 0);
     std::optional<Curvature> curvature;
-    std::size_t of = scene.cells.heldCount();
     noFlux->forNearest([&](int particle, std::size_t number, const geometry::SurfacePoint& at) {
         const Cell& cell = scene.cells[number];
         if (cell.membrane.network().isOpen()) return;
         const auto i = static_cast<std::size_t>(particle);
         sph::Inside found;
         if (const double ratio = scene.cells.types()[cell.type].viscosityRatio; ratio != 1) {
-            if (std::exchange(of, number) != number) curvature.emplace(*immersed, number, s.size());
+            if (!curvature) curvature.emplace(*immersed, s.size());
+            if (curvature->cell() != number) curvature->find(number);
             found = {std::clamp(0.5 - at.distance / dx - curvature->at(particle) * dx / 24, 0.0, 1.0), mu * ratio};
         }
         // A particle near two membranes belongs to that for which its share is larger.

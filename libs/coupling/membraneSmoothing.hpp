@@ -4,8 +4,8 @@
 //
 //     (M u)_m = sum_n M_mn u_n,   M_mn = A_n (1 - r)^2 (1 + 2 r) / sum of these,   r = d_mn/s < 1,  s = 1.2 dx
 // over the nodes n that are connected to m by edges through nodes within s; A_n: area of the node; d_mn: the largest
-// distance from m of a node on the path from m to n on which this is least, which is |x_n - x_m| but for folded
-// membranes. There, a node on the other side of the fold thus joins the mean gradually as the path to it comes within
+// distance from m of a node on the path from m to n on which this is least: |x_n - x_m| unless the membrane is
+// folded. There, a node on the other side of the fold thus joins the mean gradually as the path to it comes within
 // reach: M is a continuous function of the positions. With all edges of length s or more, M is the identity. Two
 // effects of the mean are compensated in nodeFluidMap.hpp: the mean position of the nodes is not that of m (`shift`),
 // and the mean square of their distances (`square`) adds to that of the weights.

@@ -70,7 +70,7 @@ void NoFlux::find(const ParticleSystem& system, std::size_t c, double moved, con
 }
 
 // The distance from the membrane, positive on the own side, grows by `step` unless another part of the membrane comes
-// nearer; from there it falls again at the same rate.
+// nearer; from there it falls again, at the same rate if the two parts are parallel.
 Vec3 NoFlux::toOwnSide(const geometry::TriangleTree& tree, const geometry::NearestImages& images, const Cell& cell,
                        const geometry::SurfacePoint& at, const Vec3& x, double own) const {
     const Vec3 away = own * normal(cell, at, x);

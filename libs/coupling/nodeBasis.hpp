@@ -44,7 +44,7 @@ struct NodeBasis {
         const double t = std::max(0.0, (sumOfMagnitudes - largestExact) / (largestUsed - largestExact));
         return t * t * (3 - 2 * t);
     }
-    static Vector derivative(int axis) { return Vector::Unit(1 + axis); }  // the same for weights of R d/dx
+    static Vector derivative(int axis) { return Vector::Unit(1 + axis); }  // conditions on weights of R d/dx
 };
 
 }  // namespace corpuscle::coupling

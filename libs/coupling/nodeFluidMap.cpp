@@ -112,11 +112,14 @@ NodeFluidMap::Coefficients NodeFluidMap::solve(const Cell& cell, std::size_t m, 
     const auto factors = A.ldlt();
     const NodeConditions& conditions = conditions_[cell.type];
     const double square = smoothing_.square(m) / (radius_ * radius_);
-    Coefficients c{factors.solve(NodeBasis::conditions(conditions.kink, squareAlong - square)),
+    const NodeBasis::Vector ofAlong = NodeBasis::conditions(conditions.kink, squareAlong - square);
+    Coefficients c{factors.solve(ofAlong),
                    factors.solve(NodeBasis::conditions(kinkAcross, squareAcross - square)),
                    NodeBasis::Vector::Zero(),
                    {}};
     for (int k = 0; k < 3; ++k) c.slope.col(k) = factors.solve(NodeBasis::derivative(k)) / radius_;
+    // Of a singular matrix, as of few particles in a symmetric arrangement, the factors may give finite numbers.
+    if (!((A * c.along - ofAlong).norm() < 1e-6)) c.along.setConstant(std::numeric_limits<double>::quiet_NaN());
     c.shift = c.slope * smoothing_.shift(m);
     c.slope *= conditions.slope * support_;
     return c;

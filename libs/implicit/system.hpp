@@ -32,8 +32,8 @@ class System {
     using Field = particles::AlignedVector<Real>;
     using RealArray = particles::RealArray;
 
-    // immersed, noFlux: null without cells. onGrid: the preconditioner has a part on the background grid. All but
-    // onGrid are kept by reference.
+    // immersed, noFlux: null without cells. onGrid: the preconditioner has a part on the background grid.
+    // scene, settings, immersed and noFlux are kept by reference.
     System(coupling::Scene& scene, const coupling::AdjointOptions& options, const ImplicitSettings& settings,
            coupling::Immersed* immersed, coupling::NoFlux* noFlux, bool onGrid);
 

@@ -93,8 +93,8 @@ void checkJumps(const CaseFacts& facts, const NumericsSettings& numerics, Proble
 }
 
 std::vector<Scheme::UnusedKey> unusedShifting() {
-    const char* const why = "with plain operators, where densities follow the continuity equation alone";
-    return {{"shifting.densityRate", why}, {"shifting.backgroundPressure", why}};
+    return {{"shifting.densityRate", "with plain operators, where densities follow the continuity equation alone"},
+            {"shifting.backgroundPressure", "with this integrator"}};
 }
 
 Scheme::UnusedKey unusedGuard() {

@@ -39,7 +39,7 @@ class Stepper {
     }  // evaluations of viscosity in a step of dt; 0: it has no stages
 
     virtual double largestDensityBalance() const { return 0; }
-    // Largest number at one time of nodes of immersed membranes with Shepard's weights.
+    // Largest number at one time of nodes of immersed membranes with a share of the plain mean (nodeFluidMap.hpp).
     virtual long mostFallbacks() const { return 0; }
     // Takes over the counts of `before`, a stepper of the same scheme that this one replaces.
     virtual void takeOver(const Stepper& /*before*/) {}

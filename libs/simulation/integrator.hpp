@@ -41,7 +41,7 @@ class Integrator {
 
     const sph::StepLimits& limits() const { return limits_; }
     double largestDensityBalance() const;
-    long mostFallbacks() const;  // most nodes of immersed membranes with Shepard's weights at one time
+    long mostFallbacks() const;  // most nodes of immersed membranes with a plain mean at one time
     const schemes::Stepper& stepper() const { return *stepper_; }
 
   private:

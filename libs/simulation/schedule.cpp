@@ -272,7 +272,7 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
         if (const long nodes = integrator_.mostFallbacks();
             static_cast<double>(nodes) > 0.005 * static_cast<double>(all))
             app_.log().warning(
-                "up to {} of the {} nodes of membranes moved in a step with a plain mean of the fluid around them: "
+                "up to {} of the {} nodes of membranes moved in a step in part with a plain mean of the fluid around: "
                 "weights exact on linear fields were too large there, or particles too few. Take a finer spacing, or "
                 "a smaller step",
                 nodes, all);

@@ -23,7 +23,8 @@ const Schema<ShiftingSettings>& ShiftingSettings::schema() {
                         {.fallback = "auto", .range = between(0, 100)})
             .quantityOr("auto", "backgroundPressure", &ShiftingSettings::backgroundPressure, unit::pascal,
                         "pressure added everywhere, so that the fluid is not under tension and does not part; auto: "
-                        "two thirds of the pressure drop in vessels with cells whose cross-section varies, else 0",
+                        "two thirds of the expected pressure drop where there are cells and the cross-section of the "
+                        "vessel varies, else 0",
                         {.fallback = "auto", .range = atLeast(0)})
             .atRestart(AtRestart::noted, {"coefficient", "steps", "densityRate", "backgroundPressure"});
     return s;
