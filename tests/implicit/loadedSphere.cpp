@@ -64,7 +64,7 @@ struct LoadedSphere {
                                     0,
                                     MPI_COMM_WORLD,
                                     particles::Precision::full};
-    FluidTerm<double> term{f.scene, sph::OperatorForm::corrected};
+    FluidTerm<double> term{f.scene, {}};
     coupling::Cells cells;
     Vectors unit, areas;
     double area = 0;  // of the mesh, over that of the sphere

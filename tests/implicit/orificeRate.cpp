@@ -28,7 +28,7 @@ struct Orifice {
     int length;
     sph::FluidModel model = fluid(1);
     coupling::testing::FluidScene f;
-    FluidTerm<double> term{f.scene, sph::OperatorForm::corrected};
+    FluidTerm<double> term{f.scene, {}};
     coupling::Cells cells;
     std::unique_ptr<coupling::Immersed> immersed;
     CoarseGrid grid{f.scene.system->box(), CoarseGrid::spacingInParticles};

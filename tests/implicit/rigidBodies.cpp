@@ -36,7 +36,7 @@ struct SphereSystem {
     explicit SphereSystem(const char* behaviour, double disorder = 0.15, const std::string& name = "twoLevel",
                           int length = 12)
         : sphere(SphereInFluid({length, length, length}, Vec3(3, 6, 11), behaviour, 2.5, disorder), 1),
-          system(sphere.scene, sph::OperatorForm::corrected, settings, nullptr, nullptr, isOnGrid(name)),
+          system(sphere.scene, {}, settings, nullptr, nullptr, isOnGrid(name)),
           preconditioner(makePreconditioner(name, system)) {
         system.prepare(TimeDifference::midpoint(2.0 / 3, {}, false));
         preconditioner->prepare();

@@ -88,7 +88,7 @@ void expectLeadFromTheExtrapolated(Term<double>& term, const Particles& p) {
 }
 
 struct Fluid : coupling::testing::FluidScene {
-    FluidTerm<double> term{scene, sph::OperatorForm::corrected};
+    FluidTerm<double> term{scene, {}};
     Particles particles{scene.store(), &term.operators().shared()};
 
     Fluid()
