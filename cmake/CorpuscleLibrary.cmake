@@ -41,7 +41,7 @@ function(corpuscle_script NAME)
     set_property(GLOBAL APPEND PROPERTY CORPUSCLE_PROGRAMS ${NAME})
 endfunction()
 
-# corpuscle_test(NAME SOURCES a.cpp ... DEPENDS library ... [RANKS 1 2 4] [GROUP fast|mpi|physics])
+# corpuscle_test(NAME SOURCES a.cpp ... DEPENDS library ... [RANKS 1 2 4] [GROUP fast|mpi|physics|long])
 # One GoogleTest executable; RANKS adds one ctest entry per number of ranks, run through mpirun.
 function(corpuscle_test NAME)
     cmake_parse_arguments(ARG "" "GROUP" "SOURCES;DEPENDS;LINK;RANKS" ${ARGN})

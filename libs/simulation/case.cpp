@@ -92,12 +92,14 @@ const Mark& placeOf(const Node& node, const std::string& key) {
 
 constexpr double adjointBulk = 500;  // bulk modulus of adjoint operators in units of mu gammadot
 
-// Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter.
+// Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter. Where the cross-section
+// varies, or cells close it, the pressure varies along the vessel by up to the whole drop.
 double adjointSoundSpeed(const Case& c) {
     const sph::FlowState& flow = c.flow;
     const double nu = c.viscosities().largest / flow.density;
+    const double length = flow.varies ? c.mesh.domain.size[0] : flow.length;
     return std::sqrt(std::max(
-        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * flow.length}));
+        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * length}));
 }
 
 double plainSoundSpeed(const Case& c) {

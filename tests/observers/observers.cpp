@@ -130,9 +130,10 @@ TEST(Observers, RefusalsNameThePlaceAndTheWayOut) {
 }
 
 TEST(Observers, EveryModelIsThere) {
-    EXPECT_EQ(corpuscle::support::missing<Observer>(
-                  {"body", "conservation", "profile", "rupture", "shape", "suspension", "wallStress"}),
-              std::vector<std::string>());
+    EXPECT_EQ(
+        corpuscle::support::missing<Observer>({"body", "cellFreeLayer", "conservation", "flowRate", "haemolysis",
+                                               "profile", "rupture", "section", "shape", "suspension", "wallStress"}),
+        std::vector<std::string>());
 }
 
 }  // namespace

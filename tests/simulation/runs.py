@@ -1438,6 +1438,55 @@ cells: [{name: rbc, shape: {type: spheroid, a: 3.2 um, c: 3.2 um}, edge: 0.9 um,
         assert abs(last["relativeViscosity"] - 1) < bar and abs(last["imbalance"]) < 0.01, last
 
 
+def test_branches(folder):
+    """A capsule driven through a vessel that divides and joins again: the same on 1, 2 and 4 ranks and in parts; what flows in flows out; the
+    capsule is counted in the branch that it takes; a network with a gap is refused."""
+    legs = [((-18, 0), (-12, 0), 10), ((-12, 0), (-6, 6), 10), ((-6, 6), (6, 6), 10), ((6, 6), (12, 0), 10),
+            ((-12, 0), (-6, -6), 7), ((-6, -6), (6, -6), 7), ((6, -6), (12, 0), 7), ((12, 0), (18, 0), 10)]
+    tubes = [f"{{from: [{a[0]} um, {a[1]} um, 0 um], to: [{b[0]} um, {b[1]} um, 0 um], diameter: {wide} um}}" for a, b, wide in legs]
+    vessel = lambda parts: f"type: poiseuille\npressureDrop: 20 Pa\nwalls: {{type: network, tubes: [{', '.join(parts)}]}}\n"
+    section = lambda x, y, more="": f"{{type: section, every: 0.5 ms, centre: [{x} um, {y} um, 0 um], radius: 5.5 um, width: 8 um{more}}}\n"
+    case = {**IMPLICIT_CASE,
+            "system/control.yaml": "application: dmpFlow\nendTime: 8 ms\nwrite: {time: 4 ms}\ncheckpoint: {wallClock: never}\n",
+            "system/numerics.yaml": IMPLICIT_CASE["system/numerics.yaml"].replace("step: 0.05", "step: 0.1").replace("error: 1}", "error: 1e-2}"),
+            "system/mesh.yaml": """domain: {size: [36 um, 24 um, 10 um], periodic: [true, false, false]}
+cells: [{name: rbc, shape: {type: spheroid, a: 2.4 um, c: 2.4 um}, edge: 0.9 um, centre: [-15 um, 1 um, 0 um]}]
+""",
+            "system/observers.yaml": "flow: {type: flowRate, every: 0.5 ms}\nbalance: {type: conservation, every: 1 ms}\nwhole: " + section(18, 0)
+                                     + "first: " + section(0, 6) + "second: " + section(0, -6) + "back: " + section(0, 6, ", normal: [-1, 0, 0]"),
+            "constant/membranes.yaml": "rbc:\n  triangles: {type: skalak, Gs: 2e-5 N/m, C: 1}\n  bending: {type: dihedral, Eb: 0.01}\n",
+            "constant/contact.yaml": "law: {type: barrier, reach: 0.2 um, strength: 5e-5 N/m}\nwalls: true\n",
+            "constant/flow.yaml": vessel(tubes)}
+    start = prepared(folder / "start", case)
+    seen = {}
+    for ranks in (1, 2, 4):
+        ready = copied(start, folder / f"np{ranks}")
+        run(ready, "dmpFlow", ranks=ranks)
+        seen[ranks] = {name: table(ready, name, "section.csv") for name in ("whole", "first", "second", "back")}
+        last = {name: rows[-1] for name, rows in seen[ranks].items()}
+        print(ranks, *(f"{name} {row['flowRate_m3_s']:.6g} {row['cells']:g}" for name, row in last.items()))
+        assert max(abs(row["volumeChange"]) for row in table(ready, "balance")) < 1e-8
+        assert last["first"]["cells"] == 1 and last["second"]["cells"] == 0 and last["back"]["cells"] == -1, last
+        assert any(row["haematocrit_tube"] > 0.05 for row in seen[ranks]["first"]) and all(row["haematocrit_tube"] == 0 for row in seen[ranks]["second"])
+        for one, other in zip(seen[ranks]["first"], seen[ranks]["back"]):
+            assert abs(one["flowRate_m3_s"] + other["flowRate_m3_s"]) < 1e-12 * abs(one["flowRate_m3_s"])
+            assert math.isclose(one["haematocrit_tube"], other["haematocrit_tube"])
+        for of, *parts in zip(*(seen[ranks][name][2:] for name in ("whole", "first", "second"))):
+            assert abs(sum(part["flowRate_m3_s"] for part in parts) / of["flowRate_m3_s"] - 1) < 0.05, (of, parts)
+    for ranks in (2, 4):
+        for name, rows in seen[1].items():
+            scale = max(abs(row["flowRate_m3_s"]) for row in rows)
+            for one, other in zip(rows, seen[ranks][name]):
+                assert abs(one["flowRate_m3_s"] - other["flowRate_m3_s"]) < 2e-4 * scale, (ranks, name, one, other)
+                assert one["cells"] == other["cells"]
+    parts = same_in_parts(folder / "np2", start, "dmpFlow", 30, ranks=2, observers=("flow",))
+    for name in seen[2]:
+        assert seen[2][name] == table(parts, name, "section.csv"), name
+    gap = make(folder / "gap", {**case, "constant/flow.yaml": vessel(tubes[:-1])})
+    said = run(gap, "particleFill", code=2).stderr
+    assert "walls.tubes: no tubes lead from one end of the box to the other, x = -18 um and 18 um" in said, said
+
+
 def test_firstBreak(folder):
     """stop.firstBreak ends a run at the step of the first break with exit code 5; without a break the run goes to its end."""
     case = tearing(folder / "case", "{type: bondStretch, limit: 1.05}", 0.8)
