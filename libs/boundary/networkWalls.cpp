@@ -18,8 +18,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double slowestMode = 2.4048;  // first zero of the Bessel function J0
 constexpr double cubesInRadius = 16;    // of the smallest cubes of volumeWithin
-constexpr double rounding = 1e-6;       // of the least radius: what counts as on the wall, and as the same joint
-constexpr double leastSine2 = 1e-4;     // of the angle of two walls that meet in a curve, squared
+constexpr double covered =
+    1e-3;  // of the least radius: depth within another tube at which a point is still on the wall
+constexpr double sameJoint = 1e-3;   // of the least radius: distance of ends that join
+constexpr double nearJoint = 0.05;   // the same, of ends that are meant to join
+constexpr double rounding = 1e-6;    // of the least radius: what counts as on the wall, and as the same joint
+constexpr double leastSine2 = 1e-4;  // of the angle of two walls that meet in a curve, squared
 constexpr int mostIterations = 50;
 constexpr int pointsInRadius = 8;  // of the points from which the curves are found
 
@@ -146,7 +150,7 @@ double TubeNetwork::largestGap(const Vec3& x, std::size_t* which) const {
     return largest;
 }
 
-bool TubeNetwork::isOnWall(const Vec3& x) const { return largestGap(x) < rounding * least_; }
+bool TubeNetwork::isOnWall(const Vec3& x) const { return largestGap(x) < covered * least_; }
 
 std::optional<TubeNetwork::OnCurve> TubeNetwork::ontoCurve(std::size_t i, std::size_t j, Vec3 y) const {
     for (int k = 0; k < mostIterations; ++k) {
@@ -256,7 +260,7 @@ double TubeNetwork::volumeWithin(double distance) const {
 }
 
 std::vector<double> networkFlows(const std::vector<Tube>& tubes, double boxLength) {
-    Joints joints(boxLength, rounding * leastRadius(tubes));
+    Joints joints(boxLength, sameJoint * leastRadius(tubes));
     std::vector<std::size_t> from, to;
     for (const Tube& tube : tubes) from.push_back(joints.at(tube.from)), to.push_back(joints.at(tube.to));
     const auto n = static_cast<Eigen::Index>(joints.places.size());
@@ -310,6 +314,7 @@ void NetworkWalls::check(const particles::Box& fluid, const Mark& mark, Problems
                             formatQuantity(reach, unit::metre), "xyz"[k], formatQuantity(half[k], unit::metre)));
         }
     }
+    isSound = checkJoints(fluid.size()[0], mark, problems) && isSound;
     if (!isSound) return;
     const std::vector<double> flows = networkFlows(tubes, fluid.size()[0]);
     double straight = 0;  // flow through all tubes, as if each led along x
@@ -318,8 +323,44 @@ void NetworkWalls::check(const particles::Box& fluid, const Mark& mark, Problems
         problems.add(
             mark, "walls.tubes",
             fmt::format("no tubes lead from one end of the box to the other, x = {} and {}, at the same y and z; "
-                        "tubes join where an end of one is at the same place as an end of another",
+                        "add the tube that is missing, or give two ends that are to join the same place",
                         formatQuantity(-half[0], unit::metre), formatQuantity(half[0], unit::metre)));
+}
+
+// Ends that nearly meet: by rounding of their places, or beside the axis of a tube that has no end there.
+bool NetworkWalls::checkJoints(double boxLength, const Mark& mark, Problems& problems) const {
+    bool isSound = true;
+    const double same = sameJoint * leastRadius(tubes), near = nearJoint * leastRadius(tubes);
+    const auto apart = [&](Vec3 way) {
+        way[0] -= boxLength * std::round(way[0] / boxLength);
+        return way;
+    };
+    for (std::size_t t = 0; t < tubes.size(); ++t)
+        for (const bool isFrom : {true, false})
+            for (std::size_t u = 0; u < tubes.size(); ++u) {
+                const Vec3 end = isFrom ? tubes[t].from : tubes[t].to, along = tubes[u].to - tubes[u].from;
+                const double first = apart(end - tubes[u].from).norm(), last = apart(end - tubes[u].to).norm();
+                if (t == u || std::min(first, last) <= same || !(tubes[u].length() > 0)) continue;
+                bool touches = false;
+                for (const int image : {-1, 0, 1}) {
+                    const Vec3 way = end + Vec3(image * boxLength, 0, 0) - tubes[u].from;
+                    const double share = std::clamp(way.dot(along) / along.squaredNorm(), 0.0, 1.0);
+                    touches = touches || (way - share * along).norm() <= near;
+                }
+                if (!touches) continue;
+                const bool atEnd = std::min(first, last) <= near;
+                if (atEnd && u < t) continue;  // said of the other end
+                isSound = false;
+                problems.add(mark, fmt::format("walls.tubes[{}].{}", t, isFrom ? "from" : "to"),
+                             atEnd
+                                 ? fmt::format("lies {} from an end of walls.tubes[{}] and does not join it; give both "
+                                               "the same place",
+                                               formatQuantity(std::min(first, last), unit::metre), u)
+                                 : fmt::format("lies on the axis of walls.tubes[{}], which has no end there; replace "
+                                               "that tube by two that end at this place",
+                                               u));
+            }
+    return isSound;
 }
 
 const TubeNetwork& NetworkWalls::network(const particles::Box& fluid) const {

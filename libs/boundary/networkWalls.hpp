@@ -9,7 +9,8 @@
 //                                                     the direction from there to the point, and
 //                            the curves where two tubes meet, and the points where three meet,
 //                            by Newton's method,
-//                        of those that do not lie within another tube
+//                        of those that do not lie within another tube, deeper than 1e-3 of the least radius: walls that
+//                        meet at less than 2.5 degrees count as smooth
 //
 // The steady creeping flow is estimated by Poiseuille's law for each tube and the balance of flow rates at the joints,
 // at a force f per mass along x: with p the pressure over the density, l the length of a tube and e its direction
@@ -98,6 +99,8 @@ struct NetworkWalls : WallShape {
     Hydraulics hydraulics(const particles::Box& fluid) const override;
 
   private:
+    // Whether it found nothing.
+    bool checkJoints(double boxLength, const Mark& mark, Problems& problems) const;
     const TubeNetwork& network(const particles::Box& fluid) const;
     mutable std::shared_ptr<const TubeNetwork> network_;  // in the box last asked for
     mutable particles::Box box_;

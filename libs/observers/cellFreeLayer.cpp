@@ -5,7 +5,8 @@
 // between two planes, into strips beside either of them. In each sector
 //     d = least distance of a node of a membrane from the walls
 // is where the core of cells ends; its mean is taken over all sectors in which there is a node. In slices that hold no
-// cell there is no core: `covered` is the share of sectors that have one.
+// cell there is no core: `covered` is the share of sectors that have one. This is meant for one vessel along the axis
+// of the box, not for branches beside it.
 //
 // setting | meaning                            | default
 // slices  | number of slices                   | 20
@@ -99,10 +100,10 @@ struct CellFreeLayerObserver : Observer {
             Schema<CellFreeLayerObserver>("cellFreeLayer", "thickness of the layer beside the walls without cells")
                 .include<ObserverSettings>()
                 .integer("slices", &CellFreeLayerObserver::slices, "number of slices along x",
-                         {.fallback = "20", .range = atLeast(1)})
+                         {.fallback = "20", .range = between(1, 10000)})
                 .integer("sectors", &CellFreeLayerObserver::sectors,
                          "of each slice, by the angle about the axis of the box; strips at each of two planes",
-                         {.fallback = "8", .range = atLeast(1)});
+                         {.fallback = "8", .range = between(1, 10000)});
         return s;
     }
     std::string whyNot(const Subject& subject) const override {

@@ -6,20 +6,24 @@
 // s      | distance of the particle from the plane of the disc, along its normal n [m]
 // b      | `width` of the slab over which the flow is averaged [m]; the integral of w is 1. Where the tube is straight
 //        | over a long distance, a wide slab has less noise
-// i      | particles of the fluid, those within cells included, within `radius` of the axis of the disc
+// i      | particles of all kinds but those of walls, within `radius` of the axis of the disc
 //
 // haematocrit           = sum over particles within cells of V w/sum of V w
 // haematocrit_discharge = the same of V (u.n) w: the share of the cells in what flows
 // cells                 = cells whose middle (the mean of their nodes) has passed since the start, those against the
-//                         normal subtracted; an interval between two outputs in which no cell goes further than half
-//                         the box is short enough
+//                         normal subtracted. Between two outputs a cell is taken to move straight on; it must move by
+//                         less than half the box
 //
 // Numbers to compare with: the flow through a network of tubes (boundary/networkWalls.hpp); what flows in flows out.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/communicator.hpp"
+#include "core/error.hpp"
+#include "core/units.hpp"
 #include "observers/cells.hpp"
 #include "observers/observer.hpp"
 
@@ -37,7 +41,7 @@ class SectionObservation : public Observation {
     SectionObservation(std::vector<Table> tables, const Disc& disc, const Scene& scene)
         : Observation(std::move(tables)),
           disc_(disc),
-          before_(static_cast<std::size_t>(scene.cells.count()), nowhere) {}
+          before_(static_cast<std::size_t>(scene.cells.count()), Vec3::Constant(nowhere)) {}
 
     bool leavesGaps() const override { return true; }  // nothing flows, or no particle is there
     std::vector<Row> observe(const Scene& scene, const Time&) override {
@@ -45,8 +49,8 @@ class SectionObservation : public Observation {
         const bool hasCells = scene.cells.count() > 0;
         std::vector<double> sums(4, 0.0);  // of V w and V (u.n) w, of all and of the fluid within cells
         for (std::size_t i = 0; i < s.size(); ++i) {
-            if (s.kindOf(i) != particles::Kind::fluid) continue;
-            const auto [along, across] = from(scene, s.position(i));
+            if (s.kindOf(i) == particles::Kind::wall) continue;
+            const auto [along, across] = from(scene.system->periodicity().shortest(s.position(i) - disc_.centre));
             if (std::abs(along) >= 0.5 * disc_.width || across >= disc_.radius) continue;
             const double w = (1 + std::cos(2 * std::numbers::pi * along / disc_.width)) / disc_.width;
             const double volume = scene.mass(i) / s.density[i] * w, flow = volume * s.velocity(i).dot(disc_.normal);
@@ -64,22 +68,21 @@ class SectionObservation : public Observation {
     }
     std::vector<double> state() const override {
         std::vector<double> all{passed_};
-        all.insert(all.end(), before_.begin(), before_.end());
+        for (const Vec3& r : before_) all.insert(all.end(), r.data(), r.data() + 3);
         return all;
     }
 
   protected:
     void setState(std::span<const double> saved) override {
         passed_ = saved[0];
-        before_.assign(saved.begin() + 1, saved.end());
+        for (std::size_t c = 0; c < before_.size(); ++c) before_[c] = Vec3::Map(saved.data() + 1 + 3 * c);
     }
 
   private:
     static constexpr double nowhere = std::numeric_limits<double>::infinity();  // before the first output
 
-    // Distance from the plane of the disc, and from its axis.
-    std::pair<double, double> from(const Scene& scene, const Vec3& x) const {
-        const Vec3 r = scene.system->periodicity().shortest(x - disc_.centre);
+    // Distance from the plane of the disc, and from its axis, of a point r from its centre.
+    std::pair<double, double> from(const Vec3& r) const {
         const double along = r.dot(disc_.normal);
         return {along, (r - along * disc_.normal).norm()};
     }
@@ -89,19 +92,22 @@ class SectionObservation : public Observation {
             for (const Vec3& x : cell.membrane.position) sum += x;
             Vec3::Map(out) = sum / static_cast<double>(cell.membrane.position.size());
         });
-        const double half = 0.5 * scene.system->box().size().dot(disc_.normal.cwiseAbs());
+        const Periodicity& period = scene.system->periodicity();
         for (std::size_t c = 0; c < middles.size(); ++c) {
-            const auto [along, across] = from(scene, Vec3::Map(middles[c].data()));
-            const bool passes = across < disc_.radius && std::abs(along - before_[c]) < half;
-            if (passes && before_[c] < 0 && along >= 0) ++passed_;
-            if (passes && before_[c] >= 0 && along < 0) --passed_;
-            before_[c] = along;
+            const Vec3 r = period.shortest(Vec3::Map(middles[c].data()) - disc_.centre), last = before_[c];
+            before_[c] = r;
+            const double start = last.dot(disc_.normal), end = r.dot(disc_.normal);
+            bool jumps = !std::isfinite(start);  // to another image of the disc
+            for (int k = 0; k < 3; ++k)
+                jumps = jumps || (period.lengths()[k] > 0 && std::abs(r[k] - last[k]) > 0.5 * period.lengths()[k]);
+            if (jumps || (start < 0) == (end < 0)) continue;
+            if (from(last + start / (start - end) * (r - last)).second < disc_.radius) passed_ += end < 0 ? -1 : 1;
         }
     }
 
     Disc disc_;
     double passed_ = 0;
-    std::vector<double> before_;  // distance of each cell from the plane at the last output
+    std::vector<Vec3> before_;  // middle of each cell from the centre of the disc, at the last output
 };
 
 struct SectionObserver : Observer {
@@ -139,9 +145,14 @@ struct SectionObserver : Observer {
         return {{"section", std::move(columns)}};
     }
     std::unique_ptr<Observation> begin(const Scene& scene) const override {
-        return std::make_unique<SectionObservation>(
-            tables(SceneParts::of(scene)),
-            Disc{scene.fluidBox.middle() + centre, normal.normalized(), radius, width.metres(scene.spacing)}, scene);
+        const Disc disc{scene.fluidBox.middle() + centre, normal.normalized(), radius, width.metres(scene.spacing)};
+        const double room = scene.fluidBox.size().dot(disc.normal.cwiseAbs());
+        if (disc.width > room * (1 + 1e-9))
+            throw Failure(ExitCode::invalidCase,
+                          fmt::format("system/observers.yaml: width: found {} for an observer of type section, but the "
+                                      "box is {} long along its normal; give at most that",
+                                      formatQuantity(disc.width, unit::metre), formatQuantity(room, unit::metre)));
+        return std::make_unique<SectionObservation>(tables(SceneParts::of(scene)), disc, scene);
     }
 };
 

@@ -92,14 +92,16 @@ const Mark& placeOf(const Node& node, const std::string& key) {
 
 constexpr double adjointBulk = 500;  // bulk modulus of adjoint operators in units of mu gammadot
 
-// Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter. Where the cross-section
-// varies, or cells close it, the pressure varies along the vessel by up to the whole drop.
+// Length over which the body force builds up pressure: where the cross-section varies, that of the box, since the
+// pressure varies along the vessel by up to the whole drop.
+double pressureLength(const Case& c) { return c.flow.varies ? c.mesh.domain.size[0] : c.flow.length; }
+
+// Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter.
 double adjointSoundSpeed(const Case& c) {
     const sph::FlowState& flow = c.flow;
     const double nu = c.viscosities().largest / flow.density;
-    const double length = flow.varies ? c.mesh.domain.size[0] : flow.length;
     return std::sqrt(std::max(
-        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * length}));
+        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * pressureLength(c)}));
 }
 
 double plainSoundSpeed(const Case& c) {
@@ -117,7 +119,7 @@ double plainSoundSpeed(const Case& c) {
         length = std::min(length, a);
         speed = std::max(speed, c.bodyOf(body).motion->speed(a));
     }
-    square = std::max({square, speed * speed, nu * speed / length, flow.largestForce() * flow.length});
+    square = std::max({square, speed * speed, nu * speed / length, flow.largestForce() * pressureLength(c)});
     return 10 * std::sqrt(square);
 }
 

@@ -110,6 +110,28 @@ TEST(NetworkWalls, distanceBeforeTheWedge) {
     EXPECT_NEAR(network.distance(Vec3(edge + 0.1, 0, 0)), -0.1 * std::sin(half), 1e-9) << "within the wedge";
 }
 
+// At a joint that is nearly straight, the walls of both tubes meet at a small angle. With a third tube nearby, no other
+// wall may be taken for the nearest one.
+TEST(NetworkWalls, distanceAtSmallKinks) {
+    for (const double degrees : {0.1, 0.3, 0.6, 1.0, 2.0, 3.0, 6.0}) {
+        const double aside = 6 * std::tan(degrees * pi / 180);
+        std::vector<Tube> bent{tube({-6, -0.5, 0}, {0, -0.5, 0}, 2), tube({0, -0.5, 0}, {6, -0.5 + aside, 0}, 2),
+                               tube({0, -0.5, 0}, {0, 2.5, 0}, 1.2)};
+        const TubeNetwork network(bent, box);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> x(-2, 2), y(-1.3, 1), z(-0.8, 0.8);
+        const std::vector<Vec3> surface = surfaceOf(bent, 0.03);
+        for (int k = 0; k < 60; ++k) {
+            const Vec3 p(x(random), y(random), z(random));
+            if (!isWithin(bent, p)) continue;
+            double least = 1e9;
+            for (const Vec3& s : surface) least = std::min(least, (s - p).norm());
+            EXPECT_LE(network.distance(p), least + 2e-3) << degrees << " degrees, " << p.transpose();
+            EXPECT_GE(network.distance(p) + 0.03, least) << degrees << " degrees, " << p.transpose();
+        }
+    }
+}
+
 TEST(NetworkWalls, aSingleTubeIsATube) {
     const std::string text =
         "{type: network, tubes: [{from: [-6 m, 0.3 m, 0 m], to: [6 m, 0.3 m, 0 m], diameter: 3 m}]}";
@@ -187,6 +209,13 @@ TEST(NetworkWalls, problemsOfACase) {
     EXPECT_NE(messages({tube({-6, 0, 0}, {5, 0, 0}, 2)}).find("no tubes lead from one end"), std::string::npos);
     EXPECT_NE(messages({tube({-6, 0, 0}, {6, 1, 0}, 2)}).find("no tubes lead from one end"), std::string::npos)
         << "its ends are not at the same y";
+    EXPECT_NE(messages({tube({-6, 0, 0}, {0, 0, 0}, 2), tube({0, 0.01, 0}, {6, 0, 0}, 2)})
+                  .find("walls.tubes[0].to: lies 10 mm from an end of walls.tubes[1]"),
+              std::string::npos)
+        << messages({tube({-6, 0, 0}, {0, 0, 0}, 2), tube({0, 0.01, 0}, {6, 0, 0}, 2)});
+    EXPECT_NE(messages({tube({-6, 0, 0}, {6, 0, 0}, 2), tube({4, 0, 0}, {4, 2, 0}, 1)})
+                  .find("walls.tubes[1].from: lies on the axis of walls.tubes[0], which has no end there"),
+              std::string::npos);
     const std::string several = messages({tube({-6, 3.5, 0}, {6, 3.5, 0}, 2), tube({1, 0, 0}, {1, 0, 0}, 2)});
     EXPECT_NE(several.find("walls.tubes[0]: reaches 4.5 m from the middle of the box along y"), std::string::npos)
         << several;

@@ -43,7 +43,7 @@ TEST(Section, LinearFlow) {
 }
 
 TEST(Section, CountsWhatIsWithinCells) {
-    Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3(-4, 0, 0) * um}}, .surface = &sphere()});
+    Scene scene = sampleScene({.walls = true, .cells = {{"a", Vec3(-5.5, 0, 0) * um}}, .surface = &sphere()});
     particles::ParticleStore& s = scene.store();
     for (std::size_t i = 0; i < s.size(); ++i) s.side[i] = s.z[i] > 2 * um ? 1 : 0;
     const auto disc = [&](const std::string& radius, const std::string& more = "") {
@@ -66,7 +66,7 @@ TEST(Section, CountsWhatIsWithinCells) {
     const auto seen = [&](const auto& one) { return value(*one, one->observe(scene, {}), "cells"); };
     EXPECT_EQ(seen(wide), 0);
     EXPECT_EQ(seen(back), 0);
-    moveCell(scene, Vec3(5, 0, 0) * um);
+    moveCell(scene, Vec3(6, 0, 0) * um);
     EXPECT_EQ(seen(observation), 0);
     EXPECT_EQ(seen(wide), 1);
     EXPECT_EQ(seen(back), -1);
@@ -82,6 +82,11 @@ TEST(Section, CountsWhatIsWithinCells) {
     EXPECT_EQ(seen(again), 2);
     moveCell(scene, Vec3(-4, 0, 0) * um);
     EXPECT_EQ(seen(again), 1) << "backwards";
+    // Through the disc and on, away from its axis, before the next output: at 3.2 um there, at 5 um in the end.
+    moveCell(scene, Vec3(4.5, 0, 8) * um);
+    EXPECT_EQ(seen(again), 2);
+    moveCell(scene, Vec3(-2, 0, 0) * um);
+    EXPECT_EQ(seen(again), 2) << "beside the disc";
 }
 
 // A sphere of 3 um at z = 1 um between planes at z = +-6 um: 2 um from the upper one and 4 um from the lower one.

@@ -1418,6 +1418,9 @@ cells: [{name: rbc, shape: {type: spheroid, a: 3.2 um, c: 3.2 um}, edge: 0.9 um,
             scale = max(abs(row[column]) for row in seen["np1"][k])
             for one, other in zip(seen["np1"][k], seen[name][k]):
                 assert abs(one[column] - other[column]) < bar * scale, (name, column, one["time_s"], one[column], other[column])
+    for name in ("np1", "surface"):  # stiff enough for the pressure drop
+        speed = json.loads((folder / name / "run.json").read_text())["parameters"]["soundSpeed_m_s"]
+        assert math.isclose(speed, math.sqrt(100 * 15 / 1000), rel_tol=1e-9), (name, speed)
     way = seen["np1"][1][-1]["centroid_x_m"] - seen["np1"][1][0]["centroid_x_m"]
     assert way > 12e-6, way  # through the throat
     rates = [row["flowRate_m3_s"] for row in seen["np1"][0][2:]]
@@ -1469,10 +1472,12 @@ cells: [{name: rbc, shape: {type: spheroid, a: 2.4 um, c: 2.4 um}, edge: 0.9 um,
         assert last["first"]["cells"] == 1 and last["second"]["cells"] == 0 and last["back"]["cells"] == -1, last
         assert any(row["haematocrit_tube"] > 0.05 for row in seen[ranks]["first"]) and all(row["haematocrit_tube"] == 0 for row in seen[ranks]["second"])
         for one, other in zip(seen[ranks]["first"], seen[ranks]["back"]):
-            assert abs(one["flowRate_m3_s"] + other["flowRate_m3_s"]) < 1e-12 * abs(one["flowRate_m3_s"])
+            assert math.isclose(one["flowRate_m3_s"], -other["flowRate_m3_s"], rel_tol=1e-12)
             assert math.isclose(one["haematocrit_tube"], other["haematocrit_tube"])
-        for of, *parts in zip(*(seen[ranks][name][2:] for name in ("whole", "first", "second"))):
-            assert abs(sum(part["flowRate_m3_s"] for part in parts) / of["flowRate_m3_s"] - 1) < 0.05, (of, parts)
+        # Sums over a few particles in a narrow slab scatter by several per cent: only their means over time are alike.
+        mean = {name: statistics.fmean(row["flowRate_m3_s"] for row in rows[2:]) for name, rows in seen[ranks].items()}
+        print(ranks, mean)
+        assert abs((mean["first"] + mean["second"]) / mean["whole"] - 1) < 0.03, mean
     for ranks in (2, 4):
         for name, rows in seen[1].items():
             scale = max(abs(row["flowRate_m3_s"]) for row in rows)
@@ -1481,7 +1486,7 @@ cells: [{name: rbc, shape: {type: spheroid, a: 2.4 um, c: 2.4 um}, edge: 0.9 um,
                 assert one["cells"] == other["cells"]
     parts = same_in_parts(folder / "np2", start, "dmpFlow", 30, ranks=2, observers=("flow",))
     for name in seen[2]:
-        assert seen[2][name] == table(parts, name, "section.csv"), name
+        assert lines(folder / "np2", name, "section.csv") == lines(parts, name, "section.csv"), name
     gap = make(folder / "gap", {**case, "constant/flow.yaml": vessel(tubes[:-1])})
     said = run(gap, "particleFill", code=2).stderr
     assert "walls.tubes: no tubes lead from one end of the box to the other, x = -18 um and 18 um" in said, said

@@ -335,6 +335,11 @@ CASES = [
     case("throatLongerThanTheBox", tube("{type: constriction, diameter: 12 um, throat: 8 um, length: 6 um, taper: 8 um}"), FLOW, "walls.taper", "8 um",
          "22 um long", "20 um along x"),
     case("wavesThatClose", tube("{type: sinusoidalTube, diameter: 12 um, amplitude: 1}"), FLOW, "walls.amplitude", "1", "at least 0 and less than 1"),
+    case("networkWithAGap", tube("{type: network, tubes: [{from: [-10 um, 0 um, 0 um], to: [8 um, 0 um, 0 um], diameter: 8 um}]}"), FLOW, "walls.tubes",
+         "[{from", "no tubes lead from one end of the box to the other", "add the tube that is missing"),
+    case("jointThatIsMissed", tube("{type: network, tubes: [{from: [-10 um, 0 um, 0 um], to: [0 um, 0 um, 0 um], diameter: 8 um}, "
+                                   "{from: [0 um, 0.1 um, 0 um], to: [10 um, 0 um, 0 um], diameter: 8 um}]}"), FLOW, "walls.tubes[0].to",
+         "[0 um, 0 um, 0 um]", "lies 100 nm from an end of walls.tubes[1]", "give both the same place"),
     case("vesselThatIsNotThere", tube("{type: surface, file: vessel.stl}"), FLOW, "walls.file", "vessel.stl", "vessel.stl"),
     case("vesselInAnotherUnit", [*tube("{type: surface, file: constant/vessel.off, scale: 1 mm}"), vessel()], FLOW, "walls.file", "constant/vessel.off",
          "beyond the box", "scale: 1 um"),
