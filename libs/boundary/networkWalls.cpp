@@ -37,7 +37,7 @@ struct Joints {
     std::vector<Vec3> places;
     double period, tolerance;
     Joints(double boxLength, double within) : period(boxLength), tolerance(within) {}
-    std::size_t at(Vec3 x) {
+    std::size_t at(const Vec3& x) {
         for (std::size_t k = 0; k < places.size(); ++k) {
             Vec3 apart = places[k] - x;
             apart[0] -= period * std::round(apart[0] / period);

@@ -75,13 +75,14 @@ class CellFreeLayerObservation : public Observation {
             return indexOf(std::atan2(r[2], r[1]) / (2 * std::numbers::pi) + 0.5, sectors_);
         };
         const int each = planes ? 2 * sectors_ : sectors_;
-        std::vector<double> least(static_cast<std::size_t>(slices_ * each), none);
+        std::vector<double> least(static_cast<std::size_t>(slices_) * static_cast<std::size_t>(each), none);
         const int rank = scene.system->decomposition().rank();
         for (const coupling::Cell& cell : scene.cells) {
             if (!cell.isOwnedBy(rank)) continue;
             for (const Vec3& x : cell.membrane.position) {
                 const int slice = indexOf((box.wrap(x[0], 0) - box.low[0]) / box.size()[0], slices_);
-                double& d = least[static_cast<std::size_t>(slice * each + sectorOf(x))];
+                double& d = least[static_cast<std::size_t>(slice) * static_cast<std::size_t>(each) +
+                                  static_cast<std::size_t>(sectorOf(x))];
                 d = std::min(d, walls.distance(Vec3(box.wrap(x[0], 0), x[1], x[2])));
             }
         }
