@@ -16,7 +16,7 @@ RATIOS = (1.0, 0.75)  # of the diameters of the daughters; the first has that of
 STRAIGHT = (28.0, 68.0)  # um: length of the straight parts of the daughters, which the extrapolation needs twice
 ASIDE, ALONG, PARENT = 8.0, 10.0, 12.0  # um: place of a daughter beside the axis, length of its oblique parts along x, half of the parent
 GRADIENT = 4e5  # Pa/m
-TIMES, LOOKS = 6, 20  # end over the time in which pressure evens out, looks in the second half
+TIMES, LOOKS = 16, 8  # end over the time in which pressure evens out, looks; the flow is taken from the last two
 
 
 def name(ratio, straight):
@@ -47,7 +47,7 @@ def run(ratio, straight, n):
     # Pressure evens out along the vessel like heat, with the diffusivity c^2 R^2/(8 nu); c^2 is 100 times the drop over the density (automatic).
     spread = (1e-6 * box) ** 2 * 8 * NU / (100 * GRADIENT * 1e-6 * box / RHO * (0.5e-6 * D) ** 2) / math.pi**2
     end = TIMES * spread
-    section = lambda x, y, width: f"{{type: section, every: {end / 2 / LOOKS:.8g} s, centre: [{x:g} um, {y:g} um, 0 um], radius: {0.6 * D:g} um, width: {width:g} um}}"
+    section = lambda x, y, width: f"{{type: section, every: {end / LOOKS:.8g} s, centre: [{x:g} um, {y:g} um, 0 um], radius: {0.6 * D:g} um, width: {width:g} um}}"
     return Run(name(ratio, straight), HERE, [
         f"system/numerics.yaml:/spacing={dx:.10g} um",
         f"system/mesh.yaml:/domain/size=[{box:g} um, {2 * ASIDE + D + 2 * dx:.10g} um, {D:g} um]",
@@ -61,9 +61,9 @@ def run(ratio, straight, n):
 
 
 def flows(folder):
-    """Flow rates of parent, first and second daughter, mean over the second half, m^3/s."""
-    of = lambda part: [row["flowRate_m3_s"] for row in rows(folder / f"postProcessing/{part}/section.csv")][-LOOKS:]
-    return [sum(of(part)) / LOOKS for part in ("parent", "first", "second")]
+    """Flow rates of parent, first and second daughter, mean of the last two looks, m^3/s."""
+    of = lambda part: [row["flowRate_m3_s"] for row in rows(folder / f"postProcessing/{part}/section.csv")][-2:]
+    return [sum(of(part)) / 2 for part in ("parent", "first", "second")]
 
 
 def split(folder):
