@@ -92,16 +92,12 @@ const Mark& placeOf(const Node& node, const std::string& key) {
 
 constexpr double adjointBulk = 500;  // bulk modulus of adjoint operators in units of mu gammadot
 
-// Length over which the body force builds up pressure: where the cross-section varies, that of the box, since the
-// pressure varies along the vessel by up to the whole drop.
-double pressureLength(const Case& c) { return c.flow.varies ? c.mesh.domain.size[0] : c.flow.length; }
-
 // Adjoint operators conserve volumes exactly, so the membrane's stiffness does not enter.
 double adjointSoundSpeed(const Case& c) {
     const sph::FlowState& flow = c.flow;
     const double nu = c.viscosities().largest / flow.density;
     return std::sqrt(std::max(
-        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * pressureLength(c)}));
+        {100 * flow.speed * flow.speed, adjointBulk * nu * flow.rate, 100 * flow.largestForce() * flow.length}));
 }
 
 double plainSoundSpeed(const Case& c) {
@@ -119,7 +115,7 @@ double plainSoundSpeed(const Case& c) {
         length = std::min(length, a);
         speed = std::max(speed, c.bodyOf(body).motion->speed(a));
     }
-    square = std::max({square, speed * speed, nu * speed / length, flow.largestForce() * pressureLength(c)});
+    square = std::max({square, speed * speed, nu * speed / length, flow.largestForce() * flow.length});
     return 10 * std::sqrt(square);
 }
 

@@ -4,7 +4,7 @@
 // With plain operators `soundSpeed: auto` takes
 //     c0^2 = 100 max(U^2, nu U/l, Gs/(rho a), F L)
 // with U the largest speed that walls or body force give, l the smallest of gap and cell radius, F the body force and L
-// the length of the flow (flow.hpp), or of the box in a vessel whose cross-section varies.
+// the length of the flow (flow.hpp).
 #pragma once
 #include <optional>
 

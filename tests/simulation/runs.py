@@ -1418,9 +1418,6 @@ cells: [{name: rbc, shape: {type: spheroid, a: 3.2 um, c: 3.2 um}, edge: 0.9 um,
             scale = max(abs(row[column]) for row in seen["np1"][k])
             for one, other in zip(seen["np1"][k], seen[name][k]):
                 assert abs(one[column] - other[column]) < bar * scale, (name, column, one["time_s"], one[column], other[column])
-    for name in ("np1", "surface"):  # stiff enough for the pressure drop
-        speed = json.loads((folder / name / "run.json").read_text())["parameters"]["soundSpeed_m_s"]
-        assert math.isclose(speed, math.sqrt(100 * 15 / 1000), rel_tol=1e-9), (name, speed)
     way = seen["np1"][1][-1]["centroid_x_m"] - seen["np1"][1][0]["centroid_x_m"]
     assert way > 12e-6, way  # through the throat
     rates = [row["flowRate_m3_s"] for row in seen["np1"][0][2:]]

@@ -44,8 +44,9 @@ def runs(n):
 
 def run(ratio, straight, n):
     dx, box = D / n, straight + 2 * (ALONG + PARENT)
-    # Pressure evens out along the vessel like heat, with the diffusivity c^2 R^2/(8 nu); c^2 is 100 times the drop over the density (automatic).
-    spread = (1e-6 * box) ** 2 * 8 * NU / (100 * GRADIENT * 1e-6 * box / RHO * (0.5e-6 * D) ** 2) / math.pi**2
+    # Pressure evens out along the vessel like heat, with the diffusivity c^2 R^2/(8 nu); c^2 is 100 times the drop over the density.
+    sound = math.sqrt(100 * GRADIENT * 1e-6 * box / RHO)
+    spread = (1e-6 * box) ** 2 * 8 * NU / (sound * 0.5e-6 * D) ** 2 / math.pi**2
     end = TIMES * spread
     section = lambda x, y, width: f"{{type: section, every: {end / LOOKS:.8g} s, centre: [{x:g} um, {y:g} um, 0 um], radius: {0.6 * D:g} um, width: {width:g} um}}"
     return Run(name(ratio, straight), HERE, [
@@ -55,6 +56,7 @@ def run(ratio, straight, n):
         f"system/observers.yaml:/parent={section(-0.5 * box, 0, PARENT)}",
         f"system/observers.yaml:/first={section(0, ASIDE, 0.7 * straight)}",
         f"system/observers.yaml:/second={section(0, -ASIDE, 0.7 * straight)}",
+        f"constant/fluid.yaml:/equationOfState={{type: tait, gamma: 7, soundSpeed: {sound:.6g} m/s}}",
         f"constant/flow.yaml:/pressureDrop={GRADIENT * 1e-6 * box:.8g} Pa",
         f"constant/flow.yaml:/walls/tubes={tubes(ratio, straight)}"],
         ("particleFill", "sphFlow"))
