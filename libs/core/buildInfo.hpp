@@ -7,7 +7,7 @@
 namespace corpuscle {
 
 struct BuildInfo {
-    std::string version;                                         // "0.1.0"
+    std::string version;                                         // "0.2.0"
     std::string gitDescribe;                                     // "unknown" outside of a repository
     std::string compiler;                                        // "GNU 12.2.0"
     std::string flags, type;                                     // "-O3", "Release"

@@ -12,7 +12,7 @@
 
 #include "core/application.hpp"
 
-// Exported by a plugin: the version of Corpuscle that it was built with, "0.1.0".
+// Exported by a plugin: the version of Corpuscle that it was built with, "0.2.0".
 extern "C" using CorpusclePluginVersion = const char * ();
 
 namespace corpuscle {

@@ -86,6 +86,12 @@ bool WallTicker::due(const StopControl& clock) {
     return true;
 }
 
+void WallTicker::change(std::optional<double> interval, const StopControl& clock) {
+    if (interval == interval_) return;
+    interval_ = interval;
+    next_ = clock.elapsed() + interval.value_or(0);
+}
+
 Progress::Progress(Log& log, const Time& start, double every)
     : log_(log),
       every_(every),

@@ -32,6 +32,10 @@ class StopControl {
     // Collective, once in each step. True when the run is to stop now; reason() says why, the same on all ranks.
     bool requested(long step);
     const std::string& reason() const { return reason_; }
+    // Whether the ranks compared their clocks at this step: a moment for other things that need not be done every step.
+    bool comparedAt(long step) const { return lastCheck_ == step; }
+    // Other settings from now on; the wall-clock limit counts from the construction, as before.
+    void change(Settings settings) { settings_ = std::move(settings); }
     // s since the construction, as agreed at the last comparison: the same on all ranks.
     double elapsed() const { return elapsed_; }
 
@@ -53,6 +57,8 @@ class WallTicker {
     WallTicker() = default;  // never
     explicit WallTicker(std::optional<double> interval) : interval_(interval), next_(interval.value_or(0)) {}
     bool due(const StopControl& clock);
+    // Another interval, which begins now, unless it is the same.
+    void change(std::optional<double> interval, const StopControl& clock);
 
   private:
     std::optional<double> interval_;

@@ -50,6 +50,8 @@ class VtkSeries {
     void start();
     // Collective. At a rollback, removes what this run has written after `time`, to write it anew.
     void goBack(double time);
+    // Another number of times to keep, from the next write on.
+    void keep(int number) { keep_ = number; }
 
   private:
     void keepBefore(double limit);

@@ -18,6 +18,8 @@ namespace corpuscle::simulation {
 
 namespace {
 
+constexpr const char *controlFile = "system/control.yaml", *observersFile = "system/observers.yaml";
+
 template <class T>
 T readNode(const std::string& file, Case& result, Problems& problems) {
     const std::size_t before = problems.count();
@@ -170,7 +172,7 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
     const auto readInto = [&]<class T>(T& settings, const std::string& file) {
         if (!misnamed.contains(file)) settings = readFile<T>(app, file, c, problems);
     };
-    readInto(c.control, "system/control.yaml");
+    readInto(c.control, controlFile);
     readInto(c.numerics, "system/numerics.yaml");
     readCells(app, misnamed, c, problems);
     readInto(c.fluid, "constant/fluid.yaml");
@@ -183,8 +185,8 @@ void readFiles(const Application& app, Case& c, Problems& problems) {
         if (problems.count() == before) c.flowModel = readChoice<sph::Flow>(node, problems);
         if (problems.count() == before) c.effective.emplace_back("constant/flow.yaml", writeChoice(c.flowModel));
     }
-    if (app.hasDictionary("system/observers.yaml"))
-        c.observers = readFile<observers::ObserversSettings>(app, "system/observers.yaml", c, problems);
+    if (app.hasDictionary(observersFile))
+        c.observers = readFile<observers::ObserversSettings>(app, observersFile, c, problems);
     throwWithKeysInstead(problems);
 }
 
@@ -248,11 +250,7 @@ void resolveFlow(Case& c, Problems& problems) {
     c.throwIfAny(problems);
     checkSizes(c, context.shearModulus, problems);
     c.throwIfAny(problems);
-    const std::string noShear = "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give ";
-    if (c.control.endStrain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "endStrain", noShear + "endTime");
-    if (c.control.write.strain && c.flow.shearRate <= 0)
-        problems.add({"system/control.yaml", 0, 0}, "write.strain", noShear + "write.time");
+    checkIntervals(c, problems);
 }
 
 // Resolves automatic keys, now that the flow is known.
@@ -270,6 +268,14 @@ void settle(Case& c) {
             table = write(c.mesh);
 }
 
+void checkObservers(const Case& c, Problems& problems) {
+    const auto dictionary = c.files.find(observersFile);
+    c.observers.check(dictionary == c.files.end() ? Node{} : dictionary->second,
+                      {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty(),
+                       c.fluid.solute.has_value(), c.flow.section > 0},
+                      problems);
+}
+
 }  // namespace
 
 Case Case::read(const Application& app, const std::set<std::string>& unplaced) {
@@ -284,10 +290,36 @@ Case Case::read(const Application& app, const std::set<std::string>& unplaced) {
     c.throwIfAny(problems);
     resolveFlow(c, problems);
     settle(c);
-    c.observers.check(c.files["system/observers.yaml"],
-                      {!c.mesh.cells.empty(), c.planesAcross().has_value(), c.flow.shearRate, !c.mesh.bodies.empty(),
-                       c.fluid.solute.has_value(), c.flow.section > 0},
-                      problems);
+    checkObservers(c, problems);
+    c.throwIfAny(problems);
+    return c;
+}
+
+Case Case::withEdits(const Application& app) const {
+    Problems problems;
+    Case edited;  // the two files alone
+    edited.control = readFile<ControlSettings>(app, controlFile, edited, problems);
+    if (app.hasDictionary(observersFile))
+        edited.observers = readFile<observers::ObserversSettings>(app, observersFile, edited, problems);
+    else if (files.contains(observersFile))
+        problems.add({observersFile, 0, 0}, "",
+                     "the file is gone; its observers go on. To end all of them, write {} in it");
+    throwWithKeysInstead(problems);
+
+    Case c = *this;
+    c.control = edited.control, c.observers = edited.observers;
+    for (auto& [file, node] : edited.files) c.files[file] = std::move(node);
+    for (Node::Entry& entry : edited.effective) {
+        const auto old = std::find_if(c.effective.begin(), c.effective.end(),
+                                      [&](const Node::Entry& one) { return one.key == entry.key; });
+        if (old == c.effective.end())
+            c.effective.push_back(std::move(entry));
+        else
+            *old = std::move(entry);
+    }
+    checkControl(c, problems);
+    checkIntervals(c, problems);
+    checkObservers(c, problems);
     c.throwIfAny(problems);
     return c;
 }

@@ -81,6 +81,9 @@ struct Case {
     // Reads all files of the case; throws CaseError with every problem found. Collective.
     // unplaced: types of cells whose `table` has not been written yet; they get no places.
     static Case read(const Application& app, const std::set<std::string>& unplaced = {});
+    // The same case with system/control.yaml and system/observers.yaml as they are now. Throws CaseError with every
+    // problem found in them. Collective.
+    Case withEdits(const Application& app) const;
 };
 
 }  // namespace corpuscle::simulation

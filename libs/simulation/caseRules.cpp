@@ -276,13 +276,16 @@ void checkFirstBreak(const Case& c, Problems& problems) {
                 joinWords(Registry<membrane::RuptureLaw>::instance().names()) + "); name one, or write false");
 }
 
-// What a solute and pores for it need of each other.
-void checkSolute(const Case& c, Problems& problems) {
+void checkFields(const Case& c, Problems& problems) {
     const std::vector<std::string>& fields = c.control.write.fields;
     if (!c.fluid.solute && std::find(fields.begin(), fields.end(), "concentration") != fields.end())
         problems.add({"system/control.yaml", 0, 0}, "write.fields",
                      "found concentration, but the fluid carries no solute; add 'solute' to constant/fluid.yaml, or "
                      "leave concentration out");
+}
+
+// What a solute and pores for it need of each other.
+void checkSolute(const Case& c, Problems& problems) {
     bool isSome = c.fluid.solute && c.fluid.solute->concentration > 0;
     for (const auto& entry : c.membranes.types) isSome = isSome || entry.second.interior.concentration.value_or(0) > 0;
     if (c.fluid.solute && !isSome)
@@ -333,10 +336,22 @@ void checkTogether(const Case& c, Problems& problems) {
     checkSurfaces(c, problems);
     checkLayers(c, problems);
     schemes::check(c.numerics, c.written, c.facts(), problems);
-    checkFirstBreak(c, problems);
+    checkControl(c, problems);
     checkContact(c, problems);
     checkSolute(c, problems);
     checkSupport(c, problems);
+}
+
+void checkControl(const Case& c, Problems& problems) {
+    checkFirstBreak(c, problems);
+    checkFields(c, problems);
+}
+
+void checkIntervals(const Case& c, Problems& problems) {
+    if (c.flow.shearRate > 0) return;
+    const std::string noShear = "the flow '" + c.flowModel.name + "' has no shear rate to count strain with; give ";
+    if (c.control.endStrain) problems.add({"system/control.yaml", 0, 0}, "endStrain", noShear + "endTime");
+    if (c.control.write.strain) problems.add({"system/control.yaml", 0, 0}, "write.strain", noShear + "write.time");
 }
 
 void checkSizes(const Case& c, double shearModulus, Problems& problems) {

@@ -14,6 +14,11 @@ std::vector<PlacedSurface> surfacesOf(const MeshSettings& mesh);
 // Adds a problem for each rule that the case breaks; the problem names the file that most likely has to change.
 void checkTogether(const Case& c, Problems& problems);
 
+// Rules for settings that may be edited while the case runs (liveSettings.hpp): those that checkTogether leaves until
+// the flow is known, and those of it that these settings can break.
+void checkIntervals(const Case& c, Problems& problems);
+void checkControl(const Case& c, Problems& problems);
+
 // What a case may do but hardly means, one sentence each, which says what to do: entries of constant/membranes.yaml
 // and constant/bodies.yaml that no cell or body uses, so that changes to them have no effect; steps, as written, that
 // do not follow a drive.

@@ -36,12 +36,23 @@ ResultsWriter::ResultsWriter(const Case& input, const Scene& scene, const Time& 
                                  static_cast<int>(input.control.write.keep.value_or(0)), earliestOf(start));
 }
 
+std::vector<io::VtkSeries*> ResultsWriter::series() {
+    std::vector<io::VtkSeries*> all{&fluid_};
+    for (io::VtkSeries& one : types_) all.push_back(&one);
+    for (io::VtkSeries& one : bodies_) all.push_back(&one);
+    if (holes_) all.push_back(&*holes_);
+    return all;
+}
+
+void ResultsWriter::change(const WriteSettings& settings, const Time& time) {
+    ticker_ = Ticker(settings.interval(), time);
+    fields_ = settings.fields;
+    for (io::VtkSeries* one : series()) one->keep(static_cast<int>(settings.keep.value_or(0)));
+}
+
 void ResultsWriter::goBack(const Ticker& ticker, const Time& time) {
     ticker_ = ticker;
-    fluid_.goBack(time.t);
-    for (io::VtkSeries& series : types_) series.goBack(time.t);
-    for (io::VtkSeries& series : bodies_) series.goBack(time.t);
-    if (holes_) holes_->goBack(time.t);
+    for (io::VtkSeries* one : series()) one->goBack(time.t);
 }
 
 namespace {

@@ -18,6 +18,8 @@ class ResultsWriter {
     ResultsWriter(const Case& input, const coupling::Scene& scene, const Time& start);
     bool due(const Time& time) { return ticker_.due(time); }
     const Ticker& ticker() const { return ticker_; }
+    // Other settings, as edited while the case runs; the next result is that of the next multiple of the interval.
+    void change(const WriteSettings& settings, const Time& time);
     // After a rollback: removes the entries after `time`, so that these times are written again. Collective.
     void goBack(const Ticker& ticker, const Time& time);
     void write(const coupling::Scene& scene, const Time& time);
@@ -25,6 +27,7 @@ class ResultsWriter {
 
   private:
     io::PolyData fluidPiece(const coupling::Scene& scene) const;
+    std::vector<io::VtkSeries*> series();
     Ticker ticker_;
     std::vector<std::string> fields_;
     io::VtkSeries fluid_;

@@ -38,6 +38,9 @@ class Rollback {
     // Failure(numerics) on all ranks if the run has to end. Collective.
     bool advance();
 
+    // Keeps no state from before this moment: its observers and intervals were others (liveSettings.hpp).
+    void forget() { good_[0].step = good_[1].step = -1; }
+
     long count() const { return count_; }  // number of rollbacks since the start
 
   private:

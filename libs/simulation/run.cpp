@@ -1,12 +1,14 @@
 #include "simulation/run.hpp"
 
+#include "simulation/liveSettings.hpp"
 #include "simulation/rollback.hpp"
 
 namespace corpuscle::simulation {
 
 ExitCode run(Application& app, const RunHooks& hooks) {
     app.announce();
-    const Case input = Case::read(app);  // 1. strict dictionaries, SI from here on
+    LiveSettings live(app);
+    Case input = Case::read(app);  // 1. strict dictionaries, SI from here on
     hooks.check(input);
     StartingPoint start = prepare(app, input);  // 2. only what the case names exists
     if (start.isFinished) return ExitCode::done;
@@ -20,6 +22,10 @@ ExitCode run(Application& app, const RunHooks& hooks) {
     after.begin(scene, time);
     Rollback step(input, scene, time, integrator, after, app.log());
     while (time.running() && !after.stopRequested(scene, time)) {
+        if (live.update(input, scene, time, after)) {
+            step.forget();
+            continue;  // the end may be another
+        }
         hooks.beforeStep(scene, time, integrator);
         if (step.advance()) after.afterStep(scene, time);  // false: rolled back
     }

@@ -193,6 +193,22 @@ bool Schedule::stopRequested(const Scene& scene, const Time& time) {
     return requested;
 }
 
+void Schedule::change(const Case& edited, const std::vector<std::string>& changes, const Scene& scene,
+                      const Time& time) {
+    if (emit(write(edited.observers)) != emit(write(input_.observers))) {
+        observers::Observers next(edited.observers, scene, time, edited.directory);
+        next.restore(observers_.state());
+        observers_ = std::move(next);
+    }
+    results_.change(edited.control.write, time);
+    checkpoints_.change(edited.control.checkpoint.wallClock, stop_);
+    stop_.change({edited.directory / edited.control.stop.file, edited.control.stop.wallClock});
+    for (const std::string& change : changes) app_.log().info("{}", change);
+    edits_.insert(edits_.end(), changes.begin(), changes.end());
+    record_.set("parameters", "changedWhileRunning", edits_);
+    writeUsed(edited.directory / "used.yaml", edited.effective, app_.communicator());
+}
+
 void Schedule::reportRupture(const Scene& scene, const Time& time) {
     long own = 0;
     for (const coupling::Cell& cell : scene.cells)

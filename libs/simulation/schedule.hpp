@@ -26,6 +26,12 @@ class Schedule {
     void begin(const coupling::Scene& scene, const Time& time);
     // Whether the run is to end early: by request, or at the first broken bond if the case says so. Collective.
     bool stopRequested(const coupling::Scene& scene, const Time& time);
+    // Whether the ranks compared their clocks at this step, which they do about once per second.
+    bool isMomentToLook(const Time& time) const { return stop_.comparedAt(time.step); }
+    // Goes on with the observers, intervals and ends of an edited case, of which `changes` tells the user. If this
+    // throws, nothing has changed. Collective.
+    void change(const Case& edited, const std::vector<std::string>& changes, const coupling::Scene& scene,
+                const Time& time);
     void afterStep(const coupling::Scene& scene, const Time& time);
     // Where steps have to end: at the ends of the run, and at the times of results and observers.
     std::vector<Event> events(const Time& time) const;
@@ -58,7 +64,7 @@ class Schedule {
     const Integrator& integrator_;
     Time start_;
     bool isContinued_;
-    std::vector<std::string> notes_;
+    std::vector<std::string> notes_, edits_;
     observers::Observers observers_;
     ResultsWriter results_;
     WallTicker checkpoints_;

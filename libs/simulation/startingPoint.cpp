@@ -10,11 +10,15 @@
 
 namespace corpuscle::simulation {
 
+void setEnds(Time& time, const ControlSettings& control) {
+    time.endTime = control.endTime;
+    time.endStrain = control.endStrain;
+}
+
 Time startTime(const Application& app, const Case& input) {
     Time time;
     time.shearRate = input.flow.shearRate;
-    time.endTime = input.control.endTime;
-    time.endStrain = input.control.endStrain;
+    setEnds(time, input.control);
     if (const auto steps = app.integer("steps", 1)) time.lastStep = *steps;
     return time;
 }
@@ -53,10 +57,14 @@ std::vector<std::filesystem::path> outputs(const Case& input, int ranks) {
 
 }  // namespace
 
+void requireOutput(const Application& app, const Case& input) {
+    requireWritable(app.communicator(), outputs(input, app.communicator().size()));
+}
+
 StartingPoint prepare(Application& app, const Case& input) {
     const MPI_Comm comm = app.communicator().handle();
     requireMemory(app.communicator(), input);
-    if (!app.has("dry-run")) requireWritable(app.communicator(), outputs(input, app.communicator().size()));
+    if (!app.has("dry-run")) requireOutput(app, input);
     StartingPoint from;
     from.time = startTime(app, input);
     if (!app.has("dry-run")) app.lockCase();

@@ -7,6 +7,9 @@ namespace corpuscle::simulation {
 
 // Time at the start of a run, with its end conditions.
 Time startTime(const Application& app, const Case& input);
+void setEnds(Time& time, const ControlSettings& control);
+// Throws Failure(io) on all ranks if a file that the run will write cannot be written. Collective.
+void requireOutput(const Application& app, const Case& input);
 
 // The scene at the chosen start, and what the integrator and observers need to go on from a checkpoint.
 struct StartingPoint {

@@ -15,7 +15,7 @@ CONSUMER = {
     "CMakeLists.txt": """cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES C CXX)
 set(CMAKE_CXX_STANDARD 20)
-find_package(Corpuscle 0.1 REQUIRED)
+find_package(Corpuscle 0.2 REQUIRED)
 add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE corpuscle::sph)
 """,
