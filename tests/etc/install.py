@@ -3,6 +3,7 @@
 
     install.py BUILD SOURCE
 """
+import json
 import os
 import pathlib
 import subprocess
@@ -51,7 +52,8 @@ def plugin(folder, root, environment):
     refused(["caseDict", "-case", "case", "-set", bonds], folder, environment, "unknown bond law 'ownSpring'")
     run(["caseDict", "-case", "case", "-set", "system/control.yaml:/libs=[constant/ownSpring.so]"], folder, environment)
     run(["caseDict", "-case", "case", "-set", bonds], folder, environment)
-    assert "spring along each edge" in run(["listModels", "-case", "case", "ownSpring"], folder, environment)
+    shown = run(["listModels", "-case", "case", "-info", "ownSpring"], folder, environment)
+    assert "spring along each edge" in shown and "a plugin, from constant/ownSpring.so" in shown, shown
     endings = []
     for ranks in (1, 2):
         case = f"own{ranks}"
@@ -103,6 +105,13 @@ def main():
         run(["membraneMesh", "-quiet", "-case", "ready"], folder, environment)
         assert (tutorial / "Allrun").stat().st_mode & 0o111 and not (tutorial / "0").exists()
         assert (share / "docs/quickstart.md").exists() and (share / "schema/mesh.json").exists()
+
+        about = json.loads(run(["listModels", "-info", "-json", "skalak"], folder, environment))["triangle law"]["skalak"]["info"]
+        assert pathlib.Path(about["source"]["header"]) == root.resolve() / "include/corpuscle/membrane/skalak.hpp", about
+        assert "struct Skalak" in pathlib.Path(about["source"]["header"]).read_text() and about["source"]["file"] == "libs/membrane/skalak.cpp", about
+        assert about["theory"][0]["page"] == "docs/theory/membrane.md" and about["tutorials"] and about["readyCells"] and not about["validation"], about
+        for use in about["tutorials"] + about["readyCells"]:
+            assert "skalak" in (share / use["file"]).read_text().splitlines()[use["line"] - 1], use
 
         names = sorted(path.name for path in (root / "bin").iterdir() if path.name != "newModel")
         assert {"dmpFlow", "caseSweep", "renderCase", "caseReport"} <= set(names) and not any(name.startswith("test_") for name in names), names

@@ -7,6 +7,7 @@
 //     listModels
 //     listModels kernel
 //     listModels kuchelFackerell
+//     listModels -info skalak
 //     listModels -markdown
 #include <algorithm>
 #include <cctype>
@@ -16,6 +17,7 @@
 #include "core/application.hpp"
 #include "core/reference.hpp"
 #include "membrane/protocol.hpp"
+#include "modelInfo.hpp"
 #include "observers/observers.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/restart.hpp"
@@ -77,7 +79,7 @@ std::string tablesPage() {
     return text;
 }
 
-ordered_json toJson(const std::string& family, const ModelInfo& model) {
+ordered_json toJson(const std::string& family, const ModelInfo& model, const ModelCatalogue* more) {
     ordered_json settings = ordered_json::array();
     for (const FieldInfo& f : model.settings.fields) {
         ordered_json field{{"key", f.key}, {"value", f.description()}, {"text", f.text}, {"required", f.required}};
@@ -89,6 +91,7 @@ ordered_json toJson(const std::string& family, const ModelInfo& model) {
         for (const io::Column& c : table.columns)
             json["tables"][table.file].push_back(
                 {{"column", c.header()}, {"unit", c.unitText()}, {"meaning", c.meaning}});
+    if (more) json["info"] = more->json({family, model.name});
     return json;
 }
 
@@ -142,22 +145,24 @@ void printModel(const std::string& family, const ModelInfo& model) {
     }
 }
 
-// Shows the family or the models of that name; a dictionary is found by the name of its file ("numerics").
-void show(const std::string& wanted, bool asJson) {
+// Shows the family or the models of that name, or all ("") models; a dictionary is found by the name of its file
+// ("numerics"). more: says where models are written, explained and used; null: not asked for.
+void show(const std::string& wanted, bool asJson, const ModelCatalogue* more) {
     ordered_json json = ordered_json::object();
     std::vector<std::string> known;
     bool found = false;
     for (const auto& [name, family] : families()) {
-        const bool all = plain(name) == plain(wanted);
+        const bool all = wanted.empty() || plain(name) == plain(wanted);
         known.push_back(name);
         for (const ModelInfo& model : family.models()) {
             known.push_back(model.name);
             if (!all && plain(model.name) != plain(wanted)) continue;
             if (asJson)
-                json[name][model.name] = toJson(name, model);
+                json[name][model.name] = toJson(name, model, more);
             else {
                 if (found) std::cout << '\n';
                 printModel(name, model);
+                if (more) std::cout << '\n' << more->text({name, model.name});
             }
             found = true;
         }
@@ -176,14 +181,30 @@ void show(const std::string& wanted, bool asJson) {
     if (!found)
         throw Failure(ExitCode::usage, "there is no family, model or dictionary '" + wanted + "'." +
                                            didYouMean(wanted, known) + " Known: " + joinWords(known));
-    if (asJson) std::cout << json.dump(2) << '\n';
+    if (asJson)
+        std::cout << json.dump(2) << '\n';
+    else if (more)
+        std::cout << "\nPaths are within " << more->root().string() << ".\n";
+}
+
+// The libraries of models that the case names.
+std::vector<std::string> pluginsOf(const Application& app) {
+    std::vector<std::string> libraries;
+    for (const char* file : {"system/control.yaml", "system/relax.yaml"}) {
+        Problems ignored;
+        if (!app.hasDictionary(file)) continue;
+        const Node dictionary = app.dictionary(file, ignored);
+        const Node* libs = dictionary.find("libs");
+        for (const Node& item : libs ? libs->items : std::vector<Node>{}) libraries.push_back(item.scalar);
+    }
+    return libraries;
 }
 
 void showAll(bool asJson) {
     ordered_json json = ordered_json::object();
     for (const auto& [name, family] : families()) {
         if (!asJson) std::cout << name << '\n' << oneLinePerModel(family.models()) << '\n';
-        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(name, model);
+        for (const ModelInfo& model : family.models()) json[name][model.name] = toJson(name, model, nullptr);
     }
     if (asJson)
         std::cout << json.dump(2) << '\n';
@@ -197,12 +218,15 @@ void showAll(bool asJson) {
 int main(int argc, char* argv[]) {
     Application app(
         "listModels", "Shows the models that a case can choose, and their settings.", argc, argv,
-        {.options = {{"markdown", "", "The whole dictionary reference, as docs/dictionaries.md has it."},
+        {.options = {{"info", "", "Also where the model is written, explained and used: sources, pages, tutorials."},
+                     {"markdown", "", "The whole dictionary reference, as docs/dictionaries.md has it."},
                      {"schema", "DIR", "Write a JSON schema for each dictionary into DIR."}},
          .arguments = {{"NAME", "", "A family (kernel, bondLaw), a model (wendlandC2) or a dictionary (numerics)."}},
          .optionalArguments = 1,
-         .samples = {"listModels", "listModels kernel", "listModels kuchelFackerell", "listModels -markdown"}});
+         .samples = {"listModels", "listModels kernel", "listModels kuchelFackerell", "listModels -info skalak",
+                     "listModels -markdown"}});
     return app.run([&] {
+        const std::vector<std::string> plugins = pluginsOf(app);
         if (!app.communicator().isRoot()) return ExitCode::done;
         if (const auto folder = app.value("schema"))
             for (const std::filesystem::path& file : simulation::writeSchemas(*folder))
@@ -210,8 +234,9 @@ int main(int argc, char* argv[]) {
         else if (app.has("markdown"))
             std::cout << referencePage(simulation::dictionaries()) << restartPage(simulation::restartDictionaries())
                       << tablesPage();
-        else if (!app.arguments().empty())
-            show(app.arguments().front(), app.json());
+        else if (app.has("info") || !app.arguments().empty())
+            show(app.arguments().empty() ? "" : app.arguments().front(), app.json(),
+                 app.has("info") ? std::make_unique<ModelCatalogue>(plugins).get() : nullptr);
         else
             showAll(app.json());
         return ExitCode::done;
