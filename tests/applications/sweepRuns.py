@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -118,16 +119,28 @@ def refuses(folder):
     assert "Did you mean 'constant/flow.yaml'?" in run(study, code=2)
     (study / "study.yaml").write_text(STUDY.replace("template:", "templat:"))
     assert "study.yaml:2:1: templat: " in run(study, code=2)
+    for right, misspelt, message in (("column: D12_extent}", "column: D12_extend}", "results.D12.column: found 'D12_extend'; the columns of deformation/rbc"),
+                                     ("{table: deformation/rbc,", "{table: deformatoin/rbc,", "Did you mean 'deformation'?"),
+                                     ("{table: deformation/rbc,", "{table: deformation/rcb,", "Did you mean 'rbc'?"),
+                                     ("{table: deformation/rbc,", "{table: deformation,", "write OBSERVER/FILE")):
+        (study / "study.yaml").write_text(STUDY.replace(right, misspelt, 1))
+        said = run(study, code=2)  # before anything runs
+        assert message in said and "study.yaml:1" in said and not (study / "cases").exists(), said
     (study / "study.yaml").write_text(STUDY)
     assert "there is no case 'Ca9'" in run(study, "-only", "Ca9", code=1)
     assert "one of -keep, -update and -fresh" in run(study, "-keep", "-fresh", code=1)
     assert "there is no such file" in run(study, "other.yaml", code=2)
-    assert [one["case"] for one in json.loads(run(study, "-list", "-json", "-quiet"))][:2] == ["Ca0.02-d7um", "Ca0.02-d8um"]
+    listed = json.loads(run(study, "-list", "-json", "-quiet"))
+    assert [one["case"] for one in listed][:2] == ["Ca0.02-d7um", "Ca0.02-d8um"] and listed[0]["values"] == {"Ca": 0.02, "d": "7 um"}, listed
     # A single case, as a job of an array; a failure in one case.
     run(study, "-only", "3", "-quiet")
     assert sorted(path.name for path in study.glob("cases/Ca*")) == ["Ca0.2-d7um"]
     (study / "study.yaml").write_text(STUDY.replace("values: [7 um, 8 um]", "values: [7 um, 100 um]"))
-    said = run(study, code=3)
+    said = run(study, "-json", code=3)  # one line for each event, which -json sends to standard error
+    told = re.findall(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ \[\d/6\] (\S+): (\w+ starts|done|failed)", said, re.M)
+    assert ("Ca3-d7um", "dmpFlow starts") in told and ("Ca3-d7um", "done") in told and ("Ca3-d100um", "failed") in told, said
+    cases = json.loads(said[:said.index("\n}\n") + 3])["cases"]
+    assert cases[0]["values"] == {"Ca": 0.02, "d": "7 um"} and cases[0]["results"]["D12"] > 0.3, cases
     assert "3 of 6 cases failed" in said and "ended with code 2" in said, said
     assert [row["status"] for row in summary(study)] == 3 * ["done", "failed"], summary(study)
     assert "Cases that failed" in (study / "cases/report.html").read_text()

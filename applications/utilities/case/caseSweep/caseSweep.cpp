@@ -22,8 +22,10 @@
 #include "core/dictionaryEdit.hpp"
 #include "core/plugins.hpp"
 #include "core/runRecord.hpp"
+#include "core/schemaJson.hpp"
 #include "core/wallClock.hpp"
 #include "liveTable.hpp"
+#include "resultColumns.hpp"
 #include "simulation/dictionaries.hpp"
 #include "study/batch.hpp"
 #include "study/report.hpp"
@@ -201,8 +203,16 @@ Study readStudy(const Application& app) {
         one.programs = study.settings.programs.value_or(
             study::programsOf(o.templateCase, study::dictionariesWith(o.templateCase, one.settings)));
     checkPrograms(study);
+    if (!o.readOnly) checkResultColumns(node, study.settings, o.templateCase, study.cases, problems);
+    problems.throwIfAny();
     if (const auto only = app.value("only")) chooseOnly(study, *only);
     return study;
+}
+
+// Plain numbers as such; a quantity keeps its unit, as text.
+nlohmann::ordered_json jsonOf(const std::string& value) {
+    Problems ignored;
+    return toJson(parseValue(value, "", ignored));
 }
 
 void list(Application& app, const Study& study) {
@@ -215,7 +225,7 @@ void list(Application& app, const Study& study) {
         json.push_back({{"case", study.cases[k].name}});
         for (const auto& [name, value] : study.cases[k].values) {
             rows.back().push_back(value);
-            json.back()["values"][name] = value;
+            json.back()["values"][name] = jsonOf(value);
         }
     }
     if (app.json())
@@ -322,7 +332,7 @@ void printJson(const study::Summary& summary, const Collector& collector) {
     json["cases"] = nlohmann::ordered_json::array();
     for (const study::SummaryRow& row : summary.rows) {
         nlohmann::ordered_json one{{"case", row.status->what.name}, {"status", nameOf(row.status->state)}};
-        for (const auto& [name, value] : row.status->what.values) one["values"][name] = value;
+        for (const auto& [name, value] : row.status->what.values) one["values"][name] = jsonOf(value);
         for (std::size_t k = 0; k < row.results.size(); ++k)
             if (std::isfinite(row.results[k].estimate.value))
                 one["results"][summary.results[k].first] = row.results[k].estimate.value;
@@ -362,7 +372,9 @@ ExitCode sweep(Application& app, const Study& study, const study::Environment& e
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
         // Ignored signals stay ignored (nohup).
         if (std::signal(signal, noteSignal) == SIG_IGN) std::signal(signal, SIG_IGN);
-    LiveTable table(app.log(), app.has("quiet") || app.json());
+    LiveTable table(app.log(), app.has("quiet") ? LiveTable::Output::quiet
+                               : app.json()     ? LiveTable::Output::json
+                                                : LiveTable::Output::text);
     // With -only, summary and report are left to -collect, since they cover the whole study.
     const bool isPart = app.has("only");
     bool changed = true;

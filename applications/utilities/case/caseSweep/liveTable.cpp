@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 
+#include "core/runRecord.hpp"
 #include "core/wallClock.hpp"
 
 namespace corpuscle {
@@ -43,7 +44,8 @@ std::vector<std::string> rowOf(const CaseStatus& one) {
 
 }  // namespace
 
-LiveTable::LiveTable(Log& log, bool quiet) : log_(log), isTerminal_(!quiet && isatty(STDOUT_FILENO) == 1) {}
+LiveTable::LiveTable(Log& log, Output output)
+    : log_(log), output_(output), isTerminal_(output == Output::text && isatty(STDOUT_FILENO) == 1) {}
 
 void LiveTable::show(const std::vector<CaseStatus>& cases, bool changed) {
     if (!isTerminal_) return tell(cases);
@@ -99,7 +101,7 @@ void LiveTable::tell(const std::vector<CaseStatus>& cases) {
         std::string line = fmt::format("[{}/{}] {}: ", k + 1, cases.size(), one.what.name);
         switch (one.state) {
             case CaseState::running:
-                line += one.program;
+                line += one.program + " starts";
                 break;
             case CaseState::done:
                 line += isFirst ? "done before" : "done, " + formatDuration(one.seconds);
@@ -117,7 +119,11 @@ void LiveTable::tell(const std::vector<CaseStatus>& cases) {
             case CaseState::waiting:
                 break;
         }
-        log_.info("{}", line);
+        line = timestamp() + " " + line;
+        if (output_ == Output::json)
+            std::fputs((line + '\n').c_str(), stderr);
+        else
+            log_.info("{}", line);
     }
 }
 

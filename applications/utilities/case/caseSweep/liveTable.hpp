@@ -1,5 +1,5 @@
 // Progress of a study on the terminal: a table of all cases that is redrawn in place or, if the output is not a
-// terminal, one line for each event.
+// terminal, one line with date and time for each event. With -json these lines go to standard error.
 #pragma once
 #include <string>
 #include <vector>
@@ -11,7 +11,8 @@ namespace corpuscle {
 
 class LiveTable {
   public:
-    LiveTable(Log& log, bool quiet);
+    enum class Output { text, json, quiet };
+    LiveTable(Log& log, Output output);
     // Shows the state of all cases, at most twice a second while nothing has changed.
     void show(const std::vector<study::CaseStatus>& cases, bool changed);
     // Shows the final state.
@@ -22,6 +23,7 @@ class LiveTable {
     void tell(const std::vector<study::CaseStatus>& cases);
 
     Log& log_;
+    Output output_;
     bool isTerminal_;
     std::size_t drawnLines_ = 0;
     std::chrono::steady_clock::time_point drawn_;
