@@ -11,6 +11,22 @@ namespace corpuscle {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* bytecode = "__pycache__";  // left by scripts in Python, at any depth
+
+void copyWithoutBytecode(const fs::path& from, const fs::path& to) {
+    if (!fs::is_directory(from)) {
+        fs::copy(from, to);
+        return;
+    }
+    fs::create_directory(to, from);
+    for (const auto& entry : fs::directory_iterator(from))
+        if (entry.path().filename() != bytecode) copyWithoutBytecode(entry.path(), to / entry.path().filename());
+}
+
+}  // namespace
+
 bool isCase(const fs::path& folder) {
     return fs::is_regular_file(folder / "system" / "control.yaml") ||
            fs::is_regular_file(folder / "system" / "relax.yaml");
@@ -18,9 +34,9 @@ bool isCase(const fs::path& folder) {
 
 bool isOutput(const fs::path& path) {
     const std::string name = path.filename().string();
-    const std::vector<std::string> written{"0",          "results",         "postProcessing", "checkpoints",
-                                           "runs",       "run.json",        "used.yaml",      "stop",
-                                           "sweep.json", CaseLock::fileName};
+    const std::vector<std::string> written{"0",          "results",          "postProcessing", "checkpoints",
+                                           "runs",       "run.json",         "used.yaml",      "stop",
+                                           "sweep.json", CaseLock::fileName, bytecode};
     if (name.starts_with('.') || name.starts_with("log.") ||
         std::find(written.begin(), written.end(), name) != written.end())
         return true;
@@ -63,7 +79,7 @@ CopiedCase copyCase(const fs::path& from, const fs::path& to, const std::string&
             if (!name.starts_with('.')) names.left.push_back(name);
             continue;
         }
-        fs::copy(entry.path(), to / name, fs::copy_options::recursive);
+        copyWithoutBytecode(entry.path(), to / name);
         names.copied.push_back(name);
     }
     std::sort(names.copied.begin(), names.copied.end());
@@ -91,7 +107,7 @@ std::vector<std::string> dataFilesOf(const fs::path& caseDir, const std::string&
             const std::string path = file.lexically_relative(caseDir).string(), ending = file.extension().string();
             const bool isAtTop = file.parent_path() == caseDir;
             const bool isOther =
-                ending == ".md" || ending == ".png" ||
+                ending == ".md" || ending == ".png" || ending == ".pyc" ||
                 (isAtTop && (ending.empty() || ending == ".yaml" || ending == ".gp" || ending == ".py"));
             if (!isOther && !isEditorsCopy(file.filename().string()) &&
                 std::find(dictionaries.begin(), dictionaries.end(), path) == dictionaries.end())

@@ -34,7 +34,8 @@ class CloneCase : public testing::Test {
         for (const char* file :
              {"old/README.md", "old/shapes/cell.stl", "old/0/rbc.vtp", "old/results/rbc.pvd",
               "old/postProcessing/a/0/a.csv", "old/checkpoints/000001.h5", "old/runs/turn/run.json", "old/log.dmpFlow",
-              "old/log.dmpFlow.1", "old/run.json", "old/used.yaml", "old/stop", "old/case.lock", "old/.hidden"})
+              "old/log.dmpFlow.1", "old/run.json", "old/used.yaml", "old/stop", "old/case.lock", "old/.hidden",
+              "old/__pycache__/a.pyc", "old/shapes/__pycache__/b.pyc"})
             writeText(at(file), "text");
         writeText(at("old/system/control.yaml"), "application: dmpFlow\nendStrain: 6   # long\n");
         writeText(at("old/system/mesh.yaml"),
@@ -63,9 +64,11 @@ TEST_F(CloneCase, CopiesTheCaseAndNoResults) {
     std::set<std::string> found;
     for (const auto& entry : fs::directory_iterator(at("new/deep"))) found.insert(entry.path().filename());
     EXPECT_EQ(found, (std::set<std::string>{"Allrun", "README.md", "constant", "shapes", "system"}));
+    EXPECT_TRUE(fs::exists(at("new/deep/shapes/cell.stl")) && !fs::exists(at("new/deep/shapes/__pycache__")));
     EXPECT_EQ(readText(at("new/deep/system/mesh.yaml")), readText(at("old/system/mesh.yaml")));
     EXPECT_NE(fs::status(at("new/deep/Allrun")).permissions() & fs::perms::owner_exec, fs::perms::none);
-    EXPECT_TRUE(contains(result.text, "left behind: 0, case.lock, checkpoints, log.dmpFlow, ")) << result.text;
+    EXPECT_TRUE(contains(result.text, "left behind: 0, __pycache__, case.lock, checkpoints, log.dmpFlow, "))
+        << result.text;
     EXPECT_TRUE(fs::exists(at("old/results/rbc.pvd"))) << "the old case stays as it is";
 }
 
