@@ -10,6 +10,7 @@
 #include "coupling/noFlux.hpp"
 #include "geometry/mesher.hpp"
 #include "io/vtkSeries.hpp"
+#include "schemes/cost.hpp"
 
 namespace corpuscle::simulation {
 
@@ -381,6 +382,33 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
     }
 }
 
+namespace {
+
+// Observers whose interval is shorter than the step look once in each step only.
+void addShortIntervals(const Case& c, std::vector<std::string>& words) {
+    const auto costs = schemes::predictCosts(c.written, c.facts());
+    const auto taken = std::find_if(costs.begin(), costs.end(), [&](const schemes::IntegratorCost& cost) {
+        return cost.name == c.numerics.integrator;
+    });
+    const double step = taken == costs.end() ? 0 : taken->step().seconds;
+    for (const auto& [name, observer] : c.observers.models) {
+        const Interval& every = observer->every;
+        const bool isStrain = every.kind == Interval::Kind::strain && c.flow.shearRate > 0;
+        if (!isStrain && every.kind != Interval::Kind::time) continue;
+        const double seconds = isStrain ? every.value / c.flow.shearRate : every.value;
+        if (seconds >= step) continue;
+        const std::string least =
+            isStrain ? fmt::format("{:.3g} strain", step * c.flow.shearRate) : formatQuantity(step, unit::second, 3);
+        words.push_back(
+            fmt::format("system/observers.yaml: {}.every: an interval of {} is shorter than the predicted step of {}, "
+                        "so that there "
+                        "is one row for each step only, at the end of the step; write {} or more, or '1 steps'",
+                        name, formatQuantity(seconds, unit::second), formatQuantity(step, unit::second, 3), least));
+    }
+}
+
+}  // namespace
+
 std::vector<std::string> caseWarnings(const Case& c) {
     std::map<std::string, std::set<std::string>> taken;  // by kind
     for (const PlacedSurface& surface : surfacesOf(c.mesh))
@@ -404,6 +432,7 @@ std::vector<std::string> caseWarnings(const Case& c) {
     // A case may well step over a start or a decay; a drive, hardly.
     const std::string unfit = c.flow.drive && !c.flow.drive->isSteady() ? c.scheme().unfit(c.facts(), c.numerics) : "";
     if (!unfit.empty()) words.push_back(fmt::format("system/numerics.yaml: {}: {}", c.numerics.integrator, unfit));
+    addShortIntervals(c, words);
     return words;
 }
 

@@ -21,7 +21,7 @@ void checkControl(const Case& c, Problems& problems);
 
 // What a case may do but hardly means, one sentence each, which says what to do: entries of constant/membranes.yaml
 // and constant/bodies.yaml that no cell or body uses, so that changes to them have no effect; steps, as written, that
-// do not follow a drive.
+// do not follow a drive; observers whose interval is shorter than the predicted step.
 std::vector<std::string> caseWarnings(const Case& c);
 
 // Values that each lie within their range can combine to a quantity that overflows or underflows. Adds a problem for

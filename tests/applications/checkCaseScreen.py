@@ -70,6 +70,36 @@ def test_cells(folder):
     assert any("16 of rbc" in line for line in sixteen) and sum("8 of" in line for line in two) == 2, "\n".join(sixteen + two)
 
 
+def test_findings(folder):
+    """Solute and pores are in the summary; results that are not kept take no disk; an interval shorter than the step is named; meshes that overlap are refused."""
+    pores = "  pores: {type: excessArea, onset: 0.01, radius: 10 nm, resealing: 1 ms}\n"
+    files = {**IMPLICIT_CASE, "constant/membranes.yaml": IMPLICIT_CASE["constant/membranes.yaml"].rstrip("\n") + "\n" + pores,
+             "constant/fluid.yaml": IMPLICIT_CASE["constant/fluid.yaml"] + "solute: {concentration: 2 kg/m^3}\n"}
+    plain, case = make(folder / "plain", IMPLICIT_CASE), make(folder / "pores", files)
+    lines = [" ".join(line.split()) for line in screen(case)[0]]
+    assert any(line.startswith("solute 2 kg/m^3") for line in lines) and any(line.startswith("pores excessArea: ") and "radius 1e-08 m" in line for line in lines), lines
+    assert not any("solute" in line or "pores" in line for line in screen(plain)[0])
+
+    def disk(*options):
+        return json.loads(run(plain, "checkCase", "-json", *options).stdout)["results_B"]
+    many, few = (disk("-set", f"system/control.yaml:/write={{strain: 0.01, keep: {keep}}}") for keep in ("all", 2))
+    assert disk("-set", "system/control.yaml:/write={strain: 0.01, keep: 1000000}") == many and few < many / 2, (few, many)
+
+    every = "system/observers.yaml:/deformation={type: shape, every: EVERY}"
+    for interval, warns in (("1e-9 strain", True), ("1 fs", True), ("1 strain", False), ("1 steps", False)):
+        warned = screen(plain, "-set", every.replace("EVERY", interval))[1]
+        assert ("deformation.every: an interval of" in warned and "'1 steps'" in warned) == warns, (interval, warned)
+
+    mesh = ("domain: {size: [24 um, 12 um, 12 um], periodic: [true, true, false]}\ncells: [{name: rbc, shape: {type: sphere, radius: 3 um}, edge: 1 um, "
+            "places: [{centre: [-4 um, 0 um, 0 um]}, {centre: [4 um, 0 um, 0 um]}]}]\n")
+    two = make(folder / "two", {**IMPLICIT_CASE, "system/mesh.yaml": mesh})
+    run(two, "membraneMesh")
+    assert screen(two)[0][-1] == "Case OK."
+    (two / "system/mesh.yaml").write_text(mesh.replace("[-4 um", "[1 um"))  # after membraneMesh
+    refused = [subprocess.run([BIN / program, "-case", two], capture_output=True, text=True) for program in ("particleFill", "checkCase")]
+    assert all(done.returncode == 2 and "overlap" in done.stderr for done in refused), [done.stderr for done in refused]
+
+
 def test_warnings(folder):
     """Edges much longer or shorter than the spacing, a density that follows only from Re, entries without a cell, and steps longer than the flow takes to change:
     one warning each, with the text to write."""

@@ -1,4 +1,5 @@
 #include "cellMeshes.hpp"
+#include "simulation/placement.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -49,6 +50,13 @@ std::vector<TriangleMesh> placedCells(const Case& input, const std::vector<Trian
     return cells;
 }
 std::vector<TriangleMesh> readBodyMeshes(const Case& input) { return readMeshes(input, input.mesh.bodies); }
+
+void requireClear(const Case& input, const std::vector<TriangleMesh>& cells, const std::vector<TriangleMesh>& bodies) {
+    Problems problems;
+    for (const Problem& p : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
+        problems.add(p.mark, p.key, p.message + ", then run membraneMesh again");
+    input.throwIfAny(problems);
+}
 
 membrane::NetworkModuli moduliOf(const TriangleMesh& mesh, const membrane::MembraneSettings& laws) {
     return membrane::measureModuli(membrane::Network(mesh.nodes, mesh.triangles), laws);

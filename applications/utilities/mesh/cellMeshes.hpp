@@ -21,6 +21,9 @@ std::vector<geometry::TriangleMesh> readCellMeshes(const simulation::Case& input
 std::vector<geometry::TriangleMesh> placedCells(const simulation::Case& input,
                                                 const std::vector<geometry::TriangleMesh>& ofTypes);
 std::vector<geometry::TriangleMesh> readBodyMeshes(const simulation::Case& input);
+// Throws CaseError if cells, bodies or walls are not clear of each other (simulation/placement.hpp).
+void requireClear(const simulation::Case& input, const std::vector<geometry::TriangleMesh>& cells,
+                  const std::vector<geometry::TriangleMesh>& bodies);
 
 membrane::NetworkModuli moduliOf(const geometry::TriangleMesh& mesh, const membrane::MembraneSettings& laws);
 

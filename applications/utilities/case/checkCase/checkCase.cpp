@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "../../mesh/cellMeshes.hpp"
 #include "core/buildInfo.hpp"
 #include "core/machineMemory.hpp"
 #include "io/polyData.hpp"
@@ -106,6 +107,15 @@ std::string withoutLineEnds(std::string text) {
     return text;
 }
 
+// "tension: onset 1e-6 N/m, modulus 0.1 N/m" of `type: tension` with its settings.
+std::string settingsText(const Node& model) {
+    std::string text = model.kind == Node::Kind::table ? model.find("type")->scalar : model.scalar;
+    for (const auto& [key, value] : model.entries)
+        if (key != "type")
+            text += fmt::format("{}{} {}", text.find(':') == std::string::npos ? ": " : ", ", key, emitInLine(value));
+    return text;
+}
+
 // The number of nodes of the mesh in 0/, if there is one; faults of the mesh are reported where it is used.
 std::optional<long> nodesInMesh(const simulation::Case& input, const simulation::CellSettings& cell) {
     try {
@@ -113,6 +123,25 @@ std::optional<long> nodesInMesh(const simulation::Case& input, const simulation:
     } catch (const Failure&) {
         return std::nullopt;
     }
+}
+
+// Refuses cells and bodies whose meshes in 0/ overlap, as particleFill does; with particles, reportRun finds them.
+void findOverlaps(Report& report, const simulation::Case& input) {
+    const auto isThere = [&](const auto& surface) {
+        return std::filesystem::exists(input.directory / "0" / (surface.name + ".vtp"));
+    };
+    if (!std::all_of(input.mesh.cells.begin(), input.mesh.cells.end(), isThere) ||
+        !std::all_of(input.mesh.bodies.begin(), input.mesh.bodies.end(), isThere))
+        return;
+    std::vector<geometry::TriangleMesh> cells, bodies;
+    try {
+        cells = utilities::placedCells(input, utilities::readCellMeshes(input));
+        bodies = utilities::readBodyMeshes(input);
+    } catch (const Failure& failure) {
+        report.warnings.emplace_back(failure.what());
+        return;
+    }
+    utilities::requireClear(input, cells, bodies);
 }
 
 void reportCase(Report& report, const simulation::Case& input) {
@@ -148,8 +177,15 @@ void reportCase(Report& report, const simulation::Case& input) {
         rows.push_back({"cells", fmt::format("{} of {}: {}, edge {}, {}{} nodes each", kind.count, cell.type(),
                                              cell.shape.name, formatQuantity(cell.edge, unit::metre),
                                              made ? "" : "about ", simulation::countText(each))});
-        rows.push_back({"", withoutLineEnds(membrane::describeConstants(input.membraneOf(cell), cell.edge))});
+        const membrane::MembraneSettings& laws = input.membraneOf(cell);
+        rows.push_back({"", withoutLineEnds(membrane::describeConstants(laws, cell.edge))});
+        if (laws.pores) rows.push_back({"", "pores " + settingsText(writeChoice(laws.pores))});
     }
+    if (const auto& solute = input.fluid.solute)
+        rows.push_back({"solute", fmt::format("{} outside the cells, diffusivity {}, molecules of radius {}",
+                                              formatQuantity(solute->concentration, unit::kilogramPerMetre3),
+                                              formatQuantity(solute->diffusivity, unit::metre2PerSecond),
+                                              formatQuantity(solute->radius, unit::metre))});
     report.table({}, rows);
     const auto whole = [](double number) { return static_cast<long>(std::min(number, 9e18)); };
     report.json["particles"] = {{"fluid", whole(count.fluid)},
@@ -233,7 +269,9 @@ void reportSize(Report& report, const simulation::Case& input) {
     const int ranks = report.app.communicator().size();
     const auto size = simulation::estimateSize(input, ranks);
     const auto keep = static_cast<double>(input.control.checkpoint.keep);
-    const double results = size.perWrite * size.writes, checkpoints = size.checkpoint * keep;
+    const std::optional<long> kept = input.control.write.keep;
+    const double stored = kept ? std::min(static_cast<double>(*kept), size.writes) : size.writes;
+    const double results = size.perWrite * stored, checkpoints = size.checkpoint * keep;
     report.section("Memory and disk");
     report.table(
         {},
@@ -241,7 +279,9 @@ void reportSize(Report& report, const simulation::Case& input) {
           fmt::format("on {}; the machine {} has {} free", counted(ranks, "rank"), machineInfo().host,
                       formatBytes(availableMemory().shared.bytes))},
          {"results", formatBytes(results),
-          fmt::format("{} times of {}", simulation::countText(size.writes), formatBytes(size.perWrite))},
+          fmt::format("{}{} times of {}", simulation::countText(size.writes),
+                      stored < size.writes ? fmt::format(", of which the last {} are kept,", *kept) : "",
+                      formatBytes(size.perWrite))},
          {"checkpoints", formatBytes(checkpoints),
           fmt::format("the last {} are kept, of {}", input.control.checkpoint.keep, formatBytes(size.checkpoint))}});
     report.json["memory_B"] = size.memory;
@@ -380,11 +420,13 @@ int main(int argc, char* argv[]) {
         reportSize(report, input);
         simulation::requireMemory(app.communicator(), input);
         reportCosts(report, input);
-        if (std::filesystem::exists(input.directory / "0" / "fluid.vtp"))
+        if (std::filesystem::exists(input.directory / "0" / "fluid.vtp")) {
             reportRun(report, input);
-        else
+        } else {
+            findOverlaps(report, input);
             report.line(fmt::format("limits of the step and run time need 0/: run {}particleFill, then checkCase again",
                                     input.mesh.cells.empty() && input.mesh.bodies.empty() ? "" : "membraneMesh and "));
+        }
         findCheckpoint(report, input);
         for (const std::string& words : report.warnings) app.log().warning("{}", words);
         report.json["warnings"] = report.warnings;

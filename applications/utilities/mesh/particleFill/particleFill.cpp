@@ -26,7 +26,6 @@
 #include "relaxation.hpp"
 #include "simulation/dictionaries.hpp"
 #include "simulation/memoryLimit.hpp"
-#include "simulation/placement.hpp"
 #include "simulation/sceneBuilder.hpp"
 
 using namespace corpuscle;
@@ -314,10 +313,7 @@ int main(int argc, char* argv[]) {
         app.lockCase();
         const std::vector<TriangleMesh> cells = utilities::placedCells(input, utilities::readCellMeshes(input));
         const std::vector<TriangleMesh> bodies = utilities::readBodyMeshes(input);
-        Problems problems;
-        for (const Problem& p : simulation::misplaced(input, simulation::placedOf(input, cells, bodies)))
-            problems.add(p.mark, p.key, p.message + ", then run membraneMesh again");
-        input.throwIfAny(problems);
+        utilities::requireClear(input, cells, bodies);
         app.openLog();
         simulation::refreshSchemas(app);
         if (const boundary::WallShape* const walls = input.flowModel->walls())
