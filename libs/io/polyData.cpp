@@ -10,7 +10,6 @@
 #include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
 #include <array>
@@ -21,6 +20,7 @@
 #include "io/dataChecksum.hpp"
 #include "io/publish.hpp"
 #include "io/vtkMessages.hpp"
+#include "io/vtpWriter.hpp"
 
 namespace corpuscle::io {
 namespace {
@@ -178,13 +178,9 @@ void writeVtp(const std::filesystem::path& path, const PolyData& data, Cells cel
 
     const auto temporary = temporaryName(path);
     VtkMessages messages;
-    vtkNew<vtkXMLPolyDataWriter> writer;
+    const auto writer = makeVtpWriter();
     writer->SetFileName(temporary.c_str());
     writer->SetInputData(poly);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToLZ4();
-    writer->SetHeaderTypeToUInt64();
     if (writer->Write() != 1 || writer->GetErrorCode() != 0 || messages.any()) throw notWritten(path, temporary);
     publish(temporary, path, Sync::none);
 }

@@ -58,6 +58,11 @@ class XmlReader {
     }
     void skipToElement() {
         skipMisc();
+        if (next(rawByDefault)) {
+            at_ += rawByDefault.size();
+            rawByDefault_ = true;
+            skipMisc();
+        }
         if (next("<!")) fault("a document type is not read");
         if (!next("<")) fault("no XML element was found");
     }
@@ -145,6 +150,7 @@ class XmlReader {
             const std::size_t mark = bytes_.find('_', at_);
             if (mark == std::string_view::npos) fault("the appended data do not begin with '_'");
             e.text = bytes_.substr(mark + 1);
+            if (rawByDefault_) e.attributes.emplace("encoding", "raw");
             appended_ = true;
             return e;
         }
@@ -181,7 +187,7 @@ class XmlReader {
     std::string_view bytes_;
     std::size_t at_ = 0, counted_ = 0;
     int line_ = 1, count_ = 0;
-    bool appended_ = false;
+    bool appended_ = false, rawByDefault_ = false;
 };
 
 }  // namespace

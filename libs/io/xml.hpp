@@ -2,7 +2,8 @@
 //
 // Only names and attributes are copied: `text` points into the given bytes. Reading ends at the element AppendedData,
 // since any bytes may follow its underscore; its text is everything behind that underscore. Throws XmlFault with the
-// line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and for a document type.
+// line for anything that is not well-formed, for more than 64 levels or 100,000 elements, and for any document type
+// other than `rawByDefault`.
 #pragma once
 #include <map>
 #include <stdexcept>
@@ -13,6 +14,9 @@
 #include "core/error.hpp"
 
 namespace corpuscle::io {
+
+// The one document type that is read: the element AppendedData is raw without saying so (vtpWriter.hpp).
+inline constexpr std::string_view rawByDefault = "<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA \"raw\">]>";
 
 struct XmlElement {
     std::string name;

@@ -53,6 +53,23 @@ TEST(Vtp, MembraneComesBackToTheBit) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file remains";
 }
 
+// Expat looks at an incomplete tag again when its length has doubled. VTK gives it "<AppendedData", what follows up to
+// '>', and an end of 15 bytes (vtpWriter.hpp).
+TEST(Vtp, ExpatSeesTheTagOfTheDataInTime) {
+    TemporaryFolder folder;
+    const auto path = folder.path() / "rbc.vtp";
+    writeVtp(path, membrane());
+    std::ifstream in(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {}), tag = "<AppendedData";
+    EXPECT_TRUE(bytes.starts_with("<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA \"raw\">]>\n<VTKFile "));
+    const std::size_t begin = bytes.find(tag, bytes.find("</PolyData>")), attributes = begin + tag.size();
+    ASSERT_NE(begin, std::string::npos);
+    std::size_t seen = tag.size();
+    if (const auto length = bytes.find('>', attributes) - begin; length >= 2 * seen) seen = length;
+    EXPECT_GE(bytes.find('>', attributes) - begin + 15, 2 * seen);
+    EXPECT_EQ(bytes[bytes.find_first_not_of(" \n", bytes.find('>', attributes) + 1)], '_');
+}
+
 TEST(Vtp, PointsAloneAndNothingAtAll) {
     TemporaryFolder folder;
     PolyData fluid;

@@ -28,7 +28,7 @@ class File:
 
     def __init__(self, path):
         data = pathlib.Path(path).read_bytes()
-        head, mark, rest = data.partition(b'<AppendedData encoding="raw">')
+        head, mark, rest = data.partition(b"<AppendedData")
         self.appended = memoryview(rest)[rest.find(b"_") + 1 :]
         root = ElementTree.fromstring(head + b"</VTKFile>" if mark else head)
         self.compressed = "compressor" in root.attrib
