@@ -12,10 +12,11 @@ $CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
 """
 from .analysis import Mean, crossing, mean, period, tankTreadingFrequency, unwrapped
 from .case import Case
+from .paraviewState import paraviewState
 from .programs import CorpuscleError, program
 from .report import report
 from .results import Surface
 from .study import Study
 from .tables import readTable
 
-__all__ = ["Case", "CorpuscleError", "Mean", "Study", "Surface", "crossing", "mean", "period", "program", "readTable", "report", "tankTreadingFrequency", "unwrapped"]
+__all__ = ["Case", "CorpuscleError", "Mean", "Study", "Surface", "crossing", "mean", "paraviewState", "period", "program", "readTable", "report", "tankTreadingFrequency", "unwrapped"]

@@ -47,6 +47,10 @@ cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && caseDict -quiet -set 
 membraneMesh && particleFill && dmpFlow && printf 'strain,D12_extent\\n0,0.58\\n0.4,0.58\\n' >myReference.csv
 for name in fine medium coarse; do mkdir $name && cp -r 0 constant system postProcessing results run.json used.yaml log.* $name; done
 """, ["myCell/postProcessing/report.html", "myCell/cell.html", "myCell/fine/postProcessing/report.html"]),
+    "docs/paraview.md": (CLONE + """
+cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && caseDict -quiet -set system/control.yaml:/endStrain=0.1
+membraneMesh && particleFill && dmpFlow
+""", ["myCell/postProcessing/paraviewState.py", "myCell/across.py"]),
     "docs/study.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell
 cp page.yaml study.yaml
