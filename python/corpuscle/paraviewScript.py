@@ -7,7 +7,7 @@
 It needs ParaView alone and finds the results by its own place, so that the folder of the case may be copied to another machine. Numbers are in SI
 units. Particles of the fluid and of walls that are not shown at first are in the pipeline browser: click the eye beside them.
 """
-import builtins  # ParaView puts its own max, min and sum in place of these once a ProgrammableFilter has run
+import builtins  # a ProgrammableFilter puts numpy's max, min, number, ... in place of the global names of this script
 import os
 import sys
 
@@ -198,7 +198,7 @@ def extent(sources):
 
 
 def open_():
-    """Shows everything at the first time, as ParaView opens files; returns the view and the readers by name."""
+    """Shows everything at the latest time; returns the view and the readers by name."""
     pv._DisableFirstRenderCameraReset()
     view = pv.GetActiveViewOrCreate("RenderView")
     if "picture" in CASE:
@@ -220,22 +220,27 @@ def open_():
     text.Color, text.FontSize, text.WindowLocation = BLACK, 18, "Upper Left Corner"
     look(view, *extent(surfaces))
     pv.Render(view)
+    scene = pv.GetAnimationScene()  # last, since these calls wait until ParaView's welcome dialog is closed
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = CASE["times"][-1]
     return view, sources
 
 
-if len(sys.argv) > 1 and sys.argv[1].endswith(".png"):
-    CASE["picture"] = sys.argv[1]
+def picture(path, number):
+    """Draws one time without a window, and says what was read."""
+    CASE["picture"] = path
     view, sources = open_()
     times = CASE["times"]
-    number = int(sys.argv[2]) if len(sys.argv) > 2 else -1
     if not -len(times) <= number < len(times):
         sys.exit("there are %d times, 0 to %d" % (len(times), len(times) - 1))
-    scene = pv.GetAnimationScene()
-    scene.UpdateAnimationUsingDataTimeSteps()  # with a window, ParaView does so by itself, and this call would not return
-    scene.AnimationTime = times[number]
-    pv.SaveScreenshot(CASE["picture"], view, ImageResolution=[1600, 900])
+    pv.GetAnimationScene().AnimationTime = times[number]
+    pv.SaveScreenshot(path, view, ImageResolution=[1600, 900])
     found = {name: source.GetDataInformation() for name, source in sources.items()}
-    print("%s: t = %.9g, %s" % (CASE["picture"], times[number], ", ".join("%s: %d points, %d elements" % (
-        name, one.GetNumberOfPoints(), one.GetNumberOfCells()) for name, one in found.items())))
+    counts = ["%s: %d points, %d elements" % (name, one.GetNumberOfPoints(), one.GetNumberOfCells()) for name, one in found.items()]
+    print("%s: t = %.9g, %s" % (path, times[number], ", ".join(counts)))
+
+
+if len(sys.argv) > 1 and sys.argv[1].endswith(".png"):
+    picture(sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else -1)
 else:
     open_()
