@@ -194,7 +194,7 @@ def _label(stream, areStages):
     if areStages:
         return "'stage %g' % time_value"
     longest = max(stream.times)
-    unit, factor = next(((unit, factor) for unit, factor in (("s", 1), ("ms", 1e3), ("us", 1e6)) if longest * factor >= 1), ("ns", 1e9))
+    unit, factor = next(((unit, factor) for unit, factor in (("s", 1), ("ms", 1e3), ("us", 1e6)) if longest * factor >= 1 or longest == 0), ("ns", 1e9))
     strains = [one.get("strain", 0.0) for one in stream.fields]
     if not any(strains):
         return f"'t = %.4g {unit}' % ({factor:g} * time_value)"
