@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -146,6 +147,7 @@ struct Pixels {
 bool isReddish(const unsigned char* c) { return c[0] > c[1] + 15; }
 // The outside of the membrane; its inside is darker.
 bool isOutside(const unsigned char* c) { return c[0] > 95 && c[0] > c[1] + 50; }
+bool isInside(const unsigned char* c) { return c[0] <= 95 && isReddish(c); }
 bool isWhite(const unsigned char* c) { return c[0] == 255 && c[1] == 255 && c[2] == 255; }
 
 class RenderCase : public ::testing::Test {
@@ -389,6 +391,180 @@ TEST_F(RenderCase, WordsBarsAndPanelsLieBesideEachOther) {
     }
 }
 
+// A fluid of the extent of shearedFluid with another velocity.
+PolyData fluidMoving(const std::function<Vec3(const Vec3&)>& velocity) {
+    PolyData data = shearedFluid();
+    for (std::size_t i = 0; i < data.points.size(); ++i) data.point.vectors["velocity"][i] = velocity(data.points[i]);
+    return data;
+}
+
+Vec3 vectorOf(const nlohmann::json& list) {
+    return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+TEST_F(RenderCase, StreamlinesOfAShearFlowAreStraight) {
+    TemporaryFolder sheared;
+    writeCase(sheared.path());
+    writeBox(sheared.path(), "[16 um, 4 um, 12 um]", "[true, true, false]");
+    const auto report = drawIn(sheared.path(), "-streamlines 12 -strain 0,5 -view xz -size 600");
+    Vec3 mean = Vec3::Zero();
+    for (const auto& panel : report["panels"]) {
+        ASSERT_EQ(panel["streamlines"].size(), 12u);
+        for (const auto& line : panel["streamlines"]) {
+            const Vec3 seed = vectorOf(line["seed"]), low = vectorOf(line["low"]), high = vectorOf(line["high"]);
+            EXPECT_NEAR(seed[0], -8e-6, 1e-12);
+            EXPECT_NEAR(high[1] - low[1], 0, 1e-12);
+            EXPECT_NEAR(high[2] - low[2], 0, 1e-12);
+            EXPECT_NEAR(line["length"].get<double>(), 16e-6, 1e-12);
+            EXPECT_EQ(line["downstream"], "period");
+            EXPECT_GT(vectorOf(line["to"])[0] * seed[2] + 8e-6 * std::abs(seed[2]), 0) << "to the left below z = 0";
+            mean += seed / 24;
+        }
+    }
+    EXPECT_NEAR(mean[1], 0, 0.2e-6) << "seeds are spread evenly";
+    EXPECT_NEAR(mean[2], 0, 0.2e-6);
+    EXPECT_EQ(report["fluid"]["title"], "speed, \u00b5m/s");
+    EXPECT_FALSE(report["fluid"].contains("axis")) << "no plane";
+
+    // With a plane of fluid the lines lie in it, at equal distances.
+    const auto inPlane = drawIn(sheared.path(), "-streamlines 6 -fluid -strain 0 -view xz -size 600");
+    for (std::size_t i = 0; i < 6; ++i) {
+        const Vec3 seed = vectorOf(inPlane["panels"][0]["streamlines"][i]["seed"]);
+        EXPECT_NEAR(seed[1], 0, 1e-15);
+        EXPECT_NEAR(seed[2], (-5 + 2.0 * static_cast<double>(i)) * 1e-6, 0.02e-6);
+    }
+}
+
+// Each line appears in the picture as a tube across the whole box, at the height of its seed.
+TEST_F(RenderCase, StreamlinesCrossTheBox) {
+    TemporaryFolder sheared;
+    std::filesystem::create_directories(sheared.path() / "0");
+    writeBox(sheared.path(), "[16 um, 4 um, 12 um]", "[true, true, false]");
+    writeVtp(sheared.path() / "0" / "fluid.vtp", shearedFluid());
+    const auto report = drawIn(sheared.path(), "-streamlines 4 -seeds 'x=3 um' -time first -view xz -size 900");
+    Pixels pixels(sheared.path() / "postProcessing" / "renderCase.png");
+    const auto isColoured = [](const unsigned char* c) {
+        return std::max({c[0], c[1], c[2]}) > std::min({c[0], c[1], c[2]}) + 25;
+    };
+    const double scale = report["metresPerPixel"];
+    const auto& panel = report["panels"][0];
+    const double middle = panel["y"].get<double>() + 0.5 * panel["height"].get<double>();
+    for (const auto& line : panel["streamlines"]) {
+        nlohmann::json band = panel;
+        band["y"] = static_cast<int>(std::lround(middle - vectorOf(line["seed"])[2] / scale));
+        band["height"] = 1;
+        EXPECT_NEAR(pixels.count(band, isColoured) * scale, 16e-6, 0.4e-6) << line;
+    }
+}
+
+// u = sin kx cos kz, w = -cos kx sin kz has the stream function sin kx sin kz: known extremes of each line.
+TEST_F(RenderCase, StreamlinesOfAVortexClose) {
+    TemporaryFolder vortex;
+    std::filesystem::create_directories(vortex.path() / "0");
+    writeBox(vortex.path(), "[16 um, 4 um, 12 um]", "[true, true, true]");
+    const double kx = 2 * M_PI / 16e-6, kz = 2 * M_PI / 12e-6;
+    writeVtp(vortex.path() / "0" / "fluid.vtp", fluidMoving([&](const Vec3& x) {
+                 return Vec3(kz * std::sin(kx * x[0]) * std::cos(kz * x[2]), 0,
+                             -kx * std::cos(kx * x[0]) * std::sin(kz * x[2]));
+             }));
+    const auto report = drawIn(vortex.path(), "-streamlines 8 -seeds 'x=4 um' -slice y -time first -view xz -size 500");
+    for (const auto& line : report["panels"][0]["streamlines"]) {
+        const Vec3 seed = vectorOf(line["seed"]);
+        EXPECT_EQ(line["downstream"], "closed") << line;
+        EXPECT_NEAR((vectorOf(line["to"]) - seed).norm(), 0, 0.05e-6);
+        const double reach = std::asin(std::abs(std::sin(kz * seed[2]))) / kx;
+        EXPECT_NEAR(vectorOf(line["low"])[0], reach, 0.05e-6);
+        EXPECT_NEAR(vectorOf(line["high"])[0], 8e-6 - reach, 0.05e-6);
+    }
+}
+
+// Beyond a face across which images slide the fluid moves with another velocity: lines end there.
+TEST_F(RenderCase, StreamlinesEndWhereImagesSlide) {
+    TemporaryFolder sheared;
+    std::filesystem::create_directories(sheared.path() / "0");
+    writeBox(sheared.path(), "[16 um, 4 um, 12 um]", "[true, true, true]");
+    PolyData fluid = fluidMoving([](const Vec3&) { return Vec3(0, 0, 1e-3); });
+    for (const bool slides : {false, true}) {
+        if (slides) fluid.field = {{"slidingAxis", 2}, {"imageOffset", 3e-6}, {"imageVelocity", 1e-9}};
+        writeVtp(sheared.path() / "0" / "fluid.vtp", fluid);
+        const auto report = drawIn(sheared.path(), "-streamlines 5 -time first -view xz -size 500");
+        for (const auto& line : report["panels"][0]["streamlines"]) {
+            EXPECT_EQ(line["downstream"], slides ? "outside" : "period");
+            EXPECT_NEAR(line["length"].get<double>(), 12e-6, slides ? 0.02e-6 : 1e-12);
+            if (slides) {
+                EXPECT_NEAR(vectorOf(line["from"])[2], -6e-6, 0.01e-6);
+            }
+        }
+    }
+}
+
+// A plane at a distance d from the middle of the sphere cuts it in a circle of the radius sqrt(radius^2 - d^2). The eye
+// of the view along y is below.
+TEST_F(RenderCase, ACutOpensTheSphere) {
+    const double whole = M_PI * radius * radius;
+    for (const double at : {-2e-6, 0.0, 2e-6}) {
+        const auto report = draw("-view xz -strain 0 -size 700 -cut 'y=" + std::to_string(at * 1e6) + " um'");
+        EXPECT_EQ(report["cut"]["axis"], "y");
+        EXPECT_EQ(report["cut"]["position"], at);
+        EXPECT_EQ(report["cut"]["removed"], "below");
+        Pixels pixels(caseDir() / "postProcessing" / "renderCase.png");
+        const double pixel = std::pow(report["metresPerPixel"].get<double>(), 2);
+        const auto& panel = report["panels"][0];
+        const double circle = M_PI * (radius * radius - at * at);
+        EXPECT_NEAR(pixels.count(panel, isReddish) * pixel / (at > 0 ? circle : whole), 1, 0.03) << at;
+        const double dark = pixels.count(panel, isInside) * pixel;
+        EXPECT_NEAR(dark / circle, 1, at < 0 ? 0.15 : 0.06) << at << ", where the outer side is dark at its edge";
+    }
+}
+
+// Seen obliquely, a slice in the plane of the cut hides the outer side of what remains of the sphere, but not its
+// inside.
+TEST_F(RenderCase, ASliceInThePlaneOfTheCutHasHoles) {
+    TemporaryFolder sheared;
+    writeCase(sheared.path());
+    writeBox(sheared.path(), "[16 um, 4 um, 12 um]", "[true, true, false]");
+    const std::string options = "-view iso -fluidField speed -strain 0 -size 700";
+    int fluid = 0;  // pixels
+    const auto outsideOf = [&](const std::string& more) {
+        const auto report = drawIn(sheared.path(), options + more);
+        EXPECT_EQ(report["fluid"]["axis"], "y");
+        Pixels pixels(sheared.path() / "postProcessing" / "renderCase.png");
+        const double pixel = std::pow(report["metresPerPixel"].get<double>(), 2) / (M_PI * radius * radius);
+        fluid = pixels.count(report["panels"][0], [](const unsigned char* c) { return c[2] > c[0] + 20; });
+        const auto isRed = [](const unsigned char* c) { return isOutside(c) && c[1] < 100; };  // not the pale rim
+        return std::array{pixels.count(report["panels"][0], isRed) * pixel,
+                          pixels.count(report["panels"][0], isInside) * pixel};
+    };
+    EXPECT_GT(outsideOf(" -slice y")[0], 0.8);
+    const int beside = fluid;
+    const auto [outer, inner] = outsideOf(" -cut y -fluid");
+    EXPECT_GT(inner, 0.2);
+    EXPECT_NEAR(static_cast<double>(fluid) / beside, 1, 0.2) << "the slice is coloured beside the cell";
+    const double inFront = outsideOf(" -cut 'y=0 um' -slice 'y=0.1 um'")[0];
+    EXPECT_GT(inFront, 0.03);
+    EXPECT_LT(outer, 0.1 * inFront) << "in another plane the cell is drawn in front of the slice";
+}
+
+TEST_F(RenderCase, ACutOpensAVessel) {
+    TemporaryFolder vessel;
+    writeCase(vessel.path());
+    writeBox(vessel.path(), "[16 um, 10 um, 10 um]", "[true, false, false]");
+    std::filesystem::create_directories(vessel.path() / "constant");
+    std::ofstream(vessel.path() / "constant" / "flow.yaml")
+        << "type: poiseuille\npressureDrop: 1 Pa\nwalls: {type: tube, diameter: 10 um}\n";
+    const auto isGrey = [](const unsigned char* c) { return c[0] < 240 && std::abs(c[0] - c[1]) < 15; };
+    std::vector<double> areas;
+    for (const std::string cut : {"", " -cut 'y=3 um'"}) {
+        const auto report = drawIn(vessel.path(), "-membrane rbc -view xz -strain 0 -size 700" + cut);
+        Pixels pixels(vessel.path() / "postProcessing" / "renderCase.png");
+        const double scale = report["metresPerPixel"];
+        areas.push_back(pixels.count(report["panels"][0], isGrey) * scale * scale);
+    }
+    // Beyond y = 3 um the tube of radius 5 um is 8 um wide, and the sphere no longer covers it.
+    EXPECT_NEAR(areas[0] / (16e-6 * 10e-6 - M_PI * radius * radius), 1, 0.05);
+    EXPECT_NEAR(areas[1] / (16e-6 * 8e-6 - M_PI * (radius * radius - 9e-12)), 1, 0.05);
+}
+
 TEST_F(RenderCase, ASeriesHasOneCameraAndOneRange) {
     const auto reports =
         draw("-series -strain 0,2,5 -field tension1 -size 400 -output " + (caseDir() / "film" / "f.png").string());
@@ -473,6 +649,15 @@ TEST_F(RenderCase, WrongWordsAreNamed) {
         {"-movie cell.avi", "its name ends in .mp4"},
         {"-movie cell.mp4 -series", "-output and -series are for pictures"},
         {"-fps 5", "Give -movie too"},
+        {"-streamlines 0", "-streamlines 0: a whole number of at least 1 is expected"},
+        {"-streamlines 2000", "-streamlines 2000: at most 1000 lines are drawn"},
+        {"-seeds x", "-seeds: of how many lines? Give -streamlines too"},
+        {"-streamlines 5 -seeds 'x=9 um'", "-streamlines 5: there is no fluid at x = 9 um"},
+        {"-streamlines 5 -fluidField sped", "Did you mean 'speed'?"},
+        {"-cut q", "-cut q: 'q' is none of x, y, z"},
+        {"-cut y=3", "'3' is no length"},
+        {"-cut 'z=30 um'", "-cut z=30 um: the cells reach from -4 um to 4 um"},
+        {"-cut x -view xz", "-cut x: the view xz sees this plane edge-on"},
         {"-size 900x100 -field areaStrain", "too small"}};
     for (const auto& [options, words] : wrong) {
         const Outcome run = renderCase(caseDir(), options);

@@ -1,8 +1,11 @@
 #include "actors.hpp"
 
 #include <vtkActor.h>
+#include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkClipPolyData.h>
+#include <vtkConeSource.h>
 #include <vtkContourFilter.h>
 #include <vtkCubeSource.h>
 #include <vtkDoubleArray.h>
@@ -17,6 +20,7 @@
 #include <vtkProperty.h>
 #include <vtkTubeFilter.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace corpuscle {
@@ -43,6 +47,7 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vec3>& positions) {
 vtkSmartPointer<vtkActor> flatActor(vtkPolyData* poly, const Colour& colour) {
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputData(poly);
+    mapper->ScalarVisibilityOff();
     auto actor = vtkSmartPointer<vtkActor>::New();
     actor->SetMapper(mapper);
     actor->GetProperty()->LightingOff();
@@ -50,7 +55,23 @@ vtkSmartPointer<vtkActor> flatActor(vtkPolyData* poly, const Colour& colour) {
     return actor;
 }
 
-Vec3 inPlane(Vec3 v, const SlicePlane& plane) {
+void addTubes(vtkRenderer* renderer, vtkPolyData* lines, double radius, const Colour& colour) {
+    if (lines->GetNumberOfLines() == 0) return;
+    vtkNew<vtkTubeFilter> tubes;
+    tubes->SetInputData(lines);
+    tubes->SetRadius(radius * perMetre);
+    tubes->SetNumberOfSides(8);
+    tubes->Update();
+    renderer->AddActor(flatActor(tubes->GetOutput(), colour));
+}
+
+void colourBy(vtkPolyDataMapper* mapper, const Scale& scale) {
+    mapper->SetLookupTable(scale.colours);
+    mapper->UseLookupTableScalarRangeOn();
+    if (scale.style.colours != FieldStyle::Colours::kinds) mapper->InterpolateScalarsBeforeMappingOn();
+}
+
+Vec3 inPlane(Vec3 v, const Plane& plane) {
     v[plane.axis] = 0;
     return v;
 }
@@ -70,15 +91,21 @@ void addLights(vtkRenderer* renderer) {
     add(0.3, 0.2, 1.0, 0.42);
 }
 
-// The outer and the inner side are two actors: the inner side, visible through a hole, is plain and dark for every
-// field.
-void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::string& name, const std::string& field,
-                const Scale* scale, bool mesh) {
-    vtkNew<vtkPolyData> poly;
+vtkSmartPointer<vtkPolyData> trianglesOf(const io::PolyData& surface) {
+    auto poly = vtkSmartPointer<vtkPolyData>::New();
     poly->SetPoints(pointsOf(surface.points));
     vtkNew<vtkCellArray> cells;
     for (const auto& t : surface.triangles) cells->InsertNextCell({t[0], t[1], t[2]});
     poly->SetPolys(cells);
+    return poly;
+}
+
+// The outer and the inner side are two actors: the inner side, visible through a hole, is plain and dark for every
+// field.
+void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::string& name,
+                const SurfaceStyle& style) {
+    const auto& [field, scale, mesh, cut, rim] = style;
+    const vtkSmartPointer<vtkPolyData> poly = trianglesOf(surface);
     if (scale) {
         const Values values = valuesOf(surface, name, field);
         vtkDataSetAttributes* target =
@@ -89,15 +116,17 @@ void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::s
     normals->SetInputData(poly);
     normals->SplittingOff();
     normals->ConsistencyOff();
+    normals->Update();
+    vtkSmartPointer<vtkPolyData> shown = normals->GetOutput();
+    if (cut) {
+        addTubes(renderer, rimOf(shown, cut->plane), rim, {0.98, 0.74, 0.66});
+        shown = remainder(shown, *cut);
+    }
     for (const bool outside : {true, false}) {
         vtkNew<vtkPolyDataMapper> mapper;
-        mapper->SetInputConnection(normals->GetOutputPort());
+        mapper->SetInputData(shown);
         mapper->SetScalarVisibility(outside && scale);
-        if (scale) {
-            mapper->SetLookupTable(scale->colours);
-            mapper->UseLookupTableScalarRangeOn();
-            if (scale->style.colours != FieldStyle::Colours::kinds) mapper->InterpolateScalarsBeforeMappingOn();
-        }
+        if (scale) colourBy(mapper, *scale);
         vtkNew<vtkActor> actor;
         actor->SetMapper(mapper);
         vtkProperty* property = actor->GetProperty();
@@ -121,7 +150,28 @@ void addSurface(vtkRenderer* renderer, const io::PolyData& surface, const std::s
     }
 }
 
-void addSlice(vtkRenderer* renderer, const Slice& slice, const Scale& scale) {
+namespace {
+
+// The part of the slice at positive distances.
+vtkSmartPointer<vtkPolyData> outsideOf(vtkPolyData* slice, const std::vector<double>& distances) {
+    const auto array = numbersArray(distances);
+    array->SetName("distance");
+    vtkNew<vtkPolyData> measured;
+    measured->ShallowCopy(slice);
+    measured->GetPointData()->SetScalars(array);  // replaces the values, which are added again
+    measured->GetPointData()->AddArray(slice->GetPointData()->GetScalars());
+    vtkNew<vtkClipPolyData> clip;
+    clip->SetInputData(measured);
+    clip->SetValue(0);
+    clip->Update();
+    const vtkSmartPointer<vtkPolyData> rest = clip->GetOutput();
+    rest->GetPointData()->SetActiveScalars("shown");
+    return rest;
+}
+
+}  // namespace
+
+void addSlice(vtkRenderer* renderer, const Slice& slice, const Scale& scale, const std::vector<double>& distances) {
     if (slice.columns < 2 || slice.rows < 2) return;
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
@@ -145,10 +195,8 @@ void addSlice(vtkRenderer* renderer, const Slice& slice, const Scale& scale) {
     poly->SetPolys(cells);
     poly->GetPointData()->SetScalars(numbersArray(slice.values));
     vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(poly);
-    mapper->SetLookupTable(scale.colours);
-    mapper->UseLookupTableScalarRangeOn();
-    if (scale.style.colours != FieldStyle::Colours::kinds) mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->SetInputData(distances.empty() ? poly.Get() : outsideOf(poly, distances).Get());
+    colourBy(mapper, scale);
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     actor->GetProperty()->LightingOff();
@@ -200,10 +248,84 @@ void addArrows(vtkRenderer* renderer, const Slice& slice, const Camera& camera, 
     renderer->AddActor(flatActor(poly, {0.08, 0.08, 0.08}));
 }
 
+namespace {
+
+vtkSmartPointer<vtkPolyData> linesOf(const std::vector<DrawnLine>& lines) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> cells;
+    std::vector<double> values;
+    for (const DrawnLine& line : lines) {
+        for (const DrawnLine::Piece& piece : line.pieces) {
+            cells->InsertNextCell(static_cast<int>(piece.points.size()));
+            for (std::size_t i = 0; i < piece.points.size(); ++i) {
+                cells->InsertCellPoint(points->GetNumberOfPoints());
+                insert(points, piece.points[i]);
+                values.push_back(piece.values[i]);
+            }
+        }
+    }
+    auto poly = vtkSmartPointer<vtkPolyData>::New();
+    poly->SetPoints(points);
+    poly->SetLines(cells);
+    poly->GetPointData()->SetScalars(numbersArray(values));
+    return poly;
+}
+
+// A cone on each line, at a quarter of its longest piece, where a cell in the middle of the box does not hide it.
+vtkSmartPointer<vtkPolyData> conesOf(const std::vector<DrawnLine>& lines, double radius) {
+    vtkNew<vtkAppendPolyData> all;
+    for (const DrawnLine& line : lines) {
+        if (line.pieces.empty()) continue;
+        const auto& piece = *std::max_element(line.pieces.begin(), line.pieces.end(), [](const auto& a, const auto& b) {
+            return a.points.size() < b.points.size();
+        });
+        const std::size_t at = std::max<std::size_t>(piece.points.size() / 4, 1);
+        const Vec3 place = piece.points[at] * perMetre, along = piece.points[at] - piece.points[at - 1];
+        vtkNew<vtkConeSource> cone;
+        cone->SetRadius(3 * radius * perMetre);
+        cone->SetHeight(8 * radius * perMetre);
+        cone->SetResolution(12);
+        cone->SetCenter(place.data());
+        cone->SetDirection(along.data());
+        cone->Update();
+        cone->GetOutput()->GetPointData()->SetScalars(numbersArray(
+            std::vector<double>(static_cast<std::size_t>(cone->GetOutput()->GetNumberOfPoints()), piece.values[at])));
+        all->AddInputData(cone->GetOutput());
+    }
+    all->Update();
+    return all->GetOutput();
+}
+
+}  // namespace
+
+void addStreamlines(vtkRenderer* renderer, const std::vector<DrawnLine>& lines, const Scale* scale, double radius) {
+    if (lines.empty()) return;
+    vtkNew<vtkTubeFilter> tubes;
+    tubes->SetInputData(linesOf(lines));
+    tubes->SetRadius(radius * perMetre);
+    tubes->SetNumberOfSides(10);
+    tubes->CappingOn();
+    tubes->Update();
+    const vtkSmartPointer<vtkPolyData> cones = conesOf(lines, radius);
+    for (vtkPolyData* shape : {tubes->GetOutput(), cones.Get()}) {
+        vtkNew<vtkPolyDataMapper> mapper;
+        mapper->SetInputData(shape);
+        mapper->SetScalarVisibility(scale != nullptr);
+        if (scale) colourBy(mapper, *scale);
+        vtkNew<vtkActor> actor;
+        actor->SetMapper(mapper);
+        actor->GetProperty()->SetColor(0.12, 0.12, 0.12);
+        actor->GetProperty()->SetAmbient(0.55);
+        actor->GetProperty()->SetDiffuse(0.5);
+        renderer->AddActor(actor);
+    }
+}
+
 double wallThickness(const particles::Box& box) { return 0.03 * box.size().maxCoeff(); }
 
 void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const Camera& camera,
-            double metresPerPixel, bool withPlates) {
+            double metresPerPixel, bool withPlates, const Cut* cut) {
     const Vec3 low = box.low * perMetre, high = box.high * perMetre;
     const auto isBehind = [&](int axis, bool upper) {  // whether the camera sees the inner side of this face
         Vec3 outwards = Vec3::Zero(), middle = box.middle();
@@ -237,6 +359,11 @@ void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, co
             Vec3 from = box.low, to = box.high;
             (upper ? from : to)[k] = upper ? box.high[k] : box.low[k];
             (upper ? to : from)[k] += upper ? wallThickness(box) : -wallThickness(box);
+            if (cut) {
+                double& end = (cut->removesUpper ? to : from)[cut->plane.axis];
+                end = cut->removesUpper ? std::min(end, cut->plane.position) : std::max(end, cut->plane.position);
+                if (from[cut->plane.axis] >= to[cut->plane.axis]) continue;
+            }
             vtkNew<vtkCubeSource> plate;
             plate->SetBounds(from[0] * perMetre, to[0] * perMetre, from[1] * perMetre, to[1] * perMetre,
                              from[2] * perMetre, to[2] * perMetre);
@@ -254,7 +381,8 @@ void addBox(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, co
     }
 }
 
-void addWalls(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const boundary::Walls& walls) {
+void addWalls(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, const boundary::Walls& walls,
+              const Cut* cut, double rim) {
     if (!walls.exist()) return;
     // The surface of distance zero, of the distances at the nodes of a grid. Beyond the box there is no fluid, so that
     // walls that touch it are drawn whole.
@@ -282,9 +410,15 @@ void addWalls(vtkRenderer* back, vtkRenderer* front, const particles::Box& box, 
     surface->SetInputData(grid);
     surface->SetValue(0, 0);
     surface->ComputeNormalsOn();
+    surface->Update();
+    vtkSmartPointer<vtkPolyData> shown = surface->GetOutput();
+    if (cut) {
+        addTubes(front, rimOf(shown, cut->plane), rim, {0.45, 0.48, 0.53});
+        shown = remainder(shown, *cut);
+    }
     for (const bool behind : {true, false}) {
         vtkNew<vtkPolyDataMapper> mapper;
-        mapper->SetInputConnection(surface->GetOutputPort());
+        mapper->SetInputData(shown);
         mapper->ScalarVisibilityOff();
         vtkNew<vtkActor> actor;
         actor->SetMapper(mapper);

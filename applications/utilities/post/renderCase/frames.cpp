@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "interpolation.hpp"
 #include "io/vtkSeries.hpp"
 
 namespace corpuscle {

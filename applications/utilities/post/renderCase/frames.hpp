@@ -11,6 +11,7 @@
 #include "io/polyData.hpp"
 #include "particles/box.hpp"
 #include "slice.hpp"
+#include "streamlines.hpp"
 
 namespace corpuscle {
 
@@ -20,6 +21,7 @@ struct Frame {
     std::optional<double> stage;                   // of a protocol
     std::map<std::string, io::PolyData> surfaces;  // by the name of the type of cell or of the rigid body
     std::optional<Slice> slice;                    // slice of the fluid, if the fluid is shown
+    std::vector<DrawnLine> streamlines;            // of the velocity at this time
 };
 
 // One time that the user asks for.

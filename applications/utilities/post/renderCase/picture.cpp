@@ -71,6 +71,9 @@ Camera cameraFor(const std::vector<Frame>& frames, const PictureOptions& options
     for (const Frame& frame : frames) {
         for (const auto& item : frame.surfaces)
             shown.insert(shown.end(), item.second.points.begin(), item.second.points.end());
+        if (!options.box)
+            for (const DrawnLine& line : frame.streamlines)
+                shown.insert(shown.end(), line.course.points.begin(), line.course.points.end());
         if (!frame.slice || (options.frameCells && !shown.empty())) continue;
         for (const int row : {0, frame.slice->rows - 1})
             for (const int column : {0, frame.slice->columns - 1}) shown.push_back(frame.slice->place(column, row));
@@ -101,11 +104,13 @@ using Bars = std::vector<std::pair<const Scale*, std::vector<std::string>>>;
 Bars barsOf(const Plan& plan, std::span<const Frame> frames) {
     Bars bars;
     if (plan.field) bars.emplace_back(&*plan.field, std::vector{plan.field->title});
-    if (plan.fluid) {
-        const SlicePlane& plane = frames.front().slice->plane;
+    if (plan.fluid && !frames.front().slice) {
+        bars.emplace_back(&*plan.fluid, std::vector{plan.fluid->title});
+    } else if (plan.fluid) {
+        const Plane& plane = frames.front().slice->plane;
         const double position = std::abs(plane.position) < 1e-12 ? 0 : plane.position;
         bars.emplace_back(&*plan.fluid,
-                          std::vector{plan.fluid->title, fmt::format("at {} = {}", std::string("xyz")[plane.axis],
+                          std::vector{plan.fluid->title, fmt::format("at {} = {}", plane.axisName(),
                                                                      position == 0 ? "0" : lengthWords(position))});
     }
     return bars;
@@ -226,17 +231,23 @@ double drawLegend(Overlay& overlay, const Plan& plan, const Layout& layout, doub
 }  // namespace
 
 Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options) {
-    Plan plan{options, cameraFor(frames, options), {}, {}, 0, 0, 0};
+    Plan plan{options, cameraFor(frames, options), {}, {}, {}, 0, 0, 0};
+    if (options.cut) plan.cut = cutFor(*options.cut, plan.camera);
     ValueRange field, fluid;
-    bool sliced = false, surfaces = false;
+    bool surfaces = false, showsFluid = false;
     for (const Frame& frame : frames) {
         plan.largestTime = std::max(plan.largestTime, std::abs(frame.time));
         surfaces = surfaces || !frame.surfaces.empty();
         if (options.field != "none")
             for (const auto& [name, surface] : frame.surfaces)
                 for (const double value : valuesOf(surface, name, options.field).numbers) field.add(value);
-        if (!frame.slice) continue;
-        sliced = true;
+        showsFluid = showsFluid || frame.slice || !frame.streamlines.empty();
+        if (!frame.slice) {
+            for (const DrawnLine& line : frame.streamlines)
+                for (const DrawnLine::Piece& piece : line.pieces)
+                    for (const double value : piece.values) fluid.add(value);
+            continue;
+        }
         for (const double value : frame.slice->values) fluid.add(value);
         plan.largestSpeed = std::max(plan.largestSpeed, largestSpeedIn(*frame.slice));
         plan.arrowSpacing = arrowSpacing(*frame.slice);
@@ -248,7 +259,7 @@ Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options) {
                 fmt::format("-field {}: the case has no cells; -fluidField colours the fluid.", options.field));
         plan.field = makeScale(styleOf(options.field), field, options.fieldRange);
     }
-    if (sliced) plan.fluid = makeScale(styleOf(options.fluidField), fluid, options.fluidRange);
+    if (showsFluid) plan.fluid = makeScale(styleOf(options.fluidField), fluid, options.fluidRange);
     return plan;
 }
 
@@ -261,7 +272,26 @@ Panel panelOf(std::size_t number, const Layout& layout) {
             layout.imageHeight};
 }
 
-// Two layers: the slice in the back one, so that it does not hide half of a cell through which it passes.
+bool isSlicedInCut(const Plan& plan, const Frame& frame) {
+    return plan.cut && frame.slice && frame.slice->plane.axis == plan.cut->plane.axis &&
+           frame.slice->plane.position == plan.cut->plane.position;
+}
+
+// A slice in the plane of the cut has holes through which the inside of the cells is seen.
+void drawSlice(vtkRenderer* renderer, const Plan& plan, const Frame& frame, double lengthPerSpeed) {
+    Slice slice = *frame.slice;
+    std::vector<double> distances;
+    if (isSlicedInCut(plan, frame)) {
+        distances = distancesFrom(frame.surfaces, slice);
+        for (std::size_t i = 0; i < slice.velocity.size(); ++i)
+            if (distances[i] < 0) slice.velocity[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    addSlice(renderer, slice, *plan.fluid, distances);
+    if (plan.options.arrows) addArrows(renderer, slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);
+}
+
+// Two layers: a slice that is not in the plane of the cut lies in the back one, so that it does not hide half of a cell
+// through which it passes.
 void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, const Panel& panel, const Layout& layout,
                double lengthPerSpeed) {
     const PictureOptions& options = plan.options;
@@ -275,16 +305,19 @@ void drawPanel(vtkRenderWindow* window, const Plan& plan, const Frame& frame, co
                               (low + panel.height) / layout.height);
         addLights(renderer);
     }
+    const Cut* const cut = plan.cut ? &*plan.cut : nullptr;
+    const double lineRadius = 1.6 * layout.metresPerPixel;
     if (options.box && !options.frameCells) {
-        addBox(back, front, *options.box, plan.camera, layout.metresPerPixel, !options.walls.exist());
-        addWalls(back, front, *options.box, options.walls);
+        addBox(back, front, *options.box, plan.camera, layout.metresPerPixel, !options.walls.exist(), cut);
+        addWalls(back, front, *options.box, options.walls, cut, lineRadius);
     }
-    if (frame.slice) {
-        addSlice(back, *frame.slice, *plan.fluid);
-        if (options.arrows) addArrows(back, *frame.slice, plan.camera, plan.arrowSpacing, lengthPerSpeed);
-    }
+    if (frame.slice) drawSlice(isSlicedInCut(plan, frame) ? front : back, plan, frame, lengthPerSpeed);
+    // On a slice of the same colours lines are plain.
+    if (!frame.streamlines.empty())
+        addStreamlines(front, frame.streamlines, frame.slice ? nullptr : &*plan.fluid, lineRadius);
     for (const auto& [name, surface] : frame.surfaces)
-        addSurface(front, surface, name, options.field, plan.field ? &*plan.field : nullptr, options.mesh);
+        addSurface(front, surface, name,
+                   {options.field, plan.field ? &*plan.field : nullptr, options.mesh, cut, lineRadius});
     for (vtkRenderer* renderer : {back.Get(), front.Get()}) {
         aim(renderer->GetActiveCamera(), plan.camera, layout, panel.width);
         renderer->ResetCameraClippingRange();

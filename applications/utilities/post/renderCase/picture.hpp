@@ -9,6 +9,7 @@
 
 #include "boundary/walls.hpp"
 #include "camera.hpp"
+#include "cut.hpp"
 #include "field.hpp"
 #include "frames.hpp"
 #include "overlay.hpp"
@@ -19,14 +20,15 @@ struct PictureOptions {
     View view;
     std::string field = "none";            // of triangles or points: areaStrain, tension1, ...; none: plain surfaces
     std::optional<ValueRange> fieldRange;  // empty: the range over all frames
-    std::string fluidField = "u";          // of the slice
+    std::string fluidField = "u";          // of the slice and of streamlines
     std::optional<ValueRange> fluidRange;
     bool arrows = false;
-    bool frameCells = false;  // the view covers only the cells, not the box
-    bool mesh = false;        // edges of the triangles
-    bool labelTime = false;   // label with times even if there is a strain
-    int width = 0;            // pixels; 0: depends on the number of panels
-    int height = 0;           // pixels; 0: depends on what is shown
+    bool frameCells = false;   // the view covers only the cells, not the box
+    bool mesh = false;         // edges of the triangles
+    bool labelTime = false;    // label with times even if there is a strain
+    int width = 0;             // pixels; 0: depends on the number of panels
+    int height = 0;            // pixels; 0: depends on what is shown
+    std::optional<Plane> cut;  // what lies in front of it is removed
     std::optional<particles::Box> box;
     boundary::Walls walls;  // other than planes
 };
@@ -35,11 +37,13 @@ struct PictureOptions {
 struct Plan {
     PictureOptions options;
     Camera camera;
+    std::optional<Cut> cut;
     std::optional<Scale> field, fluid;
     double arrowSpacing = 0, largestSpeed = 0;  // m, m/s
     double largestTime = 0;                     // s; determines the unit of the labels
 };
-// Throws Failure(usage) for an unknown field; the message names the existing fields.
+// Throws Failure(usage) for an unknown field, when the message names the existing fields, and for a cut that is seen
+// edge-on.
 Plan makePlan(const std::vector<Frame>& frames, const PictureOptions& options);
 
 struct Panel {

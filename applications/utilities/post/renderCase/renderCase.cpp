@@ -12,6 +12,7 @@
 #include "frames.hpp"
 #include "movie.hpp"
 #include "picture.hpp"
+#include "planes.hpp"
 
 using namespace corpuscle;
 
@@ -110,65 +111,57 @@ FrameChoice choiceOf(const Application& app) {
     return choice;
 }
 
-// Reads "y" or "y=2 um".
-SlicePlane parseSlice(const std::string& text, std::optional<double>& position) {
-    const std::size_t equals = text.find('=');
-    const std::string axis = text.substr(0, equals);
-    const auto fail = [&](const std::string& reason) {
-        throw Failure(
-            ExitCode::usage,
-            fmt::format(
-                "-slice {}: {}; an axis, or an axis and a position with a unit, is expected (like y or 'y=2 um').",
-                text, reason));
-    };
-    if (axis != "x" && axis != "y" && axis != "z") fail(fmt::format("'{}' is none of x, y, z", axis));
-    SlicePlane plane{axis[0] - 'x', 0};
-    if (equals == std::string::npos) return plane;
-    try {
-        const Quantity quantity = parseQuantity(text.substr(equals + 1));
-        const bool length = quantity.hasUnit && !quantity.inSpacings && quantity.dimension == unit::metre;
-        if (!length && quantity.value != 0) fail(fmt::format("'{}' is no length", text.substr(equals + 1)));
-        position = quantity.value;
-    } catch (const std::invalid_argument& error) {
-        fail(error.what());
-    }
-    return plane;
+// The planes of fluid, cut and seeds. `fluid`: a plane of fluid is shown.
+AskedPlanes planesOf(const Application& app, bool fluid, const View& view) {
+    AskedPlanes asked{fluid, view.sliceAxis, {}, {}, {}, 0};
+    const std::pair<const char*, std::optional<AskedPlane>*> planes[] = {
+        {"slice", &asked.slice}, {"cut", &asked.cut}, {"seeds", &asked.seeds}};
+    for (const auto& [name, plane] : planes)
+        if (const auto text = app.value(name)) *plane = parsePlane(std::string("-") + name, *text);
+    constexpr long mostLines = 1000;
+    const long count = app.integer("streamlines", 1).value_or(0);
+    if (count > mostLines)
+        throw Failure(ExitCode::usage, fmt::format("-streamlines {}: at most {} lines are drawn.", count, mostLines));
+    if (asked.seeds && count == 0) throw Failure(ExitCode::usage, "-seeds: of how many lines? Give -streamlines too.");
+    asked.streamlines = static_cast<int>(count);
+    return asked;
 }
 
-// The slice passes through the mean of all cells at all times unless the user gives a position.
-void sampleSlices(const Application& app, const Results& results, const PictureOptions& options,
-                  std::vector<Frame>& frames) {
-    std::optional<double> position;
-    SlicePlane plane{options.view.sliceAxis, 0};
-    if (const auto text = app.value("slice")) plane = parseSlice(*text, position);
-    if (!position) {
-        double sum = 0, count = 0;
-        for (const Frame& frame : frames) {
-            for (const auto& item : frame.surfaces) {
-                for (const Vec3& x : item.second.points) sum += x[plane.axis];
-                count += static_cast<double>(item.second.points.size());
-            }
-        }
-        const double middle = options.box ? options.box->middle()[plane.axis] : 0;
-        position = count > 0 ? sum / count : middle;
-        // The mean of a mesh's points deviates slightly from the middle of the mesh.
-        if (options.box && std::abs(*position - middle) < 0.02 * options.box->size()[plane.axis]) position = middle;
+// Adds the fluid in a plane and streamlines to each frame.
+void addFluid(const Results& results, const PictureOptions& options, const Planes& planes, std::vector<Frame>& frames) {
+    if (!planes.slice && !planes.seeds) return;
+    for (Frame& frame : frames) {
+        const io::PolyData fluid = results.fluidAt(frame.time);
+        if (planes.slice)
+            frame.slice = sampleSlice(fluid, options.box, *planes.slice, options.fluidField, options.arrows);
+        if (planes.seeds)
+            frame.streamlines = streamlinesOf(fluid, options.box, options.walls, *planes.seeds, options.fluidField);
     }
-    plane.position = *position;
-    if (options.box &&
-        (plane.position < options.box->low[plane.axis] || plane.position > options.box->high[plane.axis]))
-        throw Failure(ExitCode::usage, fmt::format("-slice {}: the box reaches from {} to {}.", *app.value("slice"),
-                                                   formatQuantity(options.box->low[plane.axis], unit::metre),
-                                                   formatQuantity(options.box->high[plane.axis], unit::metre)));
-    for (Frame& frame : frames)
-        frame.slice = sampleSlice(results.fluidAt(frame.time), options.box, plane, options.fluidField, options.arrows);
+}
+
+// Whether a plane of fluid is shown. Throws Failure(usage) where there is no fluid, or nothing to cut.
+bool showsSlice(const Application& app, const Results& results, const PictureOptions& options) {
+    bool sliced = false;
+    for (const char* option : {"fluid", "slice", "arrows"}) sliced = sliced || app.has(option);
+    const bool lines = app.has("streamlines");
+    if (!lines) {
+        sliced = sliced || results.surfaces().empty();
+        for (const char* option : {"fluidField", "fluidRange"}) sliced = sliced || app.has(option);
+    }
+    if ((sliced || lines) && !results.hasFluid())
+        throw Failure(ExitCode::usage, fmt::format("{}: the case has no fluid, neither results/fluid.pvd nor "
+                                                   "0/fluid.vtp.",
+                                                   sliced ? "-fluid" : "-streamlines"));
+    if (app.has("cut") && results.surfaces().empty() && !options.walls.exist())
+        throw Failure(ExitCode::usage, "-cut: the case has neither cells nor bodies nor a vessel to cut.");
+    return sliced;
 }
 
 PictureOptions optionsOf(const Application& app) {
     PictureOptions options;
     options.view = viewNamed(app.value("view").value_or("tilted"));
     options.field = app.value("field").value_or("none");
-    options.fluidField = app.value("fluidField").value_or("u");
+    options.fluidField = app.value("fluidField").value_or(app.has("streamlines") ? "speed" : "u");
     if (const auto text = app.value("range")) options.fieldRange = parseRange("-range", *text);
     if (const auto text = app.value("fluidRange")) options.fluidRange = parseRange("-fluidRange", *text);
     if (options.fieldRange && options.field == "none")
@@ -201,9 +194,13 @@ Usage usage() {
                     {"frame", "NAME", "box: the whole box (default), or cells: as far as these reach, without the box"},
                     {"mesh", "", "draw the edges of the triangles"},
                     {"membrane", "NAME", "one cell or body (default: all)"},
+                    {"cut", "AXIS[=POS]", "removes what lies in front of that plane from cells, bodies and walls"},
                     {"fluid", "", "also the fluid in a plane, interpolated from its particles"},
                     {"slice", "AXIS[=POS]", "that plane (default: the shear plane through the cells; 'y=2 um')"},
-                    {"fluidField", "NAME", "u (default), v, w, speed, pressure, ...: what the plane shows"},
+                    {"streamlines", "N", "N lines along the velocity at that time (not the paths of particles)"},
+                    {"seeds", "AXIS[=POS]", "the section from which they start (default: x, at a periodic face)"},
+                    {"fluidField", "NAME",
+                     "u, v, w, speed, pressure, ...: what plane (default u) and lines (speed) show"},
                     {"fluidRange", "LOW,HIGH", "of its colours"},
                     {"arrows", "", "velocity in that plane"},
                     {"series", "", "a file for each time, with the same camera and colours (default: all times)"},
@@ -215,11 +212,28 @@ Usage usage() {
                     "renderCase -strain 0,2,4,6 -field areaStrain -output areaStrain.png",
                     "renderCase -time '2 ms, latest' -fluid -arrows", "renderCase -view xz -frame cells -mesh",
                     "renderCase -series -fluid -fluidField pressure -output film/frame.png",
-                    "renderCase -movie cell.mp4 -fluid -view xz"}};
+                    "renderCase -streamlines 30 -cut y -strain latest", "renderCase -movie cell.mp4 -fluid -view xz"}};
 }
 
 nlohmann::json jsonOf(const Scale& scale) {
     return {{"title", scale.title}, {"low", scale.range.low}, {"high", scale.range.high}};
+}
+
+nlohmann::json jsonOf(const Plane& plane) { return {{"axis", plane.axisName()}, {"position", plane.position}}; }
+
+// Positions are contiguous across periodic faces.
+nlohmann::json jsonOf(const Streamline& line) {
+    const auto list = [](const Vec3& x) { return nlohmann::json{x[0], x[1], x[2]}; };
+    Vec3 low = line.points.front(), high = low;
+    for (const Vec3& x : line.points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    return {{"seed", list(line.points[line.seed])},
+            {"from", list(line.points.front())},
+            {"to", list(line.points.back())},
+            {"low", list(low)},
+            {"high", list(high)},
+            {"length", line.length()},
+            {"upstream", line.upstream ? nameOf(*line.upstream) : "seed"},
+            {"downstream", nameOf(line.downstream)}};
 }
 
 nlohmann::json report(const std::filesystem::path& output, std::span<const Frame> frames, const Plan& plan,
@@ -229,6 +243,7 @@ nlohmann::json report(const std::filesystem::path& output, std::span<const Frame
         const Panel& p = picture.panels[i];
         panels.push_back({{"time", frames[i].time}, {"x", p.x}, {"y", p.y}, {"width", p.width}, {"height", p.height}});
         if (frames[i].strain) panels.back()["strain"] = *frames[i].strain;
+        for (const DrawnLine& line : frames[i].streamlines) panels.back()["streamlines"].push_back(jsonOf(line.course));
     }
     for (const Place& p : picture.places)
         places.push_back({{"what", p.what},
@@ -242,8 +257,11 @@ nlohmann::json report(const std::filesystem::path& output, std::span<const Frame
     if (plan.field) all["field"] = jsonOf(*plan.field);
     if (plan.fluid) {
         all["fluid"] = jsonOf(*plan.fluid);
-        all["fluid"]["axis"] = std::string(1, "xyz"[frames.front().slice->plane.axis]);
-        all["fluid"]["position"] = frames.front().slice->plane.position;
+        if (frames.front().slice) all["fluid"].update(jsonOf(frames.front().slice->plane));
+    }
+    if (plan.cut) {
+        all["cut"] = jsonOf(plan.cut->plane);
+        all["cut"]["removed"] = plan.cut->removesUpper ? "above" : "below";
     }
     return all;
 }
@@ -284,12 +302,10 @@ int main(int argc, char* argv[]) {
         const PlacesByName places = results.hasRun() ? PlacesByName() : readPlacesOfCells(app);
         if (!app.communicator().isRoot()) return ExitCode::done;
         std::vector<Frame> frames = results.frames(choice, options.box, places);
-        bool sliced = results.surfaces().empty();
-        for (const char* option : {"fluid", "slice", "fluidField", "fluidRange", "arrows"})
-            sliced = sliced || app.has(option);
-        if (sliced && !results.hasFluid())
-            throw Failure(ExitCode::usage, "-fluid: the case has no fluid, neither results/fluid.pvd nor 0/fluid.vtp.");
-        if (sliced) sampleSlices(app, results, options, frames);
+        const bool sliced = showsSlice(app, results, options);
+        const Planes planes = placePlanes(planesOf(app, sliced, options.view), frames, options.box);
+        options.cut = planes.cut;
+        addFluid(results, options, planes, frames);
 
         // 3. One picture for all times, or one for each time.
         const Plan plan = makePlan(frames, options);
