@@ -53,6 +53,14 @@ void writeFileAtomically(const std::filesystem::path& file, const std::string& t
     throw writeFailure(file, reason);
 }
 
+std::filesystem::path fileOfTemporary(const std::filesystem::path& temporary) {
+    const std::filesystem::path withProcess = temporary.parent_path() / temporary.stem();
+    const std::string process = withProcess.extension().string();
+    const bool isNumber = process.size() > 1 && process.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (temporary.extension() != ".tmp" || !isNumber) return {};
+    return withProcess.parent_path() / withProcess.stem();
+}
+
 bool overwriteFile(const std::filesystem::path& file, const std::string& text) {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) return false;

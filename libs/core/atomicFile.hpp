@@ -12,6 +12,10 @@ namespace corpuscle {
 // disk.
 void writeFileAtomically(const std::filesystem::path& file, const std::string& text, long room = 0);
 
+// The file for which this is a temporary name of writeFileAtomically, left by a program that was killed while it wrote;
+// empty where it is none.
+std::filesystem::path fileOfTemporary(const std::filesystem::path& temporary);
+
 // Last resort on a full disk: overwrites the old text within the disk blocks that the file already has. Not atomic.
 // Returns false where these blocks are too few.
 bool overwriteFile(const std::filesystem::path& file, const std::string& text);

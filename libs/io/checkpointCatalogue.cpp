@@ -38,6 +38,18 @@ std::vector<std::filesystem::path> leftovers(const std::filesystem::path& caseDi
     return files;
 }
 
+// Together with the files that Open MPI keeps beside a file while several ranks write to it: .000012.h5.part.data.1
+void removeLeftovers(const std::filesystem::path& caseDir) {
+    std::error_code ignored;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folderOf(caseDir), ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (isTemporaryName(entry.path()) || (name.starts_with(".") && name.find(".h5.part.") != std::string::npos))
+            files.push_back(entry.path());
+    }
+    for (const auto& path : files) std::filesystem::remove(path, ignored);
+}
+
 }  // namespace
 
 std::filesystem::path nextCheckpoint(MPI_Comm comm, const std::filesystem::path& caseDir) {
@@ -131,7 +143,7 @@ long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<doubl
             if (info.time > *last) gone.push_back(info.path);
     } else {
         for (const auto& [number, path] : numberedFiles(caseDir)) gone.push_back(path);
-        for (const auto& path : leftovers(caseDir)) std::filesystem::remove(path);
+        removeLeftovers(caseDir);
     }
     for (const auto& path : gone) std::filesystem::remove(path);
     return static_cast<long>(gone.size());
@@ -140,7 +152,7 @@ long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<doubl
 void keepCheckpoints(MPI_Comm comm, const std::filesystem::path& caseDir, int keep) {
     onRoot(comm, [&] {
         std::error_code ignored;
-        for (const auto& path : leftovers(caseDir)) std::filesystem::remove(path, ignored);
+        removeLeftovers(caseDir);
         const auto files = numberedFiles(caseDir);
         const int surplus = keep > 0 ? static_cast<int>(files.size()) - keep : 0;
         for (int i = 0; i < surplus; ++i) std::filesystem::remove(files[static_cast<std::size_t>(i)].second, ignored);

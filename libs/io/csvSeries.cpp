@@ -122,13 +122,6 @@ bool isNumber(const std::string& name) {
     return !name.empty() && *end == 0;
 }
 
-// <file>.csv.<process>.tmp (core/atomicFile), left by a program that was killed while it wrote a table.
-bool isLeftover(const fs::path& path) {
-    const fs::path process = path.stem().extension();
-    return path.extension() == ".tmp" && path.stem().stem().extension() == ".csv" && !process.empty() &&
-           isNumber(process.string().substr(1));
-}
-
 std::string firstLineOf(const fs::path& path) {
     std::ifstream file(path);
     std::string line;
@@ -172,7 +165,7 @@ void removeIfEmpty(const fs::path& folder) {
 
 void clearFolder(const fs::path& folder, const std::string& kind, std::optional<double> restart) {
     for (const fs::path& path : entries(folder)) {
-        if (isLeftover(path))
+        if (fileOfTemporary(path).extension() == ".csv")  // left by a program that was killed while it wrote a table
             removeFile(path);
         else if (fs::is_directory(path) && !restart) {
             for (const fs::path& old : entries(path))

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "core/atomicFile.hpp"
 #include "core/error.hpp"
 #include "core/together.hpp"
 #include "io/checkpointFile.hpp"
@@ -44,6 +45,27 @@ void removeAllBut(const std::set<std::string>& kept, const std::filesystem::path
         if (isEntryOf(stem, stream) && !kept.contains(stem)) std::filesystem::remove_all(path, ignored);
     }
     if (entriesOf(folder).empty()) std::filesystem::remove(folder, ignored);
+}
+
+// What a killed program was writing by writeFileAtomically: `isOwn` says for which files.
+template <class IsOwn>
+void removeUnfinished(const std::filesystem::path& folder, IsOwn&& isOwn) {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : entriesOf(folder))
+        if (const std::filesystem::path file = fileOfTemporary(path); !file.empty() && isOwn(file))
+            std::filesystem::remove(path, ignored);
+}
+
+void removeUnfinished(const std::filesystem::path& caseDir) {
+    removeUnfinished(caseDir, [](const std::filesystem::path& file) {
+        return file.filename() == "run.json" || file.filename() == "used.yaml";
+    });
+    const std::filesystem::path results = caseDir / "results";
+    removeUnfinished(results, [](const std::filesystem::path& file) { return file.extension() == ".pvd"; });
+    for (const std::filesystem::path& folder : entriesOf(results))
+        removeUnfinished(folder, [&](const std::filesystem::path& file) {
+            return file.extension() == ".pvtp" && isEntryOf(file.stem().string(), folder.filename().string());
+        });
 }
 
 void clearStream(const std::filesystem::path& index, double last, bool all, ClearedOutput& cleared) {
@@ -90,6 +112,7 @@ ClearedOutput clearAfter(MPI_Comm comm, const std::filesystem::path& caseDir, st
     ClearedOutput cleared;
     onRoot(comm, [&] {
         const double last = start ? *start * (1 + slack) : -std::numeric_limits<double>::infinity();
+        removeUnfinished(caseDir);
         cleared.checkpoints = removeCheckpoints(caseDir, start ? std::optional<double>(last) : std::nullopt);
         for (const std::filesystem::path& path : entriesOf(caseDir / "results"))
             if (path.extension() == ".pvd") clearStream(path, last, !start, cleared);

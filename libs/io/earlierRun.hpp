@@ -20,7 +20,8 @@ struct ClearedOutput {
 
 // Collective. Removes what lies after `start` [s] by more than 1e-8 of it, or everything where there is no start (a run
 // from 0/): the entries and their files of every stream of results/, including streams of cells that the case no longer
-// has, and checkpoints. Files that no run of Corpuscle wrote stay. For tables see csvSeries.hpp.
+// has, and checkpoints; also the temporary files of a run that was killed while it wrote one of the files above, or
+// run.json and used.yaml. Files that no run of Corpuscle wrote stay. For tables see csvSeries.hpp.
 ClearedOutput clearAfter(MPI_Comm comm, const std::filesystem::path& caseDir, std::optional<double> start);
 
 }  // namespace corpuscle::io

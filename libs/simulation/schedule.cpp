@@ -256,7 +256,8 @@ ExitCode Schedule::end(const Scene& scene, const Time& time) {
     reportGuard(scene, time);
     reportRupture(scene, time);
     reportObservers(scene, time);
-    saveCheckpoint(scene, time);
+    // A run that was killed after its last checkpoint has nothing to add to it.
+    if (!isContinued_ || time.step > start_.step || time.running()) saveCheckpoint(scene, time);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     const long steps = time.step - start_.step;
     record_.set("performance", "steps", steps);

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "core/atomicFile.hpp"
 #include "core/runRecord.hpp"
+#include "core/together.hpp"
 #include "core/writable.hpp"
 #include "simulation/memoryLimit.hpp"
 #include "simulation/restart.hpp"
@@ -38,6 +42,21 @@ void reportFinished(Application& app, const Case& input, const StartingPoint& fr
     record.set("", "status", "finished");
     record.set("", "reason", reason);
     record.print();
+}
+
+// Whether run.json shows that a run was killed, or its disk was full, when it had written its last checkpoint: what
+// follows then (summaries, run.json, log) is made up for.
+bool wasCutShort(const Case& input, const Communicator& communicator) {
+    bool cut = false;
+    onRoot(communicator.handle(), [&] {
+        const std::filesystem::path file = input.directory / "run.json";
+        std::error_code none;
+        if (!std::filesystem::exists(file, none)) return;
+        const auto record = nlohmann::json::parse(readFile(file), nullptr, false);
+        const auto status = record.is_object() ? record.value("status", nlohmann::json()) : nlohmann::json();
+        cut = status == "running" || status == "failed";
+    });
+    return communicator.anyTrue(cut);
 }
 
 // The files that a run will write, by their temporary names, which are the longest.
@@ -77,7 +96,7 @@ StartingPoint prepare(Application& app, const Case& input) {
     from.scene = emptyScene(input, comm);
     from.state = readCheckpoint(from.checkpoint, input, from.scene, from.time);
     if (from.time.lastStep) *from.time.lastStep += from.time.step;
-    if (!from.time.running() && !app.has("dry-run")) {
+    if (!from.time.running() && !app.has("dry-run") && !wasCutShort(input, app.communicator())) {
         from.isFinished = true;
         reportFinished(app, input, from);
         return from;

@@ -200,13 +200,17 @@ TEST(Checkpoint, AKilledWriterLeavesTheOldOnes) {
     MPI_Barrier(MPI_COMM_WORLD);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(checkpoints), {}), 1) << "an abandoned file remains";
     MPI_Barrier(MPI_COMM_WORLD);
-    if (rankOf(MPI_COMM_WORLD) == 0) std::ofstream(checkpoints / ".000001.h5.part") << "killed here";
+    if (rankOf(MPI_COMM_WORLD) == 0)
+        for (const char* name : {".000001.h5.part", ".000001.h5.part.data.1", ".000001.h5.part.metadata.0"})
+            std::ofstream(checkpoints / name) << "killed here";
     MPI_Barrier(MPI_COMM_WORLD);
     const CheckpointSearch latest = latestCheckpoint(MPI_COMM_WORLD, folder.path());
     EXPECT_EQ(latest.path, checkpoints / "000000.h5");
     ASSERT_EQ(latest.warnings.size(), 1u);
     EXPECT_NE(latest.warnings[0].find("incomplete"), std::string::npos);
     EXPECT_EQ(nextCheckpoint(MPI_COMM_WORLD, folder.path()).filename(), "000001.h5");
+    keepCheckpoints(MPI_COMM_WORLD, folder.path(), 2);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(checkpoints), {}), 1) << "files of a killed run remain";
 }
 
 TEST(Checkpoint, ListsFindsAndKeepsTheLatest) {

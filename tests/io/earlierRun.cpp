@@ -40,9 +40,16 @@ class EarlierRun : public testing::Test {
                                                    "file=\"../elsewhere/a.vtp\"/></Collection></VTKFile>";
             // Left by a write that was killed: no index names it.
             std::filesystem::create_directories(results / "rbc" / "rbc_000005");
-            std::ofstream(results / "rbc" / "my_rbc_000009.pvtp") << "mine";
+            for (const auto& name : unfinished()) std::ofstream(folder.path() / name) << "half";
+            for (const char* name : {"rbc/my_rbc_000009.pvtp", "rbc/my_rbc_000009.pvtp.4711.tmp", "../mine.4711.tmp",
+                                     "../run.json.old.tmp"})
+                std::ofstream(results / name) << "mine";
         }
         world.barrier();
+    }
+    static std::vector<std::string> unfinished() {
+        return {"run.json.4711.tmp", "used.yaml.4711.tmp", "results/rbc.pvd.4711.tmp",
+                "results/rbc/rbc_000003.pvtp.4711.tmp"};
     }
     std::size_t times(const std::string& stream) {
         world.barrier();
@@ -61,8 +68,10 @@ class EarlierRun : public testing::Test {
         return listCheckpoints(folder.path()).size();
     }
     void expectForeignFilesKept() {
-        for (const char* file : {"notes.txt", "mine.pvd", "rbc/my_rbc_000009.pvtp"})
+        for (const char* file : {"notes.txt", "mine.pvd", "rbc/my_rbc_000009.pvtp", "rbc/my_rbc_000009.pvtp.4711.tmp",
+                                 "../mine.4711.tmp", "../run.json.old.tmp"})
             EXPECT_TRUE(std::filesystem::exists(results / file)) << file;
+        for (const auto& name : unfinished()) EXPECT_FALSE(std::filesystem::exists(folder.path() / name)) << name;
     }
 };
 

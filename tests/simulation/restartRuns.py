@@ -389,6 +389,18 @@ def test_finished(folder):
     assert "End after" in said(case, *sets("system/control.yaml:/endStrain=0.04"))
     unchanged(case, "dmpFlow", *sets("system/control.yaml:/endStrain=0.04"), code=0)
     assert "End after" in said(case, *sets("system/control.yaml:/startFrom=firstTime"))
+    # Killed, or out of disk space, between the last checkpoint and the end: what was left to do is made up for.
+    for status, ranks in (("running", 1), ("failed", 2)):
+        record, last = json.loads((case / "run.json").read_text()), last_checkpoint(case)
+        del record["result"]
+        (case / "run.json").write_text(json.dumps({**record, "status": status}))
+        (case / "run.json.4711.tmp").write_text("{")
+        run(case, "dmpFlow", ranks=ranks)
+        again = json.loads((case / "run.json").read_text())
+        assert again["status"] == "done" and again["performance"]["steps"] == 0 and again["result"]["strain"] >= 0.03, again["status"]
+        assert last_checkpoint(case) == last and not (case / "run.json.4711.tmp").exists()
+        assert ranks > 1 or again["observers"] == record["observers"], (again["observers"], record["observers"])
+        unchanged(case, "dmpFlow", code=0, ranks=ranks)
     fluid = prepared(folder / "fluid", {**FLUID_CASE, "system/control.yaml": "application: sphFlow\nendTime: 2 ms\n"})
     run(fluid, "sphFlow")
     unchanged(fluid, "sphFlow", code=0)
