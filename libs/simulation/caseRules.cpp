@@ -382,10 +382,8 @@ void checkSizes(const Case& c, double shearModulus, Problems& problems) {
     }
 }
 
-namespace {
-
-// Observers whose interval is shorter than the step look once in each step only.
-void addShortIntervals(const Case& c, std::vector<std::string>& words) {
+std::vector<std::string> caseNotes(const Case& c) {
+    std::vector<std::string> notes;
     const auto costs = schemes::predictCosts(c.written, c.facts());
     const auto taken = std::find_if(costs.begin(), costs.end(), [&](const schemes::IntegratorCost& cost) {
         return cost.name == c.numerics.integrator;
@@ -399,15 +397,13 @@ void addShortIntervals(const Case& c, std::vector<std::string>& words) {
         if (seconds >= step) continue;
         const std::string least =
             isStrain ? fmt::format("{:.3g} strain", step * c.flow.shearRate) : formatQuantity(step, unit::second, 3);
-        words.push_back(
-            fmt::format("system/observers.yaml: {}.every: an interval of {} is shorter than the predicted step of {}, "
-                        "so that there "
-                        "is one row for each step only, at the end of the step; write {} or more, or '1 steps'",
+        notes.push_back(
+            fmt::format("system/observers.yaml: {}.every: an interval of {} is shorter than the predicted step of {}: "
+                        "there will be one row for each step, at its end; for fewer rows write {} or more",
                         name, formatQuantity(seconds, unit::second), formatQuantity(step, unit::second, 3), least));
     }
+    return notes;
 }
-
-}  // namespace
 
 std::vector<std::string> caseWarnings(const Case& c) {
     std::map<std::string, std::set<std::string>> taken;  // by kind
@@ -432,7 +428,6 @@ std::vector<std::string> caseWarnings(const Case& c) {
     // A case may well step over a start or a decay; a drive, hardly.
     const std::string unfit = c.flow.drive && !c.flow.drive->isSteady() ? c.scheme().unfit(c.facts(), c.numerics) : "";
     if (!unfit.empty()) words.push_back(fmt::format("system/numerics.yaml: {}: {}", c.numerics.integrator, unfit));
-    addShortIntervals(c, words);
     return words;
 }
 

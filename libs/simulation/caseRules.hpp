@@ -21,8 +21,12 @@ void checkControl(const Case& c, Problems& problems);
 
 // What a case may do but hardly means, one sentence each, which says what to do: entries of constant/membranes.yaml
 // and constant/bodies.yaml that no cell or body uses, so that changes to them have no effect; steps, as written, that
-// do not follow a drive; observers whose interval is shorter than the predicted step.
+// do not follow a drive.
 std::vector<std::string> caseWarnings(const Case& c);
+
+// What a case does otherwise than its settings say, though that does no harm: observers whose interval is shorter than
+// the predicted step, which look once in each step only. One sentence each.
+std::vector<std::string> caseNotes(const Case& c);
 
 // Values that each lie within their range can combine to a quantity that overflows or underflows. Adds a problem for
 // the first such quantity, once the flow is known.

@@ -128,6 +128,7 @@ void Schedule::begin(const Scene& scene, const Time& time) {
     observers_.run(scene, time);
     for (const std::string& note : observers_.notes()) app_.log().warning("{}", note);
     for (const std::string& note : caseWarnings(input_)) app_.log().warning("{}", note);
+    for (const std::string& note : caseNotes(input_)) app_.log().info("note: {}", note);
 }
 
 void Schedule::afterStep(const Scene& scene, const Time& time) {

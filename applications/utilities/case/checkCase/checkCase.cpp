@@ -417,6 +417,7 @@ int main(int argc, char* argv[]) {
         findEdges(report, input);
         findDensity(report, input);
         for (const std::string& words : simulation::caseWarnings(input)) report.warnings.push_back(words);
+        for (const std::string& note : simulation::caseNotes(input)) report.line("note: " + note);
         reportSize(report, input);
         simulation::requireMemory(app.communicator(), input);
         reportCosts(report, input);
