@@ -143,8 +143,8 @@ long removeCheckpoints(const std::filesystem::path& caseDir, std::optional<doubl
             if (info.time > *last) gone.push_back(info.path);
     } else {
         for (const auto& [number, path] : numberedFiles(caseDir)) gone.push_back(path);
-        removeLeftovers(caseDir);
     }
+    removeLeftovers(caseDir);
     for (const auto& path : gone) std::filesystem::remove(path);
     return static_cast<long>(gone.size());
 }
