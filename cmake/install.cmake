@@ -25,6 +25,16 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/python DESTINATION ${data} COMPONENT corpu
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${data} COMPONENT corpuscle PATTERN __pycache__ EXCLUDE)
 install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/LICENSE ${CMAKE_SOURCE_DIR}/CITATION.cff
     DESTINATION ${data} COMPONENT corpuscle)
+# What these pages link to, as in the repository: pages, pictures and reference data of validation and benchmarks.
+set(linked "")
+foreach(pattern tests/*.md tests/*.png tests/validation/*.csv benchmarks/*.md benchmarks/*.png benchmarks/*.svg benchmarks/*.csv etc/cells/*)
+    file(GLOB_RECURSE found RELATIVE ${CMAKE_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${pattern})
+    list(APPEND linked ${found})
+endforeach()
+foreach(page CONTRIBUTING.md tests/validation/sphereNearWall/wallBox.py ${linked})
+    get_filename_component(folder ${page} DIRECTORY)
+    install(FILES ${CMAKE_SOURCE_DIR}/${page} DESTINATION ${data}/${folder} COMPONENT corpuscle)
+endforeach()
 # Of the tutorials what is under version control; what runs have left is not.
 install(CODE "
     execute_process(COMMAND git -C \"${CMAKE_SOURCE_DIR}\" ls-files tutorials OUTPUT_VARIABLE listed RESULT_VARIABLE failed ERROR_QUIET)
@@ -52,7 +62,7 @@ if(Python3_FOUND)
         COMMAND ${CMAKE_COMMAND} -E touch ${manual}/stamp
         DEPENDS ${programs} ${CMAKE_SOURCE_DIR}/etc/makeManual COMMENT "Man pages and completion" VERBATIM)
     add_custom_target(manual ALL DEPENDS ${manual}/stamp)
-    install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT corpuscle)
+    install(DIRECTORY ${manual}/man1 ${manual}/man7 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT corpuscle)
     install(DIRECTORY ${manual}/bash-completion/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT corpuscle)
 endif()
 

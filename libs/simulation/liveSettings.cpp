@@ -95,8 +95,8 @@ bool LiveSettings::update(Case& input, const coupling::Scene& scene, Time& time,
     } catch (const Failure& fault) {
         app_.log().warning(
             "An edit of the case while it runs is not taken over; the run goes on with the settings of "
-            "before:\n{}",
-            fault.what());
+            "before. Changes of {} and {} wait until both are correct:\n{}",
+            watched[0], watched[1], fault.what());
         return false;
     }
 }

@@ -7,8 +7,8 @@
     cell = case.surface("rbc", strain=2)             # points, triangles, arrays as numpy
     corpuscle.period(shape, "D12_extent")
 
-Needs python3-pandas; python3-vtk9 for meshes and particles; python3-matplotlib for reports; the programs of Corpuscle for changes and runs. They are looked for in
-$CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
+Needs python3-pandas; python3-vtk9 or python3-paraview for meshes and particles; python3-matplotlib for reports; the programs of Corpuscle for changes and
+runs. They are looked for in $CORPUSCLE_BIN, in the repository that this package lies in, and along PATH.
 """
 from .analysis import Mean, crossing, mean, period, tankTreadingFrequency, unwrapped
 from .case import Case

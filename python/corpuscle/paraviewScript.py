@@ -1,8 +1,8 @@
 """The case in ParaView at all times: cells, bodies, the fluid in a plane, walls and box. Written by paraviewState (Corpuscle).
 
     paraview --script=postProcessing/paraviewState.py                                    or File > Load State...
-    pvpython --force-offscreen-rendering postProcessing/paraviewState.py picture.png     without a display, the latest time
-    pvpython --force-offscreen-rendering postProcessing/paraviewState.py picture.png 0   the first time, 1 the second, ...
+    pvpython --force-offscreen-rendering postProcessing/paraviewState.py postProcessing/picture.png     without a display, the latest time
+    pvpython --force-offscreen-rendering postProcessing/paraviewState.py postProcessing/picture.png 0   the first time, 1 the second, ...
 
 It needs ParaView alone and finds the results by its own place, so that the folder of the case may be copied to another machine. Numbers are in SI
 units. Particles of the fluid and of walls that are not shown at first are in the pipeline browser: click the eye beside them.

@@ -59,7 +59,7 @@ def readSurface(path):
         import vtkmodules.vtkIOXML as readers
         from vtkmodules.util.numpy_support import vtk_to_numpy
     except ImportError as error:
-        raise ImportError("meshes and particles are read by VTK: apt-get install python3-vtk9") from error
+        raise ImportError("meshes and particles are read by VTK: apt-get install python3-vtk9, or python3-paraview, which has VTK, too") from error
     path = pathlib.Path(path)
     if not path.is_file():
         raise FileNotFoundError(path)

@@ -25,6 +25,7 @@ ELSEWHERE = {
     "./Allrun                                       # or cmake": "etc.install",
     "cd build && cpack": "by hand, in a clean Debian 12",
     "newModel law mySpring -plugin": "etc.install",
+    "cloneCase tutorials/rbcShear/Ca0.02 firstCell   # a path": "etc.install",
     "cmake -S . -B build -G Ninja -DCORPUSCLE_BENCHMARKS=ON": "benchmarks are run by hand",
     "./Allrun                                                    # haematocrits": "tutorials.bloodViscosity",
     "./Allrun                                    # eight stresses": "tutorials.haemolysisMap",
@@ -41,7 +42,7 @@ SESSIONS = {
     "docs/renderCase.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && membraneMesh && particleFill && dmpFlow
 command -v ffmpeg >/dev/null || { mkdir ffmpeg && printf '#!/bin/sh\\nfor last; do :; done; echo >$last' >ffmpeg/ffmpeg && chmod +x ffmpeg/ffmpeg && PATH=$PATH:$PWD/ffmpeg; }
-""", ["myCell/film/frame_0000.png"]),
+""", ["myCell/postProcessing/film/frame_0000.png"]),
     "docs/caseReport.md": (CLONE + """
 cloneCase tutorials/rbcShear/Ca0.02 myCell && cd myCell && caseDict -quiet -set system/control.yaml:/endStrain=0.5
 membraneMesh && particleFill && dmpFlow && printf 'strain,D12_extent\\n0,0.58\\n0.4,0.58\\n' >myReference.csv

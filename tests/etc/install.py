@@ -6,6 +6,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -40,6 +41,12 @@ def refused(words, cwd, environment, *messages):
     assert done.returncode == 2, (words, done.returncode, done.stdout + done.stderr)
     for message in messages:
         assert message in done.stderr, (message, done.stderr)
+
+
+def deadLinks(share):
+    """Relative links of the installed pages that lead nowhere."""
+    return [(str(page.relative_to(share)), link) for page in share.rglob("*.md") for link in re.findall(r"\]\(([^)#\s]+)", page.read_text())
+            if "://" not in link and not link.startswith("mailto:") and not (page.parent / link).exists()]
 
 
 def plugin(folder, root, environment):
@@ -103,6 +110,13 @@ def main():
         # Ready cells lie beside the programs, and take precedence over those of the sources.
         run(["cloneCase", "case", "ready", "-set", "system/mesh.yaml:/cells=[{name: rbc, cell: healthyRBC, edge: 1 um}]"], folder, environment)
         run(["membraneMesh", "-quiet", "-case", "ready"], folder, environment)
+        # A tutorial is found by its path in the repository, and a copy finds the scripts that draw its curves.
+        run(["cloneCase", "tutorials/rbcShear/Ca0.02", "named", "-set", "constant/flow.yaml:/Ca=0.03"], folder, environment)
+        assert (folder / "named/constant/flow.yaml").read_text().count("0.03") == 1
+        said = run(["./Allrun", *[word for change in COARSE for word in ("-set", change)]], folder / "named", dict(environment, CORPUSCLE_NP="1"))
+        assert "No table and curves" not in said and (folder / "named/postProcessing/shape.png").exists(), said
+        assert deadLinks(share) == [], deadLinks(share)
+        assert "dmpFlow" in (root / "share/man/man7/corpuscle.7").read_text()
         assert (tutorial / "Allrun").stat().st_mode & 0o111 and not (tutorial / "0").exists()
         assert (share / "docs/quickstart.md").exists() and (share / "schema/mesh.json").exists()
 

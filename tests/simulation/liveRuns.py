@@ -64,8 +64,10 @@ def reached(case):
 
 
 def end(case, process):
-    """Lowers the end to a time that has passed."""
-    (case / "system/control.yaml").write_text((case / "system/control.yaml").read_text().replace("endTime: 1000 s", "endTime: 1 ms"))
+    """Lowers the end to a time that has passed, by caseDict, which may change nothing else of a running case."""
+    refused = run(case, "caseDict", "-set", "constant/flow.yaml:/shearRate=1 1/s", code=4).stderr
+    assert "is at work in this case" in refused, refused
+    run(case, "caseDict", "-set", "system/control.yaml:/endTime=1 ms")
     said = process.communicate(timeout=120)[1]
     assert process.returncode == 0, said
     return said
@@ -140,6 +142,7 @@ def test_rejected(folder):
             edit(case, process, file, text, expected)
             (case / "system/control.yaml").write_text(CONTROL)
             (case / "system/observers.yaml").write_text("layers: {type: profile, every: 0.05 s, bins: 4}  # as before\n")
+        assert "Changes of system/control.yaml and system/observers.yaml wait until both are correct" in log(case), log(case)
         before = log(case).count("not taken over")
         (case / "system/observers.yaml").unlink()
         until(lambda: "system/observers.yaml: the file is gone; its observers go on" in log(case), process, "file removed")

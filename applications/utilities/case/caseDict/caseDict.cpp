@@ -97,9 +97,21 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
+// Whether all entries to be changed are of dictionaries that a solver reads again while it runs (liveSettings.hpp).
+bool areLive(const Application& app) {
+    std::vector<std::string> files;
+    for (const std::string& removed : split(app.value("remove").value_or(""))) files.push_back(entryOf(removed).file);
+    for (const Override& change : app.overrides()) files.push_back(change.file);
+    return std::all_of(files.begin(), files.end(), [](const std::string& file) {
+        const std::string name = fs::path(file).lexically_normal().string();
+        return name == "system/control.yaml" || name == "system/observers.yaml";
+    });
+}
+
 void change(Application& app) {
     const fs::path caseDir = app.caseDirectory();
-    app.lockCase();  // locked before reading, so that the text that is changed is the text that was read
+    // Locked before reading, so that the text that is changed is the text that was read.
+    if (!areLive(app)) app.lockCase();
     std::map<std::string, std::string> before, after;
     const auto text = [&](const std::string& file) -> std::string& {
         const std::string name = fs::path(file).lexically_normal().string();

@@ -35,9 +35,18 @@ std::map<std::string, std::string> changedFiles(const Application& app, const fs
     return files;
 }
 
+// The case itself, or the one among the installed files that the path names: tutorials/rbcShear/Ca0.02.
+std::string installedOr(const std::string& from) {
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    const fs::path installed = program.parent_path().parent_path() / "share" / "corpuscle" / from;
+    return !fs::exists(from, ignored) && fs::is_directory(installed, ignored) ? installed.string() : from;
+}
+
 // The case to which -set applies is the first argument: passes it on as -case.
 std::vector<char*> withCase(int argc, char** argv) {
     static char option[] = "-case";
+    static std::string from;
     std::vector<char*> words(argv, argv + argc);
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
@@ -45,8 +54,10 @@ std::vector<char*> withCase(int argc, char** argv) {
         if (word == "-set" || word == "--set") {
             ++i;
         } else if (!word.starts_with('-')) {
+            from = installedOr(word);
+            words[static_cast<std::size_t>(i)] = from.data();
             words.push_back(option);
-            words.push_back(argv[i]);
+            words.push_back(from.data());
             break;
         }
     }

@@ -67,6 +67,11 @@ std::string ModelCatalogue::headerOf(const Json& source) const {
     return (headers_ / fs::path(header).lexically_relative("libs")).string();
 }
 
+std::string ModelCatalogue::inSources(const std::string& file) const {
+    const fs::path path = root_ / file.substr(0, file.find(':'));
+    return fs::exists(path) ? file : file + " (in the repository)";
+}
+
 std::string ModelCatalogue::missingSource() const {
     if (index_.is_null()) return "unknown: share/corpuscle/models.json, which the build writes with Python, is missing";
     if (plugins_.empty()) return "not in libs/ of the sources";
@@ -84,9 +89,10 @@ std::string ModelCatalogue::text(const ModelId& model) const {
         text += row("source", {missingSource()});
     } else {
         std::vector<std::string> files{
-            fmt::format("{}:{}", source.at("source").get<std::string>(), source.at("line").get<int>())};
+            inSources(fmt::format("{}:{}", source.at("source").get<std::string>(), source.at("line").get<int>()))};
         if (const std::string header = headerOf(source); !header.empty()) files.insert(files.begin(), header);
-        const std::vector<std::string> tests = source.at("tests").get<std::vector<std::string>>();
+        std::vector<std::string> tests = source.at("tests").get<std::vector<std::string>>();
+        for (std::string& test : tests) test = inSources(test);
         text +=
             row("source", files) + row("tests", tests.empty() ? std::vector<std::string>{"no test names it"} : tests);
     }

@@ -32,6 +32,7 @@ class ModelCatalogue {
     nlohmann::json sourceOf(const ModelId& model) const;  // of the index; null: none
     std::string headerOf(const nlohmann::json& source) const;
     std::string missingSource() const;
+    std::string inSources(const std::string& file) const;  // says where it is, if it is not installed
     ModelNames namesOf(const ModelId& model) const;
 
     std::vector<std::string> plugins_;

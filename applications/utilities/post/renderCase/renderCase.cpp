@@ -212,7 +212,8 @@ Usage usage() {
                     "renderCase -strain 0,2,4,6 -field areaStrain -output areaStrain.png",
                     "renderCase -time '2 ms, latest' -fluid -arrows", "renderCase -view xz -frame cells -mesh",
                     "renderCase -series -fluid -fluidField pressure -output film/frame.png",
-                    "renderCase -streamlines 30 -cut y -strain latest", "renderCase -movie cell.mp4 -fluid -view xz"}};
+                    "renderCase -streamlines 30 -cut y -strain latest",
+                    "renderCase -movie postProcessing/cell.mp4 -fluid -view xz"}};
 }
 
 nlohmann::json jsonOf(const Scale& scale) {
