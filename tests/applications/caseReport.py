@@ -22,8 +22,10 @@ sys.path.insert(0, str(SOURCE / "python"))
 import numpy  # noqa: E402
 
 import corpuscle  # noqa: E402
+import pythonProgram  # noqa: E402
 
 os.environ["CORPUSCLE_BIN"] = str(BIN)
+run, refused = pythonProgram.runs(BIN / "caseReport")
 SHORT = ["system/control.yaml:/endStrain=0.4", "system/control.yaml:/write/strain=0.2"]
 ONE = SHORT + ["system/numerics.yaml:/spacing=1.25 um", "system/mesh.yaml:/cells/0/edge=1.2 um", "system/observers.yaml:/deformation/every=0.1 strain",
                "system/observers.yaml:/balance/every=0.1 strain"]
@@ -67,17 +69,6 @@ class Page(html.parser.HTMLParser):
             self.script[attributes.get("id", "")] = data
         else:
             self.text[self.heading] = self.text.get(self.heading, "") + data + "\n"
-
-
-def run(folder, *words, code=0):
-    done = subprocess.run([BIN / "caseReport", "-case", folder, *map(str, words)], capture_output=True, text=True)
-    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
-    return done.stdout if code == 0 else done.stderr
-
-
-def refused(folder, code, message, *words):
-    text = run(folder, *words, code=code)
-    assert message in text and "Traceback" not in text, (message, text)
 
 
 def tutorial(name, folder, changes, remove=()):

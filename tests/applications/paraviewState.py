@@ -18,20 +18,11 @@ sys.path.insert(0, str(SOURCE / "python"))
 import numpy  # noqa: E402
 
 import corpuscle  # noqa: E402
+import pythonProgram  # noqa: E402
 
 os.environ["CORPUSCLE_BIN"] = str(BIN)
+run, refused = pythonProgram.runs(BIN / "paraviewState")
 SHORT = ["system/control.yaml:/endStrain=0.1", "system/control.yaml:/write/strain=0.05", "system/numerics.yaml:/spacing=1.25 um", "system/mesh.yaml:/cells/0/edge=1.2 um"]
-
-
-def run(case, *words, code=0):
-    done = subprocess.run([BIN / "paraviewState", "-case", case, *map(str, words)], capture_output=True, text=True)
-    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
-    return done.stdout if code == 0 else done.stderr
-
-
-def refused(case, code, messages, *words):
-    text = run(case, *words, code=code)
-    assert all(message in text for message in messages) and "Traceback" not in text, (messages, text)
 
 
 def parsed(script):
