@@ -1,6 +1,6 @@
 // Settings that take effect while the case runs: system/control.yaml and system/observers.yaml are read again when they
 // change. Valid changes act at the end of a step, as at a stop and restart there: ends, results, checkpoints, stop, and
-// which observers there are. A file with errors changes nothing: they are reported, and the run goes on as before.
+// which observers there are. A file with errors changes nothing: they are reported, and the run continues as before.
 // `application`, `startFrom` and `libs` are looked at when a program starts only.
 //
 // The files are looked at about once per second, on rank 0. One that has just changed is read at the next look, so that

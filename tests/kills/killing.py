@@ -43,7 +43,7 @@ hasNamespaces = subprocess.run([*ISOLATED, "mount", "-t", "tmpfs", "none", "/mnt
 class Kill:
     kind: str
     moment: float  # user time of a rank [s], or room [kB]
-    code: int = 0  # 0: the run ended by itself
+    code: int = 0  # 0: the run reached its end before the kill
     inCheckpoint: bool = False
     faults: list = field(default_factory=list)
 
